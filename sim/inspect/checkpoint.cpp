@@ -1,0 +1,162 @@
+#include "sim/inspect/checkpoint.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr std::uint64_t magic = 0x31414d55454e50ULL;  // "PNEUMA1" as little-endian bytes
+
+/// Appends plain values; the format is this machine's own byte order.
+class Writer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_arithmetic_v<T>);
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(&value);
+    bytes_.insert(bytes_.end(), bytes, bytes + sizeof(T));
+  }
+  void put(const Vec3& vector) {
+    for (const double value : vector) put(value);
+  }
+  std::vector<std::uint8_t> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_arithmetic_v<T>);
+    if (bytes_.size() < sizeof(T)) throw CheckpointError("the saved state is cut short");
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_ = bytes_.subspan(sizeof(T));
+  }
+  void get(Vec3& vector) {
+    for (double& value : vector) get(value);
+  }
+  template <class T>
+  void expect(const T& expected, const char* what) {
+    T found{};
+    get(found);
+    if (found != expected) {
+      throw CheckpointError(std::string("the saved state has another ") + what +
+                            " than this scene");
+    }
+  }
+  void end() const {
+    if (!bytes_.empty()) throw CheckpointError("the saved state is longer than this scene's");
+  }
+  std::size_t left() const { return bytes_.size(); }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+void put(Writer& writer, const VertexArray& values) {
+  for (int i = 0; i < values.size(); ++i) writer.put(Vec3(values[i]));
+}
+
+void get(Reader& reader, VertexArray& values) {
+  for (int i = 0; i < values.size(); ++i) {
+    Vec3 value;
+    reader.get(value);
+    values[i] = value;
+  }
+}
+
+void put(Writer& writer, const std::vector<int>& values) {
+  writer.put(values.size());
+  for (const int value : values) writer.put(value);
+}
+
+void get(Reader& reader, std::vector<int>& values, int feature_count) {
+  std::size_t count = 0;
+  reader.get(count);
+  if (count > reader.left() / sizeof(int)) throw CheckpointError("the saved state is cut short");
+  values.resize(count);
+  for (int& value : values) {
+    reader.get(value);
+    if (value < 0 || value >= feature_count) {
+      throw CheckpointError("the saved state has a particle on a feature that does not exist");
+    }
+  }
+}
+
+void get(Reader& reader, const World& world, ParticlePair& pair) {
+  reader.get(pair.first);
+  reader.get(pair.second);
+  const auto soft = static_cast<int>(world.soft.size());
+  if (pair.first < 0 || pair.first >= pair.second || pair.second >= soft) {
+    throw CheckpointError("the saved state pairs bodies that do not exist");
+  }
+  get(reader, pair.first_features, world.soft[at(pair.first)].mesh->topology.feature_count());
+  get(reader, pair.second_features, world.soft[at(pair.second)].mesh->topology.feature_count());
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> save_state(const World& world) {
+  Writer writer;
+  writer.put(magic);
+  writer.put(world.steps);
+  writer.put(world.soft.size());
+  for (const SoftBody& body : world.soft) {
+    writer.put(body.positions.size());
+    put(writer, body.positions);
+    put(writer, body.velocities);
+  }
+  writer.put(world.rigid.size());
+  for (const RigidBox& box : world.rigid) {
+    writer.put(box.position);
+    writer.put(box.velocity);
+    writer.put(box.angular_velocity);
+    for (const double q : box.orientation.coeffs()) writer.put(q);
+  }
+  writer.put(world.particles.size());
+  for (const ParticlePair& pair : world.particles) {
+    writer.put(pair.first);
+    writer.put(pair.second);
+    put(writer, pair.first_features);
+    put(writer, pair.second_features);
+  }
+  writer.put(state_hash(world));
+  return writer.take();
+}
+
+void load_state(std::span<const std::uint8_t> bytes, World& world) {
+  World loaded = world;
+  Reader reader(bytes);
+  reader.expect(magic, "format");
+  reader.get(loaded.steps);
+  reader.expect(loaded.soft.size(), "number of soft bodies");
+  for (SoftBody& body : loaded.soft) {
+    reader.expect(body.positions.size(), "number of vertices in a body");
+    get(reader, body.positions);
+    get(reader, body.velocities);
+  }
+  reader.expect(loaded.rigid.size(), "number of rigid boxes");
+  for (RigidBox& box : loaded.rigid) {
+    reader.get(box.position);
+    reader.get(box.velocity);
+    reader.get(box.angular_velocity);
+    for (double& q : box.orientation.coeffs()) reader.get(q);
+  }
+  std::size_t pairs = 0;
+  reader.get(pairs);
+  if (pairs > reader.left()) throw CheckpointError("the saved state is cut short");
+  loaded.particles.assign(pairs, {});
+  for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
+  reader.expect(state_hash(loaded), "checksum");
+  reader.end();
+  world = std::move(loaded);
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,139 @@
+#include "sim/inspect/inspect.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "sim/rigid/inertia.h"
+#include "sim/soft/pressure_force.h"
+#include "sim/soft/spring_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// FNV-1a on 64-bit words (the state is doubles and integers), with the high bits folded back after
+/// each word: a product alone never carries a change of a high bit, such as a sign, into the lower
+/// ones.
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x100000001b3ULL;
+    value_ ^= value_ >> 29;
+  }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3& vector) {
+    for (const double value : vector) add(value);
+  }
+  void add(const VertexArray& values) {
+    for (int i = 0; i < values.size(); ++i) add(Vec3(values[i]));
+  }
+  void add(const std::vector<int>& values) {
+    add(static_cast<std::uint64_t>(values.size()));
+    for (const int value : values) add(static_cast<std::uint64_t>(value));
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+Energy energy(const RigidBox& box, const Vec3& gravity) {
+  Energy result;
+  result.kinetic =
+      0.5 * box.mass * box.velocity.squaredNorm() + 0.5 * box.angular_velocity.dot(spin(box));
+  result.gravity = -box.mass * gravity.dot(box.position);
+  return result;
+}
+
+Energy& operator+=(Energy& sum, const Energy& term) {
+  sum.kinetic += term.kinetic;
+  sum.spring += term.spring;
+  sum.gas += term.gas;
+  sum.gravity += term.gravity;
+  return sum;
+}
+
+}  // namespace
+
+Energy energy(const SoftBody& body, const Vec3& gravity) {
+  const SoftMaterial& material = body.material;
+  Energy result;
+  result.kinetic = 0.5 * material.vertex_mass * body.velocities.rows().squaredNorm();
+  result.spring = spring_energy(*body.mesh, body.positions, material.k);
+  result.gas = gas_energy(material, volume(body.mesh->topology, body.positions));
+  result.gravity =
+      -material.vertex_mass * body.positions.size() * gravity.dot(mean(body.positions));
+  return result;
+}
+
+Energy energy(const World& world) {
+  Energy sum;
+  for (const SoftBody& body : world.soft) sum += energy(body, world.settings.gravity);
+  for (const RigidBox& box : world.rigid) sum += energy(box, world.settings.gravity);
+  return sum;
+}
+
+Momentum momentum(const SoftBody& body) {
+  Momentum sum;
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const Vec3 linear = body.material.vertex_mass * body.velocities[v];
+    sum.linear += linear;
+    sum.angular += Vec3(body.positions[v]).cross(linear);
+  }
+  return sum;
+}
+
+Momentum momentum(const World& world) {
+  Momentum sum;
+  for (const SoftBody& body : world.soft) {
+    const Momentum term = momentum(body);
+    sum.linear += term.linear;
+    sum.angular += term.angular;
+  }
+  for (const RigidBox& box : world.rigid) {
+    const Vec3 linear = box.mass * box.velocity;
+    sum.linear += linear;
+    sum.angular += box.position.cross(linear) + spin(box);
+  }
+  return sum;
+}
+
+Bounds bounds(const World& world) {
+  Bounds all;
+  for (const SoftBody& body : world.soft) all.include(bounds(body.positions));
+  for (const RigidBox& box : world.rigid) {
+    const Vec3 reach =
+        0.5 * box.orientation.toRotationMatrix().cwiseAbs() * box.size;  // of the turned box
+    all.include(Vec3(box.position - reach));
+    all.include(Vec3(box.position + reach));
+  }
+  return all;
+}
+
+double greatest_penetration(const World& world) {
+  double depth = 0.0;
+  if (world.settings.ground) depth = std::max(depth, -bounds(world).low.z());
+  return depth;
+}
+
+std::uint64_t state_hash(const World& world) {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(world.steps));
+  for (const SoftBody& body : world.soft) {
+    hash.add(body.positions);
+    hash.add(body.velocities);
+  }
+  for (const RigidBox& box : world.rigid) {
+    hash.add(box.position);
+    hash.add(box.velocity);
+    hash.add(box.angular_velocity);
+    for (const double q : box.orientation.coeffs()) hash.add(q);
+  }
+  for (const ParticlePair& pair : world.particles) {
+    hash.add(std::vector<int>{pair.first, pair.second});
+    hash.add(pair.first_features);
+    hash.add(pair.second_features);
+  }
+  return hash.value();
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,44 @@
+// Read-only views of a world: what reports, tests and run.json say about it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/collision/contact.h"
+#include "sim/mesh/measure.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// Joule. The gas energy is -nRT ln(V / 1 m^3): only its differences mean anything.
+struct Energy {
+  double kinetic = 0.0;
+  double spring = 0.0;
+  double gas = 0.0;
+  double gravity = 0.0;
+
+  double total() const { return kinetic + spring + gas + gravity; }
+};
+
+struct Momentum {
+  Vec3 linear = Vec3::Zero();   // kg m/s
+  Vec3 angular = Vec3::Zero();  // kg m^2/s about the world's origin
+};
+
+Energy energy(const World& world);
+Energy energy(const SoftBody& body, const Vec3& gravity);
+Momentum momentum(const World& world);
+Momentum momentum(const SoftBody& body);
+
+/// Bounding box of all bodies.
+Bounds bounds(const World& world);
+
+/// The greatest depth in metres by which, at this moment, a body reaches into the ground or into
+/// another body; 0 when nothing overlaps. Exhaustive: for reports, not for the step.
+double greatest_penetration(const World& world);
+
+/// 64-bit hash of the whole state. Equal states, equal hashes, on one build.
+std::uint64_t state_hash(const World& world);
+
+}  // namespace pneuma::sim

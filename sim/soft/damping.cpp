@@ -1,0 +1,46 @@
+#include "sim/soft/damping.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pneuma::sim {
+namespace {
+
+constexpr double paper_steps_per_second = 60.0;
+
+double spring_share(const SoftMaterial& material) {
+  return std::min(material.k / material.k_max, 1.0);
+}
+
+}  // namespace
+
+double drag_rate(const SoftMaterial& material) {
+  if (material.damping == Damping::literal) return 0.0;
+  return -paper_steps_per_second * std::log1p(-material.rho_g);
+}
+
+double dashpot_constant(const SoftMaterial& material) {
+  if (material.damping == Damping::literal) return 0.0;
+  const double share = std::min(spring_share(material), greatest_spring_share);
+  return -0.5 * material.vertex_mass * paper_steps_per_second * std::log1p(-share);
+}
+
+double literal_share(const SoftMaterial& material) {
+  if (material.damping == Damping::dashpot) return 0.0;
+  return material.rho_g + (1.0 - material.rho_g) * spring_share(material);
+}
+
+void add_dashpot_coefficients(const SoftMesh& mesh, const VertexArray& positions,
+                              const VertexArray& velocities, double dashpot,
+                              std::span<double> coefficients) {
+  const auto& edges = mesh.topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& [a, b] = edges[e];
+    const Vec3 edge = positions[b] - positions[a];
+    const double squared_length = edge.squaredNorm();
+    const double s = dashpot * (velocities[b] - velocities[a]).dot(edge) / squared_length;
+    coefficients[e] += squared_length > 0.0 ? s : 0.0;
+  }
+}
+
+}  // namespace pneuma::sim

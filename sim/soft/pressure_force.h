@@ -1,0 +1,28 @@
+// The gas inside a body (paper 3.1.2): P = nRT / V pushes on every triangle along its outward
+// normal.
+#pragma once
+
+#include "sim/soft/soft_mesh.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// Writes dV/dx per vertex, in m^2: a third of the area vectors of the vertex's triangles, taken
+/// over its ring. P times it is the pressure force with each triangle's share split evenly (ERRATA
+/// row 3). Its last row stays zero.
+void volume_gradient(const MeshTopology& topology, const VertexArray& positions,
+                     VertexArray& gradient);
+
+/// The volume in m^3 from its gradient. V is homogeneous of degree three in positions about any
+/// centre, so by Euler's theorem 3 V = sum (x - c) . dV/dx.
+double volume(const VertexArray& positions, const VertexArray& gradient);
+
+/// nRT in joule.
+inline double gas_strength(const SoftMaterial& material) {
+  return material.n * gas_constant * material.temperature;
+}
+
+/// -nRT ln(V / 1 m^3) in joule; 0 without gas. The force P dV/dx is its negative gradient.
+double gas_energy(const SoftMaterial& material, double volume);
+
+}  // namespace pneuma::sim

@@ -1,0 +1,24 @@
+// What soft bodies made from the same source share: topology, rest shape and rest lengths.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "sim/mesh/topology.h"
+#include "sim/mesh/triangle_mesh.h"
+#include "sim/mesh/vertex_array.h"
+
+namespace pneuma::sim {
+
+/// Immutable. Every unique edge of the mesh is a spring at its rest length (paper 3.1.1).
+struct SoftMesh {
+  MeshTopology topology;
+  VertexArray rest_positions;           // m, about the mesh's own origin
+  std::vector<double> rest_lengths;     // m, per edge
+  std::vector<double> valence_weights;  // springs of a vertex / mean springs (paper 3.1.2)
+};
+
+/// Throws TopologyError when the mesh is not closed and manifold or has an edge of no length.
+std::shared_ptr<const SoftMesh> make_soft_mesh(const TriangleMesh& mesh);
+
+}  // namespace pneuma::sim

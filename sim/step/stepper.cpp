@@ -1,0 +1,78 @@
+#include "sim/step/stepper.h"
+
+#include <chrono>
+#include <map>
+
+#include "sim/step/stages.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Runs one stage if the plan has it, and takes its time if asked to.
+class StageRunner {
+ public:
+  explicit StageRunner(StepWorkspace& workspace) : workspace_(workspace) {}
+
+  template <class Work>
+  void operator()(Stage stage, const Work& work) const {
+    if (!workspace_.plan.runs(stage)) return;
+    if (!workspace_.options.profile) return work();
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    workspace_.stage_times[static_cast<std::size_t>(stage)] += taken.count();
+  }
+
+ private:
+  StepWorkspace& workspace_;
+};
+
+SoftScratch make_soft_scratch(const World& world, int threads) {
+  SoftScratch scratch;
+  scratch.per_thread.resize(at(threads));
+  std::map<const SoftMesh*, int> known;
+  for (const SoftBody& body : world.soft) {
+    const auto [entry, added] = known.try_emplace(body.mesh.get(), static_cast<int>(known.size()));
+    if (added) {
+      for (auto& meshes : scratch.per_thread) meshes.emplace_back(*body.mesh);
+    }
+    scratch.mesh_of_body.push_back(entry->second);
+  }
+  return scratch;
+}
+
+}  // namespace
+
+StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
+    : options(std::move(given)),
+      plan(options.plan ? *options.plan : make_plan(world)),
+      workers(options.threads),
+      soft(make_soft_scratch(world, options.threads)),
+      soft_start(world.soft.size()),
+      soft_outcome(world.soft.size()) {}
+
+Stepper::Stepper(const World& world, StepperOptions options)
+    : workspace_(std::make_unique<StepWorkspace>(world, std::move(options))) {}
+Stepper::~Stepper() = default;
+Stepper::Stepper(Stepper&&) noexcept = default;
+Stepper& Stepper::operator=(Stepper&&) noexcept = default;
+
+std::optional<Divergence> Stepper::step(World& world) {
+  StepWorkspace& workspace = *workspace_;
+  const StageRunner run(workspace);
+  std::optional<Divergence> divergence;
+
+  run(Stage::integrate_soft, [&] { divergence = integrate_soft(world, workspace); });
+  if (divergence) return divergence;
+  run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
+  run(Stage::resolve_contacts, [&] { resolve_contacts(world, workspace); });
+
+  ++world.steps;
+  return std::nullopt;
+}
+
+const Plan& Stepper::plan() const { return workspace_->plan; }
+std::span<const Contact> Stepper::contacts() const { return workspace_->contacts; }
+const StageTimes& Stepper::stage_times() const { return workspace_->stage_times; }
+
+}  // namespace pneuma::sim

@@ -1,0 +1,59 @@
+// Advances a world by one step: the list of stages, and the memory they share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "sim/collision/contact.h"
+#include "sim/step/plan.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// Seconds spent in each stage since the stepper was made.
+using StageTimes = std::array<double, stage_count>;
+
+/// A step that did not end in a sound state: a value that is not finite, or a volume at or below
+/// zero. Found in the step in which it happens.
+struct Divergence {
+  Stage stage;
+  std::int64_t step;  // the step that failed, counted from 1
+  std::string body;
+  std::string what;  // the quantity and its value, and the likely cause
+};
+
+struct StepperOptions {
+  int threads = 1;
+  bool profile = false;      // measure StageTimes
+  std::optional<Plan> plan;  // in place of the world's own: for tests
+};
+
+struct StepWorkspace;
+
+/// Holds scratch memory for one world, no state: a new stepper on a copied world continues
+/// identically. Results do not depend on the number of threads.
+class Stepper {
+ public:
+  explicit Stepper(const World& world, StepperOptions options = {});
+  ~Stepper();
+  Stepper(Stepper&&) noexcept;
+  Stepper& operator=(Stepper&&) noexcept;
+
+  /// One step of the world this was made for. On divergence the world is left as the failed step
+  /// made it. Allocates nothing once the number of contacts has peaked.
+  [[nodiscard]] std::optional<Divergence> step(World& world);
+
+  const Plan& plan() const;
+  /// The contacts that the last step found and resolved.
+  std::span<const Contact> contacts() const;
+  const StageTimes& stage_times() const;
+
+ private:
+  std::unique_ptr<StepWorkspace> workspace_;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,48 @@
+#include "sim/step/workers.h"
+
+namespace pneuma::sim {
+
+Workers::Workers(int threads) {
+  for (int thread = 1; thread < threads; ++thread) {
+    helpers_.emplace_back([this, thread] { help(thread); });
+  }
+}
+
+Workers::~Workers() {
+  stopping_ = true;
+  ++round_;
+  round_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void Workers::run_block(int thread) const {
+  const auto share = [this](int i) {
+    return static_cast<int>(static_cast<std::int64_t>(count_) * i / threads());
+  };
+  const int begin = share(thread), end = share(thread + 1);
+  if (begin < end) (*work_)(begin, end, thread);
+}
+
+void Workers::for_blocks(int count, const std::function<void(int, int, int)>& work) {
+  work_ = &work;
+  count_ = count;
+  busy_ = static_cast<int>(helpers_.size());
+  if (!helpers_.empty()) {
+    ++round_;
+    round_.notify_all();
+  }
+  run_block(0);
+  for (int left = busy_; left > 0; left = busy_) busy_.wait(left);
+}
+
+void Workers::help(int thread) {
+  for (std::uint32_t seen = 0;;) {
+    round_.wait(seen);
+    seen = round_;
+    if (stopping_) return;
+    run_block(thread);
+    if (--busy_ == 0) busy_.notify_one();
+  }
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,60 @@
+// Small worlds that many tests start from.
+#pragma once
+
+#include <random>
+#include <string>
+
+#include "sim/mesh/measure.h"
+#include "sim/mesh/primitives.h"
+#include "sim/step/stepper.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// A body at rest in its rest shape, moved by `offset`.
+inline SoftBody make_body(const TriangleMesh& mesh, const Vec3& offset = Vec3::Zero()) {
+  SoftBody body;
+  body.name = "body";
+  body.mesh = make_soft_mesh(mesh);
+  body.positions = body.mesh->rest_positions;
+  body.velocities = VertexArray(body.positions.size());
+  for (int v = 0; v < body.positions.size(); ++v) body.positions[v] += offset;
+  return body;
+}
+
+/// Moves every vertex, and gives it a velocity, by up to `amount` in each coordinate.
+inline void perturb(SoftBody& body, double amount, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-amount, amount);
+  for (int v = 0; v < body.positions.size(); ++v) {
+    body.positions[v] += Vec3(uniform(random), uniform(random), uniform(random));
+    body.velocities[v] += Vec3(uniform(random), uniform(random), uniform(random));
+  }
+}
+
+inline void undamp(SoftMaterial& material) {
+  material.rho_g = 0.0;
+  material.k_max = std::numeric_limits<double>::infinity();
+}
+
+/// One body without ground or gravity.
+inline World make_free_world(SoftBody body) {
+  World world;
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.soft.push_back(std::move(body));
+  return world;
+}
+
+/// Steps until `seconds` more have passed. A divergence is a test's failure to check for.
+[[nodiscard]] inline std::optional<Divergence> run(World& world, double seconds,
+                                                   StepperOptions options = {}) {
+  Stepper stepper(world, std::move(options));
+  const auto steps = static_cast<std::int64_t>(seconds * world.settings.steps_per_second + 0.5);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    if (auto divergence = stepper.step(world)) return divergence;
+  }
+  return std::nullopt;
+}
+
+}  // namespace pneuma::sim
