@@ -1,0 +1,76 @@
+// An OpenGL context without a window.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace pneuma::render {
+
+/// What was missing when GL could not be had.
+enum class GlFailure {
+  switched_off,       // the environment says PNEUMA_GL=none
+  context_refused,    // OSMesa made no context, or would not make it current
+  functions_missing,  // GLEW could not load GL's functions
+  version_too_old,    // a context, but of an older GL than asked for
+  pixels_wrong,       // a cleared pixel came back in another colour
+  shader_refused,     // a shader of ours does not compile or link here
+};
+
+/// GL cannot be had. what() says why, and what to do.
+class GlError : public std::runtime_error {
+ public:
+  GlError(GlFailure failure, const std::string& message)
+      : std::runtime_error(message), failure_(failure) {}
+  GlFailure failure() const { return failure_; }
+
+ private:
+  GlFailure failure_;
+};
+
+struct ContextOptions {
+  int major = 3;  // the core profile's least version
+  int minor = 3;
+};
+
+/// What a new context says of itself, and one pixel cleared to `probe_colour` and read back.
+struct ContextReport {
+  std::string version;   // GL_VERSION
+  std::string renderer;  // GL_RENDERER
+  int major = 0;
+  int minor = 0;
+  std::array<std::uint8_t, 4> pixel = {};
+};
+
+/// No channel is 0 or 255, so that neither black nor white frames pass.
+inline constexpr std::array<std::uint8_t, 4> probe_colour = {51, 102, 153, 204};
+
+/// Throws GlError unless the report is of a context that draws and is new enough.
+void check_report(const ContextReport& report, const ContextOptions& options);
+
+/// A GL core profile context of its own, drawn by the CPU (Mesa's llvmpipe through OSMesa), current
+/// on the thread that made it. It has no useful default framebuffer: draw into framebuffer objects.
+///
+/// Throws GlError. PNEUMA_GL=none in the environment pretends that GL is missing, for trying out
+/// what a program does then.
+class Context {
+ public:
+  explicit Context(const ContextOptions& options = {});
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  /// Two contexts may take turns on one thread.
+  void make_current();
+
+  const ContextReport& report() const { return report_; }
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+  ContextReport report_;
+};
+
+}  // namespace pneuma::render

@@ -1,0 +1,28 @@
+// The caption: light letters on a dark, translucent panel, readable on any ground.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/passes/gl_objects.h"
+#include "render/passes/program.h"
+#include "render/passes/view.h"
+
+namespace pneuma::render {
+
+class Lettering {
+ public:
+  Lettering();
+
+  /// In the lower left corner, growing upwards with the number of lines. Characters outside
+  /// printable ASCII are shown as '?'.
+  void draw(const View& view, const std::string& text);
+
+ private:
+  VertexArray vertex_array_;
+  Buffer vertices_;
+  Program program_;
+  GLint picture_size_;
+};
+
+}  // namespace pneuma::render

@@ -1,0 +1,118 @@
+#include "render/passes/segments.h"
+
+#include <cstddef>
+
+namespace pneuma::render {
+namespace {
+
+constexpr const char* vertex_source = R"(
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+layout(location = 2) in vec3 line_colour;
+layout(location = 3) in float width;
+uniform mat4 view;
+uniform mat4 projection;
+uniform vec2 picture_size;
+uniform float near;
+noperspective out float across;  // pixels from the middle of the line
+flat out float half_width;
+flat out vec3 shade;
+
+void main() {
+  // Nearer to the eye by a thousandth, along the line of sight, so that what lies on a surface is
+  // not lost in it.
+  vec3 a = (view * vec4(from, 1.0)).xyz * 0.999;
+  vec3 b = (view * vec4(to, 1.0)).xyz * 0.999;
+  // What lies behind the eye has no place in the picture: shorten the line to what lies before it.
+  float plane = -near * 1.001;
+  if (a.z > plane && b.z < plane) a = mix(b, a, (plane - b.z) / (a.z - b.z));
+  if (b.z > plane && a.z < plane) b = mix(a, b, (plane - a.z) / (b.z - a.z));
+  vec4 clip_a = projection * vec4(a, 1.0);
+  vec4 clip_b = projection * vec4(b, 1.0);
+  bool at_b = (gl_VertexID & 1) == 1;
+  vec4 clip = at_b ? clip_b : clip_a;
+
+  vec2 along = (clip_b.xy / clip_b.w - clip_a.xy / clip_a.w) * picture_size;
+  along = dot(along, along) > 0.0 ? normalize(along) : vec2(1.0, 0.0);
+  float side = (gl_VertexID & 2) == 2 ? 1.0 : -1.0;
+  half_width = 0.5 * width;
+  float reach = half_width + 1.0;  // one more pixel for the soft edge
+  vec2 offset = vec2(-along.y, along.x) * side * reach + along * (at_b ? half_width : -half_width);
+  across = side * reach;
+  shade = line_colour;
+  gl_Position = clip + vec4(offset * 2.0 / picture_size * clip.w, 0.0, 0.0);
+}
+)";
+
+constexpr const char* fragment_source = R"(
+noperspective in float across;
+flat in float half_width;
+flat in vec3 shade;
+uniform float opacity;
+out vec4 colour;
+
+void main() {
+  float covered = clamp(half_width + 0.5 - abs(across), 0.0, min(2.0 * half_width, 1.0));
+  colour = vec4(shade, covered * opacity);
+}
+)";
+
+}  // namespace
+
+Segments::Segments()
+    : program_("lines", "", vertex_source, fragment_source),
+      view_(program_.uniform("view")),
+      projection_(program_.uniform("projection")),
+      picture_size_(program_.uniform("picture_size")),
+      near_(program_.uniform("near")),
+      opacity_(program_.uniform("opacity")) {
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
+  set_attribute(0, 3, sizeof(Instance), offsetof(Instance, from), 1);
+  set_attribute(1, 3, sizeof(Instance), offsetof(Instance, to), 1);
+  set_attribute(2, 3, sizeof(Instance), offsetof(Instance, colour), 1);
+  set_attribute(3, 1, sizeof(Instance), offsetof(Instance, width), 1);
+}
+
+void Segments::draw_lines(const View& view, const std::vector<Line>& lines) {
+  instances_.clear();
+  for (const Line& line : lines) {
+    instances_.push_back({line.from, line.to, line.colour, line.width * view.pixel_scale});
+  }
+  draw(view, 1.0f);
+}
+
+void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes) {
+  const Colour ink = {0.09f, 0.10f, 0.12f};
+  instances_.clear();
+  for (const Mesh& mesh : meshes) {
+    for (const auto& [from, to] : mesh.shape->edges) {
+      instances_.push_back(
+          {mesh.positions[from], mesh.positions[to], ink, 1.1f * view.pixel_scale});
+    }
+  }
+  draw(view, 0.7f);
+}
+
+void Segments::draw(const View& view, float opacity) {
+  if (instances_.empty()) return;
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_FALSE);
+  program_.use();
+  set_uniform(view_, view.view);
+  set_uniform(projection_, view.projection);
+  set_uniform(picture_size_,
+              Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
+  set_uniform(near_, view.near);
+  set_uniform(opacity_, opacity);
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)),
+               instances_.data(), GL_STREAM_DRAW);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances_.size()));
+}
+
+}  // namespace pneuma::render

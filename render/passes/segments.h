@@ -1,0 +1,43 @@
+// Lines with a width in pixels, which the core profile itself does not draw.
+#pragma once
+
+#include <vector>
+
+#include "render/passes/gl_objects.h"
+#include "render/passes/program.h"
+#include "render/passes/view.h"
+
+namespace pneuma::render {
+
+class Segments {
+ public:
+  Segments();
+
+  /// The frame's own lines.
+  void draw_lines(const View& view, const std::vector<Line>& lines);
+
+  /// The meshes' edges, over the surfaces.
+  void draw_wireframe(const View& view, const std::vector<Mesh>& meshes);
+
+ private:
+  struct Instance {
+    Vec3f from;
+    Vec3f to;
+    Colour colour;
+    float width;  // pixels
+  };
+
+  void draw(const View& view, float opacity);
+
+  VertexArray vertex_array_;
+  Buffer instances_buffer_;
+  std::vector<Instance> instances_;
+  Program program_;
+  GLint view_;
+  GLint projection_;
+  GLint picture_size_;
+  GLint near_;
+  GLint opacity_;
+};
+
+}  // namespace pneuma::render

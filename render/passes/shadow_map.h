@@ -1,0 +1,49 @@
+// What the light sees: depth along the light, and from it the soft shadow on the ground.
+#pragma once
+
+#include "render/passes/mesh_buffers.h"
+#include "render/passes/program.h"
+#include "render/passes/view.h"
+
+namespace pneuma::render {
+
+/// Depth of the meshes' far sides as the light sees them. Storing far sides rather than near ones
+/// leaves the whole thickness of a body between a lit surface and the stored depth, so that there
+/// is neither acne nor a bias that would lift a shadow off its body.
+class ShadowMap {
+ public:
+  explicit ShadowMap(int size);
+
+  void draw(const View& view, const Light& light, const std::vector<DrawnMesh>& meshes);
+
+  /// From world to the map's texture coordinates and depth, all 0..1.
+  const Mat4f& world_to_map() const { return world_to_map_; }
+  /// Half the width of a shadow's edge, in texture coordinates.
+  float edge() const { return edge_; }
+  float texel() const { return 1.0f / static_cast<float>(size_); }
+  /// Metres from depth 0 to depth 1.
+  float depth_range() const { return depth_range_; }
+  /// Metres from coordinate 0 to coordinate 1.
+  float extent() const { return extent_; }
+
+  /// The map for sampler2DShadow (share of lit texels), or for sampler2D (depths).
+  void bind_comparing(GLuint unit) const;
+  void bind_depths(GLuint unit) const;
+
+ private:
+  void fit(const View& view, const Light& light);
+
+  int size_;
+  Program program_;
+  GLint world_to_clip_;
+  Texture depth_;
+  Sampler comparing_;
+  Sampler plain_;
+  Framebuffer framebuffer_;
+  Mat4f world_to_map_ = Mat4f::Identity();
+  float edge_ = 0.0f;
+  float depth_range_ = 1.0f;
+  float extent_ = 1.0f;
+};
+
+}  // namespace pneuma::render

@@ -1,0 +1,37 @@
+// What all passes need to know of the frame at hand.
+#pragma once
+
+#include "render/camera.h"
+#include "render/frame.h"
+
+namespace pneuma::render {
+
+struct View {
+  Mat4f view;
+  Mat4f projection;
+  Mat4f view_projection;
+  Vec3f eye;
+  Vec3f target;
+  Vec3f to_light;            // unit
+  Box casters;               // around all meshes; empty when there are none
+  float near = 0.0f;         // m before the eye
+  float far = 0.0f;          // m before the eye
+  int width = 0;             // pixels
+  int height = 0;            // pixels
+  float pixel_scale = 1.0f;  // pixels of this picture to one of a picture of 480 lines
+};
+
+/// The frame must have passed check_frame.
+View make_view(const Frame& frame, int width, int height);
+
+/// How far from the camera's target the ground reaches before it has faded away, in metres.
+float ground_radius(const View& view);
+
+/// How many rows, from the foot of the picture, the ground fills from side to side.
+int rows_filled_by_ground(const View& view);
+
+/// sRGB to linear, one channel or colour.
+float to_linear(float srgb);
+Vec3f to_linear(const Colour& srgb);
+
+}  // namespace pneuma::render

@@ -1,0 +1,140 @@
+#include "render/context/context.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "tests/render/probe.h"
+#include "tests/render/shapes.h"
+
+namespace pneuma::render {
+namespace {
+
+template <typename Action>
+GlFailure failure_of(Action action) {
+  try {
+    action();
+  } catch (const GlError& error) {
+    EXPECT_GT(std::string(error.what()).size(), 40u) << "says what to do";
+    return error.failure();
+  }
+  ADD_FAILURE() << "no GlError";
+  return GlFailure::shader_refused;
+}
+
+ContextReport good_report() { return {"3.3 (Core Profile) Mesa", "llvmpipe", 3, 3, probe_colour}; }
+
+TEST(Context, says_what_runs) {
+  const Context context;
+  EXPECT_GE(10 * context.report().major + context.report().minor, 33);
+  EXPECT_EQ(context.report().pixel, probe_colour);
+  Renderer renderer(small_picture());
+  EXPECT_NE(renderer.description().find(context.report().version), std::string::npos);
+  EXPECT_NE(renderer.description().find(context.report().renderer), std::string::npos);
+  EXPECT_EQ(renderer.description().find('\n'), std::string::npos);
+}
+
+TEST(Context, an_impossible_version_is_refused) {
+  EXPECT_EQ(failure_of([] { Context context({9, 9}); }), GlFailure::context_refused);
+}
+
+TEST(Context, can_be_switched_off) {
+  setenv("PNEUMA_GL", "none", 1);
+  EXPECT_EQ(failure_of([] { Renderer renderer(small_picture()); }), GlFailure::switched_off);
+  unsetenv("PNEUMA_GL");
+  EXPECT_NO_THROW(draw_once(Frame{}, small_picture()));
+}
+
+TEST(Context, a_version_that_is_too_old_is_refused) {
+  ContextReport report = good_report();
+  EXPECT_NO_THROW(check_report(report, {3, 3}));
+  EXPECT_EQ(failure_of([&] { check_report(report, {3, 4}); }), GlFailure::version_too_old);
+  EXPECT_EQ(failure_of([&] { check_report(report, {4, 0}); }), GlFailure::version_too_old);
+  report.major = 4;
+  report.minor = 0;
+  EXPECT_NO_THROW(check_report(report, {3, 3}));
+}
+
+TEST(Context, black_pixels_are_refused) {
+  ContextReport report = good_report();
+  report.pixel = {0, 0, 0, 0};
+  EXPECT_EQ(failure_of([&] { check_report(report, {}); }), GlFailure::pixels_wrong);
+}
+
+TEST(Context, only_osmesa_is_loaded) {
+  // libGL ahead of libOSMesa gives black frames without an error.
+  const Context context;
+  std::ifstream maps("/proc/self/maps");
+  bool osmesa = false;
+  for (std::string line; std::getline(maps, line);) {
+    osmesa = osmesa || line.find("libOSMesa") != std::string::npos;
+    EXPECT_EQ(line.find("libGL.so"), std::string::npos) << line;
+    EXPECT_EQ(line.find("libGLX"), std::string::npos) << line;
+    EXPECT_EQ(line.find("libGLEW"), std::string::npos) << line;
+  }
+  EXPECT_TRUE(osmesa);
+}
+
+Frame ball_frame() {
+  Frame frame;
+  frame.meshes = {make_ball({0, 0, 1}, 1.0f, {0.8f, 0.3f, 0.1f})};
+  return frame;
+}
+
+TEST(Renderer, two_take_turns_on_one_thread) {
+  const Frame frame = ball_frame();
+  const Image alone = draw_once(frame, small_picture());
+  Renderer first(small_picture());
+  Image image;
+  {
+    RenderOptions large = small_picture();
+    large.width = 400;
+    Renderer second(large);
+    Image other;
+    second.draw(frame, other);
+    EXPECT_EQ(other.width, 400);
+    first.draw(frame, image);
+    EXPECT_EQ(image.pixels, alone.pixels);
+    second.draw(frame, other);
+  }
+  first.draw(frame, image);
+  EXPECT_EQ(image.pixels, alone.pixels) << "after the other one is gone";
+}
+
+TEST(Renderer, two_run_on_two_threads) {
+  const Frame frame = ball_frame();
+  const Image expected = draw_once(frame, small_picture());
+  Image a;
+  Image b;
+  std::thread one([&] { a = draw_once(frame, small_picture()); });
+  std::thread two([&] { b = draw_once(frame, small_picture()); });
+  one.join();
+  two.join();
+  EXPECT_EQ(a.pixels, expected.pixels);
+  EXPECT_EQ(b.pixels, expected.pixels);
+}
+
+TEST(Renderer, refuses_options_out_of_range) {
+  const auto with = [](int width, int height, int samples, int shadow_size) {
+    Renderer renderer({width, height, samples, shadow_size});
+  };
+  EXPECT_THROW(with(15, 240, 4, 1024), std::invalid_argument);
+  EXPECT_THROW(with(320, 8193, 4, 1024), std::invalid_argument);
+  EXPECT_THROW(with(320, 240, 3, 1024), std::invalid_argument);
+  EXPECT_THROW(with(320, 240, 4, 100), std::invalid_argument);
+}
+
+TEST(Renderer, takes_each_number_of_samples_and_odd_sizes) {
+  for (const int samples : {1, 2, 4}) {
+    const Image image = draw_once(ball_frame(), {331, 173, samples, 256});
+    EXPECT_EQ(image.width, 331);
+    EXPECT_EQ(image.height, 173);
+    EXPECT_EQ(image.pixels.size(), 331u * 173u * 3u);
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::render
