@@ -62,6 +62,7 @@ struct RigidBox {
   std::string name;
   Vec3 size = Vec3::Ones();  // full lengths along body x, y, z: the paper's width, height, depth, m
   double mass = 1.0;         // kg
+  double rho_g = 0.01;       // share of both velocities lost per 1/60 s, 0 <= rho_g < 1 (3.1.3)
   Surface surface;
   Vec3 position = Vec3::Zero();                                     // centre of mass, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // body to world
@@ -84,7 +85,17 @@ struct Settings {
   std::optional<Surface> ground = Surface{};  // the plane z = 0; none: bodies fall for ever
   double skin_thickness = 0.5;  // m; features nearer than twice this are in contact (5.2.1.1)
   ParticleSettings particles;
-  std::uint64_t seed = 1;  // of the particles' start features
+  int impulse_sweeps = 10;  // over all contacts of a step; soft bodies on the ground need only one
+  std::uint64_t seed = 1;   // of the particles' start features
+};
+
+/// What held one point of a box in the last step, from which the next step's impulses start. A
+/// stack of boxes stands only if they are known beforehand, so they are state.
+struct RestingImpulse {
+  int first = 0;                // box
+  int second = 0;               // box, or -1 for the ground
+  Vec3 place = Vec3::Zero();    // where it acts, in the first box's own axes, m from its centre
+  Vec3 impulse = Vec3::Zero();  // on the first box, N s; the second gets the opposite
 };
 
 /// The collision particles of one pair of soft bodies: the features they rest on, first < second.
@@ -94,14 +105,16 @@ struct ParticlePair {
   int second = 0;
   std::vector<int> first_features;   // feature ids on `first`
   std::vector<int> second_features;  // feature ids on `second`
+  bool near = false;                 // their bounding spheres overlapped in the last step
 };
 
 struct World {
   Settings settings;
   std::vector<SoftBody> soft;
   std::vector<RigidBox> rigid;
-  std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
-  std::int64_t steps = 0;               // done so far; time is steps / steps_per_second
+  std::vector<ParticlePair> particles;           // pairs that have met, ordered by (first, second)
+  std::vector<RestingImpulse> resting_impulses;  // of the last step, ordered by (first, second)
+  std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
 };
 
 inline double time_step(const Settings& settings) { return 1.0 / settings.steps_per_second; }

@@ -17,11 +17,12 @@ struct ContactSide {
 };
 
 struct Contact {
-  ContactSide first;
+  ContactSide first;  // never the ground
   ContactSide second;
   Vec3 point = Vec3::Zero();   // where the bodies touch, m
   Vec3 normal = Vec3::Zero();  // unit; the impulse on `first` is along +normal (section 5.3.1)
-  double depth = 0.0;          // m the sides must move apart along the normal
+  double depth = 0.0;  // m the sides must move apart along the normal; at or below 0 for none
+  double gap = 0.0;    // m by which they may still approach: of boxes, which rest by touching
 };
 
 }  // namespace pneuma::sim

@@ -54,7 +54,13 @@ class Reader {
   void end() const {
     if (!bytes_.empty()) throw CheckpointError("the saved state is longer than this scene's");
   }
-  std::size_t left() const { return bytes_.size(); }
+  /// A number of things to follow, each of at least one byte.
+  std::size_t count() {
+    std::size_t result = 0;
+    get(result);
+    if (result > bytes_.size()) throw CheckpointError("the saved state is cut short");
+    return result;
+  }
 
  private:
   std::span<const std::uint8_t> bytes_;
@@ -78,10 +84,7 @@ void put(Writer& writer, const std::vector<int>& values) {
 }
 
 void get(Reader& reader, std::vector<int>& values, int feature_count) {
-  std::size_t count = 0;
-  reader.get(count);
-  if (count > reader.left() / sizeof(int)) throw CheckpointError("the saved state is cut short");
-  values.resize(count);
+  values.resize(reader.count());
   for (int& value : values) {
     reader.get(value);
     if (value < 0 || value >= feature_count) {
@@ -99,6 +102,9 @@ void get(Reader& reader, const World& world, ParticlePair& pair) {
   }
   get(reader, pair.first_features, world.soft[at(pair.first)].mesh->topology.feature_count());
   get(reader, pair.second_features, world.soft[at(pair.second)].mesh->topology.feature_count());
+  std::uint8_t near = 0;
+  reader.get(near);
+  pair.near = near != 0;
 }
 
 }  // namespace
@@ -126,6 +132,14 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(pair.second);
     put(writer, pair.first_features);
     put(writer, pair.second_features);
+    writer.put(static_cast<std::uint8_t>(pair.near));
+  }
+  writer.put(world.resting_impulses.size());
+  for (const RestingImpulse& impulse : world.resting_impulses) {
+    writer.put(impulse.first);
+    writer.put(impulse.second);
+    writer.put(impulse.place);
+    writer.put(impulse.impulse);
   }
   writer.put(state_hash(world));
   return writer.take();
@@ -149,11 +163,15 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
     reader.get(box.angular_velocity);
     for (double& q : box.orientation.coeffs()) reader.get(q);
   }
-  std::size_t pairs = 0;
-  reader.get(pairs);
-  if (pairs > reader.left()) throw CheckpointError("the saved state is cut short");
-  loaded.particles.assign(pairs, {});
+  loaded.particles.assign(reader.count(), {});
   for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
+  loaded.resting_impulses.assign(reader.count(), {});
+  for (RestingImpulse& impulse : loaded.resting_impulses) {
+    reader.get(impulse.first);
+    reader.get(impulse.second);
+    reader.get(impulse.place);
+    reader.get(impulse.impulse);
+  }
   reader.expect(state_hash(loaded), "checksum");
   reader.end();
   world = std::move(loaded);

@@ -109,12 +109,6 @@ Bounds bounds(const World& world) {
   return all;
 }
 
-double greatest_penetration(const World& world) {
-  double depth = 0.0;
-  if (world.settings.ground) depth = std::max(depth, -bounds(world).low.z());
-  return depth;
-}
-
 std::uint64_t state_hash(const World& world) {
   Hash hash;
   hash.add(static_cast<std::uint64_t>(world.steps));
@@ -132,6 +126,12 @@ std::uint64_t state_hash(const World& world) {
     hash.add(std::vector<int>{pair.first, pair.second});
     hash.add(pair.first_features);
     hash.add(pair.second_features);
+    hash.add(static_cast<std::uint64_t>(pair.near));
+  }
+  for (const RestingImpulse& impulse : world.resting_impulses) {
+    hash.add(std::vector<int>{impulse.first, impulse.second});
+    hash.add(impulse.place);
+    hash.add(impulse.impulse);
   }
   return hash.value();
 }

@@ -35,7 +35,9 @@ Momentum momentum(const SoftBody& body);
 Bounds bounds(const World& world);
 
 /// The greatest depth in metres by which, at this moment, a body reaches into the ground or into
-/// another body; 0 when nothing overlaps. Exhaustive: for reports, not for the step.
+/// another body; 0 when nothing overlaps. Of soft bodies and boxes the vertices and corners count,
+/// each by its distance from the other body's surface; of two boxes the shortest way apart. Every
+/// vertex of bodies that are near each other is looked at: for reports, not for the step.
 double greatest_penetration(const World& world);
 
 /// 64-bit hash of the whole state. Equal states, equal hashes, on one build.

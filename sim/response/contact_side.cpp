@@ -1,72 +1,31 @@
 #include "sim/response/contact_side.h"
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
-namespace {
 
-std::span<const int> vertices(const SoftBody& body, const ContactSide& side) {
-  return body.mesh->topology.feature_vertices(side.feature);
-}
+BoxMass box_mass(const RigidBox& box) { return {1.0 / box.mass, world_inverse_inertia(box)}; }
 
-}  // namespace
-
-double side_mass(const World& world, const ContactSide& side) {
+SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, const ContactSide& side,
+                             const Vec3& point) {
   switch (side.kind) {
     case BodyKind::soft: {
-      const SoftBody& body = world.soft[at(side.body)];
-      return body.material.vertex_mass * static_cast<double>(vertices(body, side).size());
-    }
-    case BodyKind::rigid:
-      return world.rigid[at(side.body)].mass;
-    case BodyKind::ground:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-Vec3 velocity_at(const World& world, const ContactSide& side, const Vec3& point) {
-  switch (side.kind) {
-    case BodyKind::soft: {
-      const SoftBody& body = world.soft[at(side.body)];
-      const auto feature = vertices(body, side);
-      Vec3 sum = Vec3::Zero();
-      for (const int v : feature) sum += body.velocities[v];
-      return sum / static_cast<double>(feature.size());
-    }
-    case BodyKind::rigid: {
-      const RigidBox& box = world.rigid[at(side.body)];
-      return box.velocity + box.angular_velocity.cross(point - box.position);
-    }
-    case BodyKind::ground:
-      break;
-  }
-  return Vec3::Zero();
-}
-
-double inverse_mass_along(const World& world, const ContactSide& side, const Vec3& point,
-                          const Vec3& direction) {
-  const double linear = 1.0 / side_mass(world, side);
-  if (side.kind != BodyKind::rigid) return linear;
-  const RigidBox& box = world.rigid[at(side.body)];
-  const Vec3 turn = (point - box.position).cross(direction);
-  return linear + turn.dot(world_inverse_inertia(box) * turn);
-}
-
-void apply_impulse(World& world, const ContactSide& side, const Vec3& point, const Vec3& impulse) {
-  switch (side.kind) {
-    case BodyKind::soft: {
-      SoftBody& body = world.soft[at(side.body)];
-      const Vec3 change = impulse / side_mass(world, side);
-      for (const int v : vertices(body, side)) body.velocities[v] += change;
+      soft_ = &world.soft[at(side.body)];
+      const auto vertices = soft_->mesh->topology.feature_vertices(side.feature);
+      vertex_count_ = static_cast<int>(vertices.size());
+      std::copy(vertices.begin(), vertices.end(), vertices_.begin());
+      inverse_mass_ = 1.0 / (vertex_count_ * soft_->material.vertex_mass);
       break;
     }
     case BodyKind::rigid: {
-      RigidBox& box = world.rigid[at(side.body)];
-      box.velocity += impulse / box.mass;
-      box.angular_velocity += world_inverse_inertia(box) * (point - box.position).cross(impulse);
+      box_ = &world.rigid[at(side.body)];
+      const BoxMass& mass = masses[at(side.body)];
+      inverse_mass_ = mass.inverse_mass;
+      inverse_inertia_ = &mass.inverse_inertia;
+      arm_ = point - box_->position;
       break;
     }
     case BodyKind::ground:
@@ -74,19 +33,39 @@ void apply_impulse(World& world, const ContactSide& side, const Vec3& point, con
   }
 }
 
-void displace(World& world, const ContactSide& side, const Vec3& displacement) {
-  switch (side.kind) {
-    case BodyKind::soft: {
-      SoftBody& body = world.soft[at(side.body)];
-      for (const int v : vertices(body, side)) body.positions[v] += displacement;
-      break;
-    }
-    case BodyKind::rigid:
-      world.rigid[at(side.body)].position += displacement;
-      break;
-    case BodyKind::ground:
-      break;
+Vec3 SideInContact::velocity() const {
+  if (box_) return box_->velocity + box_->angular_velocity.cross(arm_);
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < vertex_count_; ++i) sum += soft_->velocities[vertices_[at(i)]];
+  return vertex_count_ > 1 ? Vec3(sum / vertex_count_) : sum;
+}
+
+double SideInContact::inverse_mass_along(const Vec3& direction) const {
+  if (!box_) return inverse_mass_;
+  const Vec3 turn = arm_.cross(direction);
+  return inverse_mass_ + turn.dot(*inverse_inertia_ * turn);
+}
+
+void SideInContact::apply(const Vec3& impulse) const {
+  const Vec3 change = inverse_mass_ * impulse;
+  if (box_) {
+    box_->velocity += change;
+    box_->angular_velocity += *inverse_inertia_ * arm_.cross(impulse);
+    return;
   }
+  for (int i = 0; i < vertex_count_; ++i) soft_->velocities[vertices_[at(i)]] += change;
+}
+
+Vec3 SideInContact::place() const {
+  if (box_) return box_->position;
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < vertex_count_; ++i) sum += soft_->positions[vertices_[at(i)]];
+  return vertex_count_ > 1 ? Vec3(sum / vertex_count_) : sum;
+}
+
+void SideInContact::displace(const Vec3& displacement) const {
+  if (box_) box_->position += displacement;
+  for (int i = 0; i < vertex_count_; ++i) soft_->positions[vertices_[at(i)]] += displacement;
 }
 
 const Surface& surface(const World& world, const ContactSide& side) {
@@ -99,6 +78,10 @@ const Surface& surface(const World& world, const ContactSide& side) {
       break;
   }
   return *world.settings.ground;
+}
+
+Surface combine(const Surface& a, const Surface& b) {
+  return {std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction)};
 }
 
 }  // namespace pneuma::sim

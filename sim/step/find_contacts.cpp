@@ -1,31 +1,35 @@
+#include "sim/collision/find_body_contacts.h"
+#include "sim/collision/find_soft_soft.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
-namespace {
-
-/// A vertex below the plane z = 0 is in contact with it (section 3.1.4).
-void find_soft_ground(const World& world, std::vector<Contact>& contacts) {
-  if (!world.settings.ground) return;
-  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
-    const VertexArray& positions = world.soft[at(i)].positions;
-    for (int v = 0; v < positions.size(); ++v) {
-      const double height = positions[v].z();
-      if (height < 0.0) {
-        contacts.push_back({{BodyKind::soft, i, {FeatureKind::vertex, v}},
-                            {},
-                            positions[v],
-                            Vec3::UnitZ(),
-                            -height});
-      }
-    }
-  }
-}
-
-}  // namespace
 
 void find_contacts(const World& world, StepWorkspace& workspace) {
-  workspace.contacts.clear();
-  if (workspace.plan.runs(ContactKind::soft_ground)) find_soft_ground(world, workspace.contacts);
+  const Plan& plan = workspace.plan;
+  const bool ground = world.settings.ground.has_value();
+  std::vector<Contact>& contacts = workspace.contacts;
+  contacts.clear();
+  if (plan.runs(ContactKind::soft_ground) && ground) {
+    for (int i = 0; i < std::ssize(world.soft); ++i) find_soft_ground(world, i, contacts);
+  }
+  if (plan.runs(ContactKind::rigid_ground) && ground) {
+    for (int i = 0; i < std::ssize(world.rigid); ++i) find_rigid_ground(world, i, contacts);
+  }
+  if (plan.runs(ContactKind::soft_soft)) {
+    for (const ParticlePair& pair : world.particles) {
+      if (pair.near) find_soft_soft(world, pair, workspace.soft_soft, contacts);
+    }
+  }
+  if (plan.runs(ContactKind::soft_rigid)) {
+    for (const BodyPair& pair : workspace.soft_rigid_pairs) {
+      find_soft_rigid(world, pair.first, pair.second, contacts);
+    }
+  }
+  if (plan.runs(ContactKind::rigid_rigid)) {
+    for (const BodyPair& pair : workspace.rigid_pairs) {
+      find_rigid_rigid(world, pair.first, pair.second, contacts);
+    }
+  }
 }
 
 }  // namespace pneuma::sim

@@ -1,31 +1,189 @@
-#include "sim/response/impulse.h"
+#include <algorithm>
+#include <limits>
+#include <utility>
+
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
 namespace {
 
+/// Of moving boxes apart: in a stack each correction pushes into the next box.
+constexpr int separation_sweeps = 4;
+
+/// Of the shortest side of a box: points nearer than this are one, a step later.
+constexpr double same_point = 0.05;
+
+Vec3 start_velocity(const World& world, const StepWorkspace& workspace, const ContactSide& side,
+                    const Vec3& point) {
+  switch (side.kind) {
+    case BodyKind::soft: {
+      const auto vertices = world.soft[at(side.body)].mesh->topology.feature_vertices(side.feature);
+      Vec3 sum = Vec3::Zero();
+      for (const int v : vertices) sum += workspace.soft_start[at(side.body)].velocities[v];
+      return sum / static_cast<double>(vertices.size());
+    }
+    case BodyKind::rigid: {
+      const RigidStart& start = workspace.rigid_start[at(side.body)];
+      const Vec3 arm = point - world.rigid[at(side.body)].position;
+      return start.velocity + start.angular_velocity.cross(arm);
+    }
+    case BodyKind::ground:
+      break;
+  }
+  return Vec3::Zero();
+}
+
+double start_approach(const World& world, const StepWorkspace& workspace, const Contact& contact) {
+  const Vec3 relative = start_velocity(world, workspace, contact.first, contact.point) -
+                        start_velocity(world, workspace, contact.second, contact.point);
+  return -relative.dot(contact.normal);
+}
+
+bool is_soft_ground(const Contact& contact) {
+  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::ground;
+}
+
+/// Whether the contact is between boxes, or a box and the ground: one that can rest.
+bool is_rigid(const Contact& contact) {
+  return contact.first.kind == BodyKind::rigid && contact.second.kind != BodyKind::soft;
+}
+
+/// Boxes of a resting contact; -1 for the ground.
+std::pair<int, int> boxes(const Contact& contact) {
+  return {contact.first.body, contact.second.kind == BodyKind::ground ? -1 : contact.second.body};
+}
+
+std::pair<int, int> boxes(const RestingImpulse& resting) { return {resting.first, resting.second}; }
+
+Vec3 place_on_first(const World& world, const Contact& contact) {
+  const RigidBox& box = world.rigid[at(contact.first.body)];
+  return box.orientation.conjugate() * (contact.point - box.position);
+}
+
+void prepare(World& world, StepWorkspace& workspace) {
+  workspace.box_masses.clear();
+  for (const RigidBox& box : world.rigid) workspace.box_masses.push_back(box_mass(box));
+  workspace.impulses.clear();
+  for (const Contact& contact : workspace.contacts) {
+    workspace.impulses.emplace_back(world, workspace.box_masses, contact,
+                                    start_approach(world, workspace, contact));
+  }
+}
+
+/// What held a point of a box in the last step goes to the nearest of the contacts begin..end of
+/// the same boxes, if that is near enough to be the same point. Names of corners and edges would
+/// not do: of aligned boxes in a stack, which corner lies inside which face changes with every
+/// breath. With it their number changes, so several may go to one contact: none of them may be
+/// lost, or the stack gets a jolt.
+void hand_on(const World& world, StepWorkspace& workspace, std::size_t begin, std::size_t end,
+             const RestingImpulse& resting) {
+  const double near = same_point * world.rigid[at(resting.first)].size.minCoeff();
+  double least = near * near;
+  ContactImpulse* nearest = nullptr;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec3 place = place_on_first(world, workspace.contacts[i]);
+    const double squared = (place - resting.place).squaredNorm();
+    if (squared < least) {
+      least = squared;
+      nearest = &workspace.impulses[i];
+    }
+  }
+  if (nearest) nearest->start_from(resting.impulse);
+}
+
+/// The contacts of one pair of boxes follow each other.
+void start_from_last_step(const World& world, StepWorkspace& workspace) {
+  const std::vector<Contact>& contacts = workspace.contacts;
+  const std::vector<RestingImpulse>& resting = world.resting_impulses;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < contacts.size(); begin = end) {
+    end = begin + 1;
+    if (!is_rigid(contacts[begin])) continue;
+    const std::pair<int, int> pair = boxes(contacts[begin]);
+    while (end < contacts.size() && is_rigid(contacts[end]) && boxes(contacts[end]) == pair) ++end;
+    auto known = std::lower_bound(resting.begin(), resting.end(), pair,
+                                  [](const RestingImpulse& r, const std::pair<int, int>& wanted) {
+                                    return boxes(r) < wanted;
+                                  });
+    for (; known != resting.end() && boxes(*known) == pair; ++known) {
+      hand_on(world, workspace, begin, end, *known);
+    }
+  }
+}
+
+/// Vertices on the ground do not know of each other: one sweep is exact for them. Everything else
+/// is corrected until the corrections have died away.
+void sweep(const Settings& settings, StepWorkspace& workspace) {
+  const bool coupled =
+      !std::all_of(workspace.contacts.begin(), workspace.contacts.end(), is_soft_ground);
+  const int sweeps = coupled ? settings.impulse_sweeps : 1;
+  for (int i = 0; i < sweeps; ++i) {
+    double change = 0.0, total = 0.0;
+    const auto correct = [&](ContactImpulse& impulse) {
+      change += impulse.correct();
+      total += impulse.impulse().normal;
+    };
+    // There and back, so that what holds a stack travels up it as fast as down.
+    if (i % 2 == 0) {
+      std::for_each(workspace.impulses.begin(), workspace.impulses.end(), correct);
+    } else {
+      std::for_each(workspace.impulses.rbegin(), workspace.impulses.rend(), correct);
+    }
+    if (change <= 1e-6 * total) return;
+  }
+}
+
 /// A vertex is put back onto the ground (3.1.4). One that friction holds is also put where it would
 /// be had it slowed down evenly over the step; left where the step's forces carried it, it would
 /// creep down the gentlest slope.
-void resolve_soft_ground(World& world, const Contact& contact, const SoftState& start) {
-  SoftBody& body = world.soft[at(contact.first.body)];
+void put_onto_ground(World& world, const Contact& contact, bool sticks, const SoftState& start) {
+  VertexArray& positions = world.soft[at(contact.first.body)].positions;
   const int v = contact.first.feature.index;
-  const Vec3 start_velocity = start.velocities[v];
-  const Impulse impulse = apply_contact_impulse(world, contact, -start_velocity.z());
-  Vec3 position = body.positions[v];
-  if (impulse.sticks) {
-    position = start.positions[v] + 0.5 * time_step(world.settings) * start_velocity;
+  Vec3 position = positions[v];
+  if (sticks) {
+    position = start.positions[v] + 0.5 * time_step(world.settings) * Vec3(start.velocities[v]);
   }
   position.z() = 0.0;
-  body.positions[v] = position;
+  positions[v] = position;
+}
+
+void separate(World& world, const StepWorkspace& workspace) {
+  for (int sweep = 0; sweep < separation_sweeps; ++sweep) {
+    for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
+      if (!is_soft_ground(workspace.contacts[i])) workspace.impulses[i].separate();
+    }
+  }
+  for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
+    const Contact& contact = workspace.contacts[i];
+    if (!is_soft_ground(contact)) continue;
+    put_onto_ground(world, contact, workspace.impulses[i].sticks(),
+                    workspace.soft_start[at(contact.first.body)]);
+  }
+}
+
+void remember(World& world, const StepWorkspace& workspace) {
+  world.resting_impulses.clear();
+  for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
+    const Contact& contact = workspace.contacts[i];
+    if (!is_rigid(contact)) continue;
+    const auto [first, second] = boxes(contact);
+    world.resting_impulses.push_back(
+        {first, second, place_on_first(world, contact), workspace.impulses[i].total()});
+  }
+  // Not a stable sort, which allocates: the order within a pair need not be that of the contacts,
+  // only the same each time.
+  std::sort(world.resting_impulses.begin(), world.resting_impulses.end(),
+            [](const RestingImpulse& a, const RestingImpulse& b) { return boxes(a) < boxes(b); });
 }
 
 }  // namespace
 
 void resolve_contacts(World& world, StepWorkspace& workspace) {
-  for (const Contact& contact : workspace.contacts) {
-    resolve_soft_ground(world, contact, workspace.soft_start[at(contact.first.body)]);
-  }
+  prepare(world, workspace);
+  start_from_last_step(world, workspace);
+  sweep(world.settings, workspace);
+  separate(world, workspace);
+  remember(world, workspace);
 }
 
 }  // namespace pneuma::sim

@@ -41,6 +41,23 @@ SoftScratch make_soft_scratch(const World& world, int threads) {
   return scratch;
 }
 
+/// Takes back what the stages up to the one that failed have done.
+void restore(World& world, const StepWorkspace& workspace, Stage failed) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    world.soft[i].positions = workspace.soft_start[i].positions;
+    world.soft[i].velocities = workspace.soft_start[i].velocities;
+  }
+  if (failed != Stage::integrate_rigid) return;
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    RigidBox& box = world.rigid[i];
+    const RigidStart& start = workspace.rigid_start[i];
+    box.position = start.position;
+    box.orientation = start.orientation;
+    box.velocity = start.velocity;
+    box.angular_velocity = start.angular_velocity;
+  }
+}
+
 }  // namespace
 
 StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
@@ -49,6 +66,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       workers(options.threads),
       soft(make_soft_scratch(world, options.threads)),
       soft_start(world.soft.size()),
+      rigid_start(world.rigid.size()),
       soft_outcome(world.soft.size()) {}
 
 Stepper::Stepper(const World& world, StepperOptions options)
@@ -63,7 +81,15 @@ std::optional<Divergence> Stepper::step(World& world) {
   std::optional<Divergence> divergence;
 
   run(Stage::integrate_soft, [&] { divergence = integrate_soft(world, workspace); });
-  if (divergence) return divergence;
+  if (!divergence) {
+    run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, workspace); });
+  }
+  if (divergence) {
+    restore(world, workspace, divergence->stage);
+    return divergence;
+  }
+  run(Stage::find_pairs, [&] { find_pairs(world, workspace); });
+  run(Stage::move_particles, [&] { move_particles(world, workspace); });
   run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
   run(Stage::resolve_contacts, [&] { resolve_contacts(world, workspace); });
 

@@ -43,8 +43,8 @@ class Stepper {
   Stepper(Stepper&&) noexcept;
   Stepper& operator=(Stepper&&) noexcept;
 
-  /// One step of the world this was made for. On divergence the world is left as the failed step
-  /// made it. Allocates nothing once the number of contacts has peaked.
+  /// One step of the world this was made for. On divergence the world is left as the step found it:
+  /// in its last sound state. Allocates nothing once the number of contacts has peaked.
   [[nodiscard]] std::optional<Divergence> step(World& world);
 
   const Plan& plan() const;

@@ -6,6 +6,10 @@
 #include <optional>
 #include <vector>
 
+#include "sim/collision/bounding_sphere.h"
+#include "sim/collision/find_soft_soft.h"
+#include "sim/collision/particles.h"
+#include "sim/response/contact_impulse.h"
 #include "sim/soft/integrators.h"
 #include "sim/step/stepper.h"
 #include "sim/step/workers.h"
@@ -18,6 +22,14 @@ struct SoftScratch {
   std::vector<int> mesh_of_body;
 };
 
+/// The motion of a box as the step found it.
+struct RigidStart {
+  Vec3 position = Vec3::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+};
+
 struct StepWorkspace {
   StepWorkspace(const World& world, StepperOptions options);
 
@@ -26,8 +38,18 @@ struct StepWorkspace {
   Workers workers;
   SoftScratch soft;
   std::vector<SoftState> soft_start;                    // per body, as the step found it
+  std::vector<RigidStart> rigid_start;                  // per box
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
+  std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
+  PairFinder pair_finder;
+  std::vector<BodyPair> pairs;             // of spheres
+  std::vector<BodyPair> soft_rigid_pairs;  // first: soft body, second: box
+  std::vector<BodyPair> rigid_pairs;       // of boxes
+  ParticleScratch particles;
+  SoftSoftScratch soft_soft;
   std::vector<Contact> contacts;
+  std::vector<BoxMass> box_masses;
+  std::vector<ContactImpulse> impulses;  // per contact
   StageTimes stage_times{};
 };
 

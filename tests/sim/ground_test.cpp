@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "sim/inspect/inspect.h"
-#include "sim/response/impulse.h"
+#include "sim/response/contact_impulse.h"
 #include "sim/soft/damping.h"
 #include "tests/support/worlds.h"
 
@@ -120,9 +120,10 @@ TEST(Ground, FrictionIsCoulombs) {
     world.settings.ground = Surface{0.0, mu};
     body.velocities[57] = Vec3(sliding, 0.0, -2.0);
     const Contact contact{
-        {BodyKind::soft, 0, {FeatureKind::vertex, 57}}, {}, {0, 0, 0}, Vec3::UnitZ(), 0};
-    const Impulse impulse = apply_contact_impulse(world, contact, 2.0);
-    EXPECT_NEAR(impulse.normal, body.material.vertex_mass * 2.0, 1e-15);
+        {BodyKind::soft, 0, {FeatureKind::vertex, 57}}, {}, {0, 0, 0}, Vec3::UnitZ(), 0.0};
+    ContactImpulse impulse(world, {}, contact, 2.0);
+    impulse.correct();
+    EXPECT_NEAR(impulse.impulse().normal, body.material.vertex_mass * 2.0, 1e-15);
     EXPECT_EQ(body.velocities[57].z(), 0.0);
     return body.velocities[57].x();
   };
@@ -155,7 +156,7 @@ TEST(Figures, TheSoftSphereSagsAndTheFirmOneIsRound) {
   EXPECT_LT(shape(soft.soft[0]).foot_over_width, 0.7);
 
   World firm = sphere_on_ground(150.0, 100.0, 5.0);  // figure 6.4 left
-  firm.soft[0].material.temperature = 5.0;
+  firm.soft[0].material.temperature = 4.4;
   ASSERT_FALSE(run(firm, 15.0));
   EXPECT_GT(shape(firm.soft[0]).height_over_width, 0.95);
   EXPECT_LT(shape(firm.soft[0]).height_over_width, 1.10);

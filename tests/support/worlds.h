@@ -1,8 +1,11 @@
 // Small worlds that many tests start from.
 #pragma once
 
+#include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
@@ -46,6 +49,29 @@ inline World make_free_world(SoftBody body) {
   return world;
 }
 
+/// A box at rest with its sides along the axes.
+inline RigidBox make_rigid(const Vec3& size, const Vec3& position, double mass = 1.0) {
+  RigidBox box;
+  box.name = "box";
+  box.size = size;
+  box.mass = mass;
+  box.position = position;
+  return box;
+}
+
+/// Boxes without ground, gravity, drag or friction, that bounce with `restitution`.
+inline World make_free_boxes(std::vector<RigidBox> boxes, double restitution) {
+  World world;
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.rigid = std::move(boxes);
+  for (RigidBox& box : world.rigid) {
+    box.rho_g = 0.0;
+    box.surface = {restitution, 0.0};
+  }
+  return world;
+}
+
 /// Steps until `seconds` more have passed. A divergence is a test's failure to check for.
 [[nodiscard]] inline std::optional<Divergence> run(World& world, double seconds,
                                                    StepperOptions options = {}) {
@@ -55,6 +81,18 @@ inline World make_free_world(SoftBody body) {
     if (auto divergence = stepper.step(world)) return divergence;
   }
   return std::nullopt;
+}
+
+/// Steps until something touches; the last step is the one that resolved it. Returns the state of
+/// `box` before that step.
+inline RigidBox step_until_contact(World& world, std::size_t box) {
+  Stepper stepper(world);
+  for (int i = 0; i < 600; ++i) {
+    const RigidBox before = world.rigid[box];
+    if (stepper.step(world)) break;
+    if (!stepper.contacts().empty()) return before;
+  }
+  throw std::runtime_error("nothing touched");
 }
 
 }  // namespace pneuma::sim

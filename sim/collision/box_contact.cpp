@@ -1,0 +1,198 @@
+#include "sim/collision/box_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collision/separating_axis.h"
+
+namespace pneuma::sim {
+
+namespace {
+
+// The ways to make a point, in its key above the bits that number faces, edges and lines.
+constexpr unsigned second_face = 1U << 12U;
+constexpr unsigned edge_pair = 1U << 13U;
+constexpr unsigned lone_corner = 1U << 14U;
+
+/// A corner of the incident face while it is being clipped, in the reference face's coordinates.
+struct ClipCorner {
+  Vec3 at;        // along the face's two sides, and the height over the face
+  unsigned edge;  // the line from here to the next corner: 0 to 3 are the incident face's edges, 4
+                  // to 7 the reference face's sides
+};
+
+/// A convex polygon. A square clipped by four lines has at most eight corners; what rounding might
+/// add to those repeats a neighbour and is dropped.
+class Polygon {
+ public:
+  int size() const { return size_; }
+  const ClipCorner& operator[](int i) const { return corners_[at(i % size_)]; }
+  void add(const ClipCorner& corner) {
+    if (size_ < BoxContact::most_points) corners_[at(size_++)] = corner;
+  }
+
+ private:
+  int size_ = 0;
+  std::array<ClipCorner, BoxContact::most_points> corners_;
+};
+
+/// Sutherland and Hodgman's clipping, by sign * coordinate <= limit, keeping the edges' names.
+Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit, unsigned side) {
+  Polygon result;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const ClipCorner& here = polygon[i];
+    const ClipCorner& next = polygon[i + 1];
+    const double here_beyond = sign * here.at[coordinate] - limit;
+    const double next_beyond = sign * next.at[coordinate] - limit;
+    if (here_beyond <= 0.0) result.add(here);
+    if ((here_beyond <= 0.0) == (next_beyond <= 0.0)) continue;
+    Vec3 crossing = here.at + here_beyond / (here_beyond - next_beyond) * (next.at - here.at);
+    crossing[coordinate] = sign * limit;
+    result.add({crossing, here_beyond <= 0.0 ? side : here.edge});
+  }
+  return result;
+}
+
+/// The face that the boxes' normal belongs to, on one box, and the box that meets it.
+struct FacePair {
+  const OrientedBox& reference;
+  const OrientedBox& incident;
+  int axis;      // of the reference face
+  Vec3 outward;  // its normal, towards the incident box
+  unsigned key;  // second_face when the face is on the second box
+
+  int u() const { return (axis + 1) % 3; }
+  int v() const { return (axis + 2) % 3; }
+
+  /// A point in the reference face's coordinates: along its two sides, and the height over it.
+  Vec3 to_face(const Vec3& point) const {
+    const Vec3 offset = point - reference.centre;
+    return {offset.dot(reference.axes.col(u())), offset.dot(reference.axes.col(v())),
+            offset.dot(outward) - reference.half[axis]};
+  }
+  Vec3 to_world(const Vec3& at_face) const {
+    return reference.centre + at_face.x() * reference.axes.col(u()) +
+           at_face.y() * reference.axes.col(v()) + (reference.half[axis] + at_face.z()) * outward;
+  }
+};
+
+unsigned face_number(const OrientedBox& box, int axis, const Vec3& direction) {
+  return 2U * static_cast<unsigned>(axis) + (box.axes.col(axis).dot(direction) < 0.0 ? 1U : 0U);
+}
+
+/// The face of a box whose outward normal is most opposed to `direction`.
+struct IncidentFace {
+  std::array<Vec3, 4> corners;  // in order
+  unsigned number;
+};
+
+IncidentFace incident_face(const OrientedBox& box, const Vec3& direction) {
+  const Vec3 along = box.axes.transpose() * direction;
+  int axis = 0;
+  along.cwiseAbs().maxCoeff(&axis);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const double side = along[axis] > 0.0 ? -box.half[axis] : box.half[axis];
+  const Vec3 middle = box.centre + side * box.axes.col(axis);
+  const Vec3 to_u = box.half[u] * box.axes.col(u);
+  const Vec3 to_v = box.half[v] * box.axes.col(v);
+  return {{middle + to_u + to_v, middle - to_u + to_v, middle - to_u - to_v, middle + to_u - to_v},
+          face_number(box, axis, -direction)};
+}
+
+/// The number of the corner that reaches farthest in a direction.
+int support_corner(const OrientedBox& box, const Vec3& direction) {
+  const Vec3 along = box.axes.transpose() * direction;
+  return (along.x() > 0.0 ? 1 : 0) + (along.y() > 0.0 ? 2 : 0) + (along.z() > 0.0 ? 4 : 0);
+}
+
+/// Cuts the incident face off at the reference face's sides; what remains below the reference face
+/// touches. All points are kept: a choice of the deepest four would change from step to step.
+void add_face_points(BoxContact& contact, const FacePair& faces) {
+  const IncidentFace face = incident_face(faces.incident, faces.outward);
+  Polygon polygon;
+  for (unsigned i = 0; i < 4; ++i) polygon.add({faces.to_face(face.corners[i]), i});
+  const double u_limit = faces.reference.half[faces.u()];
+  const double v_limit = faces.reference.half[faces.v()];
+  polygon = clip(polygon, 0, 1.0, u_limit, 4);
+  polygon = clip(polygon, 0, -1.0, u_limit, 5);
+  polygon = clip(polygon, 1, 1.0, v_limit, 6);
+  polygon = clip(polygon, 1, -1.0, v_limit, 7);
+
+  const unsigned key =
+      faces.key | face_number(faces.reference, faces.axis, faces.outward) << 9U | face.number << 6U;
+  for (int i = 0; i < polygon.size(); ++i) {
+    const ClipCorner& corner = polygon[i];
+    if (corner.at.z() > 0.0) continue;
+    const unsigned before = polygon[i + polygon.size() - 1].edge;
+    contact.all[at(contact.count++)] = {faces.to_world(corner.at), -corner.at.z(),
+                                        key | before << 3U | corner.edge};
+  }
+  if (contact.count > 0) return;
+  // Only when this face was preferred to edges that overlap a little less: the incident box passes
+  // the face by its side, and its deepest corner stands for it.
+  const int corner = support_corner(faces.incident, -faces.outward);
+  contact.all[at(contact.count++)] = {faces.incident.corner(corner), contact.depth,
+                                      faces.key | lone_corner | static_cast<unsigned>(corner)};
+}
+
+/// The middle of the edge along `axis` that reaches farthest in `direction`, and its number.
+struct SupportEdge {
+  Vec3 middle;
+  unsigned number;
+};
+
+SupportEdge support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
+  Vec3 local = box.half;
+  unsigned number = static_cast<unsigned>(axis);
+  for (int k = 0; k < 3; ++k) {
+    if (k == axis) continue;
+    const bool negative = box.axes.col(k).dot(direction) < 0.0;
+    if (negative) local[k] = -local[k];
+    number = number << 1U | (negative ? 1U : 0U);
+  }
+  local[axis] = 0.0;
+  return {box.to_world(local), number};
+}
+
+/// Halfway between the nearest points of the two edges p + s a and q + t b. There the line between
+/// them is at right angles to both: with r = p - q and c = a.b,
+///   s = (c b.r - a.r) / (1 - c^2),  t = (b.r - c a.r) / (1 - c^2).
+/// The axis exists, so the edges are not parallel.
+void add_edge_point(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
+                    const LeastOverlap& overlap) {
+  const SupportEdge p = support_edge(first, overlap.first_axis, -overlap.normal);
+  const SupportEdge q = support_edge(second, overlap.second_axis, overlap.normal);
+  const Vec3 a = first.axes.col(overlap.first_axis);
+  const Vec3 b = second.axes.col(overlap.second_axis);
+  const Vec3 r = p.middle - q.middle;
+  const double squared_sine = a.cross(b).squaredNorm();
+  const double c = a.dot(b);
+  const double s_reach = first.half[overlap.first_axis];
+  const double t_reach = second.half[overlap.second_axis];
+  const double s = std::clamp((c * b.dot(r) - a.dot(r)) / squared_sine, -s_reach, s_reach);
+  const double t = std::clamp((b.dot(r) - c * a.dot(r)) / squared_sine, -t_reach, t_reach);
+  const Vec3 middle = 0.5 * (p.middle + s * a + q.middle + t * b);
+  contact.all[at(contact.count++)] = {middle, overlap.overlap,
+                                      edge_pair | p.number << 4U | q.number};
+}
+
+}  // namespace
+
+std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second) {
+  const auto overlap = find_least_overlap(first, second);
+  if (!overlap) return {};
+  BoxContact contact;
+  contact.normal = overlap->normal;
+  contact.depth = overlap->overlap;
+  if (overlap->kind == AxisKind::edges) {
+    add_edge_point(contact, first, second, *overlap);
+  } else if (overlap->kind == AxisKind::first_face) {
+    add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal, 0});
+  } else {
+    add_face_points(contact, {second, first, overlap->second_axis, overlap->normal, second_face});
+  }
+  return contact;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,37 @@
+// Where two overlapping boxes touch: the points that an impulse needs (ERRATA row 18).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "sim/collision/oriented_box.h"
+
+namespace pneuma::sim {
+
+struct BoxContactPoint {
+  Vec3 point = Vec3::Zero();  // m
+  double depth = 0.0;         // m the boxes must move apart along the normal to part here, >= 0
+  std::uint32_t key = 0;      // names the edges and faces that make the point: unique within the
+                              // contact, and the same in the next step while they stay the same
+};
+
+/// One to eight points that share a normal.
+struct BoxContact {
+  static constexpr int most_points = 8;
+
+  Vec3 normal = Vec3::Zero();  // unit; the impulse on the first box is along +normal
+  double depth = 0.0;          // m; moving either box by more than this along the normal parts them
+  int count = 0;
+  std::array<BoxContactPoint, most_points> all;
+
+  std::span<const BoxContactPoint> points() const {
+    return std::span(all).first(static_cast<std::size_t>(count));
+  }
+};
+
+/// None when the boxes are apart.
+std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second);
+
+}  // namespace pneuma::sim

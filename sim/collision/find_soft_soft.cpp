@@ -1,0 +1,84 @@
+#include "sim/collision/find_soft_soft.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/collision/feature_contact.h"
+#include "sim/collision/particles.h"
+
+namespace pneuma::sim {
+namespace {
+
+using Ball = SoftSoftScratch::Ball;
+
+Ball feature_ball(const SurfaceView& surface, int feature_id) {
+  Ball ball{feature_centre(surface, feature_id), 0.0};
+  double squared = 0.0;
+  for (const int v : surface.topology.feature_vertices(surface.topology.feature(feature_id))) {
+    squared = std::max(squared, (surface.positions[v] - ball.centre).squaredNorm());
+  }
+  ball.radius = std::sqrt(squared);
+  return ball;
+}
+
+void make_balls(const SurfaceView& surface, const std::vector<int>& features,
+                std::vector<Ball>& balls) {
+  balls.clear();
+  for (const int feature : features) balls.push_back(feature_ball(surface, feature));
+}
+
+bool within(const Ball& a, const Ball& b, double reach) {
+  const double far = a.radius + b.radius + reach;
+  return (a.centre - b.centre).squaredNorm() < far * far;
+}
+
+/// How much a vertex and a triangle are to be moved apart so that the skin thickness lies between
+/// them; the distance counts along the normal, so that a vertex behind the triangle is brought
+/// back.
+double separation_depth(const FeatureContact& contact, double skin_thickness) {
+  const bool vertex_triangle = contact.first.kind != contact.second.kind &&
+                               contact.first.kind != FeatureKind::edge &&
+                               contact.second.kind != FeatureKind::edge;
+  if (!vertex_triangle) return 0.0;
+  const double height = (contact.first_point - contact.second_point).dot(contact.normal);
+  return skin_thickness - height;
+}
+
+bool same_features(const Contact& contact, const FeatureContact& found) {
+  return contact.first.feature == found.first && contact.second.feature == found.second;
+}
+
+}  // namespace
+
+void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratch& scratch,
+                    std::vector<Contact>& contacts) {
+  const SoftBody& first_body = world.soft[at(pair.first)];
+  const SoftBody& second_body = world.soft[at(pair.second)];
+  const SurfaceView first{first_body.mesh->topology, first_body.positions};
+  const SurfaceView second{second_body.mesh->topology, second_body.positions};
+  const double skin = world.settings.skin_thickness;
+  make_balls(first, pair.first_features, scratch.first);
+  make_balls(second, pair.second_features, scratch.second);
+
+  const auto start = static_cast<std::ptrdiff_t>(contacts.size());
+  for (std::size_t i = 0; i < scratch.first.size(); ++i) {
+    for (std::size_t j = 0; j < scratch.second.size(); ++j) {
+      if (!within(scratch.first[i], scratch.second[j], 2.0 * skin)) continue;
+      const auto found =
+          find_feature_contact(first, first.topology.feature(pair.first_features[i]), second,
+                               second.topology.feature(pair.second_features[j]), 2.0 * skin);
+      if (!found) continue;
+      const auto known =
+          std::find_if(contacts.begin() + start, contacts.end(),
+                       [&](const Contact& contact) { return same_features(contact, *found); });
+      if (known != contacts.end()) continue;
+      contacts.push_back({{BodyKind::soft, pair.first, found->first},
+                          {BodyKind::soft, pair.second, found->second},
+                          0.5 * (found->first_point + found->second_point),
+                          found->normal,
+                          separation_depth(*found, skin)});
+    }
+  }
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,28 @@
+// Contacts of two soft bodies: the feature tests on the pairs of their particles (paper 5.2.1).
+#pragma once
+
+#include <vector>
+
+#include "sim/collision/contact.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// Memory of find_soft_soft; contents mean nothing between calls.
+struct SoftSoftScratch {
+  /// A ball about a feature, for a quick look at whether two can be within reach.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+  std::vector<Ball> first;
+  std::vector<Ball> second;
+};
+
+/// Appends the contacts of one pair. Features are in contact when nearer than twice the skin
+/// thickness, and are to be moved apart (depth > 0) when a vertex is nearer to a triangle than the
+/// skin thickness (5.3.1). A contact that several particles find is reported once.
+void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratch& scratch,
+                    std::vector<Contact>& contacts);
+
+}  // namespace pneuma::sim

@@ -1,0 +1,23 @@
+#include "sim/collision/oriented_box.h"
+
+namespace pneuma::sim {
+
+Vec3 OrientedBox::corner(int i) const {
+  const Vec3 side((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
+  return to_world(half.cwiseProduct(side));
+}
+
+// Section 5.2.2: inside when (p - t_i).n_i < 0 for every face, the depth being the largest of
+// these. The two faces of one axis are |p_k| - half_k in the box's own coordinates.
+std::optional<BoxExit> find_box_exit(const OrientedBox& box, const Vec3& point) {
+  const Vec3 local = box.to_local(point);
+  const Vec3 depths = box.half - local.cwiseAbs();
+  int axis = 0;
+  const double depth = depths.minCoeff(&axis);
+  if (!(depth > 0.0)) return {};
+  const bool negative = local[axis] < 0.0;
+  const Vec3 normal = negative ? Vec3(-box.axes.col(axis)) : Vec3(box.axes.col(axis));
+  return BoxExit{2 * axis + (negative ? 1 : 0), normal, point + depth * normal, depth};
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,43 @@
+// Collision particles: the search for the features by which two soft bodies may touch
+// (paper 5.2.1).
+//
+// A particle rests on a feature of one body. It is drawn to the other body's particles and pushed
+// away by its own body's, and walks from feature to neighbouring feature towards the least cost
+//
+//   cost = sum over the own body's other particles of 1/d^2  -  attraction * sum over the other's
+//   of 1/d^2
+//
+// so that the particles of both bodies gather where the bodies face each other.
+#pragma once
+
+#include "sim/collision/surface_view.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// How many particles a body of so many vertices gets: a share of them, at least one.
+int particle_count(int vertices, double per_vertex);
+
+/// Puts particles on features drawn at random from the seed and the pair's own numbers, so that
+/// they do not depend on when the pair meets.
+ParticlePair make_particles(int first, const MeshTopology& first_mesh, int second,
+                            const MeshTopology& second_mesh, const ParticleSettings& settings,
+                            std::uint64_t seed);
+
+/// Memory of settle_particles: where the particles are. Contents mean nothing between calls.
+struct ParticleScratch {
+  std::vector<Vec3> first;
+  std::vector<Vec3> second;
+};
+
+/// Moves the particles until fewer than `settled_below` move in a sweep over all of them, or for
+/// `max_sweeps`. `least_distance` (m, > 0) bounds d from below, so that two particles on one
+/// feature have a finite cost (ERRATA row 11). Returns the number of sweeps.
+int settle_particles(const SurfaceView& first, const SurfaceView& second,
+                     const ParticleSettings& settings, double least_distance, ParticlePair& pair,
+                     ParticleScratch& scratch);
+
+/// The middle of a feature: the mean of its vertices.
+Vec3 feature_centre(const SurfaceView& surface, int feature_id);
+
+}  // namespace pneuma::sim

@@ -1,0 +1,23 @@
+// Free motion of a rigid box over one step (paper 4.1).
+#pragma once
+
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// The orientation turned by a rotation vector in world axes, rad: q' = [cos(theta/2),
+/// sin(theta/2) omega/|omega|] q with theta = |omega| t. A zero vector turns nothing (ERRATA row
+/// 9).
+Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rotation);
+
+/// Euler-Cromer: by turns v += a t and p += v t, the same for the orientation. A step begins with
+/// p, so that contacts act on a velocity between the force that changed it and the motion it makes:
+/// what they bring to rest does not move at all. Beginning with v, as the paper writes it,
+/// everything at rest would sink by g t^2 in each step and creep down every slope.
+///
+/// A box that is not a cube also gets the gyroscopic term (ERRATA row 9), by keeping its angular
+/// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the share
+/// rho_g of both velocities per 1/60 s.
+void move_freely(RigidBox& box, const Vec3& gravity, double step);
+
+}  // namespace pneuma::sim

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <tuple>
+
+#include "sim/collision/particles.h"
+#include "sim/step/stages.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of soft bodies first, then of boxes. Soft bodies are in contact at a distance of twice the skin,
+/// half of it each (ERRATA row 10); boxes only when something is inside them.
+void make_spheres(const World& world, std::vector<BoundingSphere>& spheres) {
+  spheres.clear();
+  for (const SoftBody& body : world.soft) {
+    spheres.push_back(bounding_sphere(body.positions, world.settings.skin_thickness));
+  }
+  for (const RigidBox& box : world.rigid) {
+    spheres.push_back({box.position, 0.5 * box.size.norm()});
+  }
+}
+
+/// The particles of a pair, made when it meets for the first time.
+ParticlePair& particles_of(World& world, const BodyPair& pair) {
+  const auto before = [](const ParticlePair& known, const BodyPair& wanted) {
+    return std::tie(known.first, known.second) < std::tie(wanted.first, wanted.second);
+  };
+  auto place = std::lower_bound(world.particles.begin(), world.particles.end(), pair, before);
+  if (place == world.particles.end() || place->first != pair.first ||
+      place->second != pair.second) {
+    place = world.particles.insert(
+        place, make_particles(pair.first, world.soft[at(pair.first)].mesh->topology, pair.second,
+                              world.soft[at(pair.second)].mesh->topology, world.settings.particles,
+                              world.settings.seed));
+  }
+  return *place;
+}
+
+}  // namespace
+
+void find_pairs(World& world, StepWorkspace& workspace) {
+  make_spheres(world, workspace.spheres);
+  workspace.pair_finder.find(workspace.spheres, workspace.pairs);
+  workspace.soft_rigid_pairs.clear();
+  workspace.rigid_pairs.clear();
+  for (ParticlePair& pair : world.particles) pair.near = false;
+  const int soft = static_cast<int>(world.soft.size());
+  for (const auto& [first, second] : workspace.pairs) {
+    if (second < soft) {
+      particles_of(world, {first, second}).near = true;
+    } else if (first < soft) {
+      workspace.soft_rigid_pairs.push_back({first, second - soft});
+    } else {
+      workspace.rigid_pairs.push_back({first - soft, second - soft});
+    }
+  }
+}
+
+}  // namespace pneuma::sim

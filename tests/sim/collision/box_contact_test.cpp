@@ -1,0 +1,213 @@
+// The points in which boxes touch: where they lie, how deep they are, and that they keep their
+// keys.
+#include "sim/collision/box_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <set>
+
+#include "sim/collision/separating_axis.h"
+#include "tests/sim/collision/box_samples.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// How far a point lies outside a box, negative inside.
+double outside(const OrientedBox& box, const Vec3& point) {
+  return (box.to_local(point).cwiseAbs() - box.half).maxCoeff();
+}
+
+TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
+  BoxRandom random(4);
+  int contacts = 0;
+  int of_edges = 0;
+  int of_more_than_four = 0;
+  int beyond_a_thin_box = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const auto [first, second] = sample_boxes(random, i % box_relations);
+    const auto contact = find_box_contact(first, second);
+    const auto least = find_least_overlap(first, second);
+    ASSERT_EQ(contact.has_value(), least.has_value());
+    if (!contact) continue;
+    ++contacts;
+    of_more_than_four += contact->count > 4 ? 1 : 0;
+    ASSERT_EQ(contact->normal, least->normal);
+    ASSERT_EQ(contact->depth, least->overlap);
+    ASSERT_GE(contact->count, 1);
+    ASSERT_LE(contact->count, BoxContact::most_points);
+    // The planes at right angles to the normal that touch the boxes, each on the other's side.
+    const Vec3& n = contact->normal;
+    const double bottom_of_first = first.centre.dot(n) - extent(first, n);
+    const double top_of_second = second.centre.dot(n) + extent(second, n);
+    // What a point may be deep without being out on the other side: the box with the face is that
+    // thick across it; edges may lie in any direction.
+    double thickness = 2.0 * std::min(first.half.minCoeff(), second.half.minCoeff());
+    if (least->kind == AxisKind::first_face) thickness = 2.0 * first.half[least->first_axis];
+    if (least->kind == AxisKind::second_face) thickness = 2.0 * second.half[least->second_axis];
+    std::set<std::uint32_t> keys;
+    for (const auto& [point, depth, key] : contact->points()) {
+      keys.insert(key);
+      ASSERT_GE(depth, 0.0);
+      ASSERT_LE(depth, contact->depth + rounding);
+      const double below = top_of_second - point.dot(n);
+      const double above = point.dot(n) - bottom_of_first;
+      switch (least->kind) {
+        case AxisKind::first_face:
+          ASSERT_NEAR(depth, above, rounding);
+          ASSERT_NEAR(outside(second, point), 0.0, rounding);
+          break;
+        case AxisKind::second_face:
+          ASSERT_NEAR(depth, below, rounding);
+          ASSERT_NEAR(outside(first, point), 0.0, rounding);
+          break;
+        case AxisKind::edges:
+          ++of_edges;
+          ASSERT_NEAR(depth, 2.0 * above, rounding);
+          ASSERT_NEAR(depth, 2.0 * below, rounding);
+          break;
+      }
+      if (depth < thickness) {
+        ASSERT_LE(outside(first, point), rounding) << i;
+        ASSERT_LE(outside(second, point), rounding) << i;
+      } else {
+        ++beyond_a_thin_box;
+      }
+    }
+    ASSERT_EQ(static_cast<int>(keys.size()), contact->count);
+  }
+  EXPECT_GT(contacts, 30'000);
+  EXPECT_GT(of_edges, 3'000);
+  EXPECT_GT(of_more_than_four, 1'000);
+  EXPECT_LT(beyond_a_thin_box, contacts / 3);
+}
+
+OrientedBox cube_at(const Vec3& centre, const Mat3& axes = Mat3::Identity()) {
+  OrientedBox cube;
+  cube.centre = centre;
+  cube.axes = axes;
+  return cube;
+}
+
+/// The contact of a unit cube a little in the top of another one below it.
+std::optional<BoxContact> stacked(const OrientedBox& upper) {
+  return find_box_contact(upper, cube_at(Vec3::Zero()));
+}
+
+std::set<std::uint32_t> keys_of(const BoxContact& contact) {
+  std::set<std::uint32_t> keys;
+  for (const BoxContactPoint& p : contact.points()) keys.insert(p.key);
+  return keys;
+}
+
+TEST(BoxContact, OfStackedCubesIsTheSharedSquare) {
+  const auto contact = stacked(cube_at({0.25, 0.0, 0.99}));
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->normal, Vec3::UnitZ().eval());
+  EXPECT_NEAR(contact->depth, 0.01, 1e-15);
+  ASSERT_EQ(contact->count, 4);
+  Vec3 low = Vec3::Constant(10.0);
+  Vec3 high = Vec3::Constant(-10.0);
+  for (const BoxContactPoint& p : contact->points()) {
+    EXPECT_NEAR(p.depth, 0.01, 1e-15);
+    low = low.cwiseMin(p.point);
+    high = high.cwiseMax(p.point);
+  }
+  EXPECT_NEAR(low.x(), -0.25, 1e-15);
+  EXPECT_NEAR(high.x(), 0.5, 1e-15);
+  EXPECT_NEAR(low.y(), -0.5, 1e-15);
+  EXPECT_NEAR(high.y(), 0.5, 1e-15);
+}
+
+// A square on a square turned by 45 degrees: a regular octagon of apothem 1/2, whose corners are
+// 1 / (2 cos 22.5 degrees) from the middle.
+TEST(BoxContact, OfACubeTurnedByFortyFiveDegreesIsAnOctagon) {
+  const auto contact =
+      stacked(cube_at({0.0, 0.0, 0.99}, turn(Vec3::UnitZ(), std::numbers::pi / 4.0)));
+  ASSERT_TRUE(contact);
+  ASSERT_EQ(contact->count, 8);
+  for (const BoxContactPoint& p : contact->points()) {
+    EXPECT_NEAR(p.point.head<2>().norm(), 0.5 / std::cos(std::numbers::pi / 8.0), 1e-15);
+    EXPECT_NEAR(p.depth, 0.01, 1e-15);
+    // Where an edge of one square crosses an edge of the other: the key's lowest two octal digits
+    // name one of each, 0 to 3 and 4 to 7.
+    EXPECT_NE((p.key & 07U) < 4U, (p.key >> 3U & 07U) < 4U) << std::oct << p.key;
+  }
+  EXPECT_EQ(keys_of(*contact).size(), 8U);
+}
+
+// Two cubes on edge, one above the other, the edges crossing at right angles: each reaches
+// sqrt(1/2) towards the other.
+TEST(BoxContact, OfCrossedEdgesIsOnePointBetweenThem) {
+  const double reach = std::sqrt(0.5);
+  const Mat3 edge_along_x = turn(Vec3::UnitX(), std::numbers::pi / 4.0);
+  const Mat3 edge_along_y = turn(Vec3::UnitY(), std::numbers::pi / 4.0);
+  const auto contact = find_box_contact(cube_at({0.1, 0.2, 2.0 * reach - 0.02}, edge_along_x),
+                                        cube_at(Vec3::Zero(), edge_along_y));
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR((contact->normal - Vec3::UnitZ()).norm(), 0.0, 1e-15);
+  EXPECT_NEAR(contact->depth, 0.02, 1e-15);
+  ASSERT_EQ(contact->count, 1);
+  EXPECT_NEAR((contact->all[0].point - Vec3(0.0, 0.2, reach - 0.01)).norm(), 0.0, 1e-15);
+}
+
+// Edges that touch so lightly that a face is preferred, which the other cube passes by its side:
+// the one point left is the deepest corner, no farther beside the face than below it.
+TEST(BoxContact, HasAPointWhereThePreferredFaceIsMissed) {
+  const OrientedBox first =
+      cube_at({-1.1998, -0.9244, 0.1273}, turn(Vec3(0.1, -0.6, -0.3).normalized(), 0.36));
+  const OrientedBox second = cube_at(Vec3::Zero());
+  ASSERT_TRUE(reference_overlap(first, second));
+  const auto contact = find_box_contact(first, second);
+  ASSERT_TRUE(contact);
+  ASSERT_EQ(contact->count, 1);
+  const auto& [point, depth, key] = contact->all[0];
+  EXPECT_EQ(depth, contact->depth);
+  EXPECT_LT(depth, 0.0005);
+  const double beside = std::max(outside(first, point), outside(second, point));
+  EXPECT_GT(beside, 0.0);
+  EXPECT_LT(beside, depth);
+}
+
+TEST(BoxContact, PushesTheFirstBoxAwayWhicheverIsFirst) {
+  const OrientedBox upper = cube_at({0.1, 0.2, 0.95});
+  const OrientedBox lower = cube_at(Vec3::Zero());
+  EXPECT_EQ(find_box_contact(upper, lower)->normal, Vec3::UnitZ().eval());
+  EXPECT_EQ(find_box_contact(lower, upper)->normal, (-Vec3::UnitZ()).eval());
+}
+
+// While a cube slides, turns and rocks a little on another, its points keep their names: what a
+// response that starts from the last step's impulses needs.
+TEST(BoxContact, KeysStayWhileTheSameEdgesMeet) {
+  BoxRandom random(5);
+  const Mat3 start = turn(Vec3::UnitZ(), 0.3);
+  const auto before = stacked(cube_at({0.1, 0.2, 0.99}, start));
+  ASSERT_TRUE(before);
+  for (int i = 0; i < 1000; ++i) {
+    const Mat3 turned = turn(random.direction(), 1e-3 * random.unit()) * start;
+    const auto after = stacked(cube_at(Vec3(0.1, 0.2, 0.99) + 1e-3 * random.point(), turned));
+    ASSERT_TRUE(after);
+    ASSERT_EQ(keys_of(*after), keys_of(*before));
+  }
+}
+
+// Concentric boxes have no direction to the other's centre; flat and rod-like ones have faces far
+// nearer than others.
+TEST(BoxContact, IsFiniteForConcentricAndThinBoxes) {
+  BoxRandom random(6);
+  for (int i = 0; i < 10'000; ++i) {
+    auto [first, second] = sample_boxes(random, i % box_relations);
+    if (i % 2 == 0) second.centre = first.centre;
+    if (i % 3 == 0) first.half[i % 7 % 3] = 1e-9;
+    if (i % 5 == 0) second.half = Vec3(1e-9, 1e-9, 5.0);
+    const auto contact = find_box_contact(first, second);
+    if (!contact) continue;
+    ASSERT_NEAR(contact->normal.norm(), 1.0, 1e-15);
+    for (const BoxContactPoint& p : contact->points()) {
+      ASSERT_TRUE(p.point.allFinite() && std::isfinite(p.depth));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim

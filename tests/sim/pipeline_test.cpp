@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sim/inspect/checkpoint.h"
+#include "sim/inspect/inspect.h"
+#include "tests/sim/contact_worlds.h"
+#include "tests/support/count_allocations.h"
+
+namespace pneuma::sim {
+namespace {
+
+// Worlds for everything that must hold whatever a world contains.
+
+World spheres_leaning() {
+  // On a slope of five degrees the upper one leans on the lower one.
+  World world;
+  world.settings.gravity = {0.8, 0.0, -9.8};
+  world.settings.ground->friction = 1.0;
+  for (const double x : {0.5, -5.8}) {
+    add(world, sphere({x, 0.0, 4.0}));
+    world.soft.back().material.surface.friction = 1.0;
+  }
+  return world;
+}
+
+World three_spheres_piled() {
+  World world;
+  add(world, sphere({0.0, 0.0, 3.0}));
+  add(world, sphere({7.0, 0.5, 3.0}));
+  add(world, sphere({3.4, 0.0, 9.0}));
+  return world;
+}
+
+World torus_with_cubes() {
+  World world;
+  add(world, torus(6.0, {0.0, 0.0, 2.6}));
+  for (int i = 0; i < 4; ++i) {
+    add(world,
+        make_rigid({2.4, 2.4, 2.4}, {-1.5 + 3.0 * (i % 2), -1.4 + 3.0 * (i / 2), 6.0 + i}, 2.0));
+    world.rigid.back().angular_velocity = {0.3 * i, 0.2, -0.1 * i};
+  }
+  return world;
+}
+
+World stacked_cubes() {
+  World world;
+  for (int i = 0; i < 10; ++i) add(world, make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5 + i}));
+  return world;
+}
+
+struct NamedWorld {
+  std::string name;
+  std::function<World()> make;
+};
+
+void PrintTo(const NamedWorld& world, std::ostream* out) { *out << world.name; }
+
+class AnyWorld : public testing::TestWithParam<NamedWorld> {};
+
+INSTANTIATE_TEST_SUITE_P(Worlds, AnyWorld,
+                         testing::Values(NamedWorld{"meeting_spheres",
+                                                    [] { return meeting_spheres(4.0, 1); }},
+                                         NamedWorld{"spheres_leaning", spheres_leaning},
+                                         NamedWorld{"three_spheres_piled", three_spheres_piled},
+                                         NamedWorld{"box_on_sphere", box_on_sphere},
+                                         NamedWorld{"sphere_on_box", sphere_on_box},
+                                         NamedWorld{"sphere_in_torus", sphere_in_torus},
+                                         NamedWorld{"torus_with_cubes", torus_with_cubes},
+                                         NamedWorld{"stacked_cubes", stacked_cubes}),
+                         [](const auto& name) { return name.param.name; });
+
+std::uint64_t hash_after(World world, double seconds, StepperOptions options = {}) {
+  EXPECT_FALSE(run(world, seconds, std::move(options)));
+  return state_hash(world);
+}
+
+TEST_P(AnyWorld, HasContactsInItsFirstSeconds) {
+  // Without them the tests below would say nothing about contacts.
+  World world = GetParam().make();
+  Stepper stepper(world);
+  std::size_t between_bodies = 0;
+  while (time(world) < 3.0) {
+    ASSERT_FALSE(stepper.step(world));
+    for (const Contact& contact : stepper.contacts()) {
+      between_bodies += contact.second.kind != BodyKind::ground;
+    }
+  }
+  EXPECT_GT(between_bodies, 10U);
+}
+
+TEST_P(AnyWorld, LeavingOutWhatItDoesNotNeedChangesNoBit) {
+  StepperOptions everything;
+  everything.plan = make_full_plan();
+  EXPECT_EQ(hash_after(GetParam().make(), 3.0, everything), hash_after(GetParam().make(), 3.0));
+}
+
+TEST_P(AnyWorld, EndsTheSameForAnyNumberOfThreadsAndTwiceInARow) {
+  const std::uint64_t expected = hash_after(GetParam().make(), 3.0);
+  for (const int threads : {1, 2, 3}) {
+    StepperOptions options;
+    options.threads = threads;
+    EXPECT_EQ(hash_after(GetParam().make(), 3.0, options), expected) << threads;
+  }
+}
+
+TEST_P(AnyWorld, ContinuesBitForBitFromACheckpointInTheMiddleOfContacts) {
+  const std::uint64_t expected = hash_after(GetParam().make(), 3.0);
+  for (const double seconds : {0.5, 1.0, 2.0}) {
+    World before = GetParam().make();
+    ASSERT_FALSE(run(before, seconds));
+    World after = GetParam().make();
+    load_state(save_state(before), after);
+    EXPECT_EQ(hash_after(after, 3.0 - seconds), expected) << seconds;
+  }
+}
+
+TEST_P(AnyWorld, AllocatesNothingOnceWarm) {
+  World world = GetParam().make();
+  Stepper stepper(world);
+  while (time(world) < 20.0) ASSERT_FALSE(stepper.step(world));
+  const long before = allocation_count();
+  while (time(world) < 22.0) ASSERT_FALSE(stepper.step(world));
+  EXPECT_EQ(allocation_count() - before, 0);
+}
+
+std::vector<std::string> left_out(const World& world) {
+  const Plan plan = make_plan(world);
+  std::vector<std::string> names;
+  for (int i = 0; i < stage_count; ++i) {
+    if (!plan.runs(Stage{i})) names.emplace_back(to_string(Stage{i}));
+  }
+  for (int i = 0; i < contact_kind_count; ++i) {
+    if (!plan.runs(ContactKind{i})) names.emplace_back(to_string(ContactKind{i}));
+  }
+  return names;
+}
+
+TEST(Plan, HasWhatTheKindsOfBodiesNeed) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(left_out(spheres_leaning()),
+            (Names{"integrate_rigid", "rigid_ground", "soft_rigid", "rigid_rigid"}));
+  EXPECT_EQ(left_out(box_on_sphere()), (Names{"move_particles", "soft_soft", "rigid_rigid"}));
+  EXPECT_EQ(left_out(stacked_cubes()),
+            (Names{"integrate_soft", "move_particles", "soft_ground", "soft_soft", "soft_rigid"}));
+  EXPECT_EQ(left_out(torus_with_cubes()), (Names{"move_particles", "soft_soft"}));
+  World all = torus_with_cubes();
+  add(all, sphere({0.0, 0.0, 20.0}));
+  EXPECT_EQ(left_out(all), Names{});
+  all.settings.ground.reset();
+  EXPECT_EQ(left_out(all), (Names{"soft_ground", "rigid_ground"}));
+}
+
+TEST(Plan, OneBodyHasNoMemoryForPairs) {
+  World soft;
+  add(soft, sphere({0.0, 0.0, 3.5}));
+  ASSERT_FALSE(run(soft, 2.0));
+  EXPECT_EQ(soft.particles.capacity(), 0U);
+  EXPECT_EQ(soft.resting_impulses.capacity(), 0U);
+
+  World box;
+  add(box, make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
+  EXPECT_EQ(left_out(box),
+            (std::vector<std::string>{"integrate_soft", "find_pairs", "move_particles",
+                                      "soft_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
+  ASSERT_FALSE(run(box, 2.0));
+  EXPECT_EQ(box.particles.capacity(), 0U);
+  ASSERT_EQ(box.resting_impulses.size(), 4U) << "its four corners on the ground";
+  for (const RestingImpulse& resting : box.resting_impulses) EXPECT_EQ(resting.second, -1);
+}
+
+TEST(Resting, ImpulsesOfAStackCarryTheWeightAboveThem) {
+  // In every step the impulses between two cubes carry what is above them: (10 - i) m g h each.
+  World world = stacked_cubes();
+  ASSERT_FALSE(run(world, 20.0));
+  std::vector<double> carried(10, 0.0);
+  for (const RestingImpulse& resting : world.resting_impulses) {
+    // Of cubes i and i + 1 the first is the lower: it is pushed down.
+    const std::size_t interface = at(resting.second == -1 ? 0 : resting.second);
+    carried[interface] += std::abs(resting.impulse.z());
+  }
+  for (int i = 0; i < 10; ++i) {
+    const double weight = (10 - i) * 9.81 / 60.0;
+    // Drag takes a hundredth of what gravity gave in the step; sweeps end at 1e-6.
+    EXPECT_NEAR(carried[at(i)] / weight, 0.99, 1e-3) << i;
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim
