@@ -1,0 +1,191 @@
+#include "scenes/overrides.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "scenes/nearest.h"
+#include "scenes/sections.h"
+
+namespace pneuma::scenes {
+namespace {
+
+/// Thrown and caught in this file only: why an override cannot be applied.
+struct Refusal {
+  std::string message;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> split(std::string_view path) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0;;) {
+    const std::size_t dot = path.find('.', start);
+    parts.emplace_back(path.substr(start, dot - start));
+    if (dot == std::string_view::npos) return parts;
+    start = dot + 1;
+  }
+}
+
+/// A TOML value, or else a bare word.
+Value parse_value(std::string_view text, int index) {
+  Value value;
+  value.at = {1, 1, index};
+  if (text.find_first_of("\r\n") != std::string_view::npos) {
+    throw Refusal{"the value holds a line break; write it on one line"};
+  }
+  try {
+    value.data = parse_document(fmt::format("value = {}", text), index).front().value.data;
+  } catch (const SyntaxError& error) {
+    const bool meant_as_toml =
+        !text.empty() && std::string_view("[{\"'").find(text[0]) != text.npos;
+    if (meant_as_toml) throw Refusal{fmt::format("the value cannot be read: {}", error.what())};
+    value.data = std::string(text);
+  }
+  return value;
+}
+
+void put(Table& table, const std::string& key, Value value, bool where_it_applies) {
+  if (Member* member = find(table, key)) {
+    member->value = std::move(value);
+  } else {
+    const Origin at = value.at;
+    table.push_back(
+        {.key = key, .at = at, .value = std::move(value), .where_it_applies = where_it_applies});
+  }
+}
+
+class Override {
+ public:
+  Override(Table& document, int index) : document_(document), index_(index) {
+    Scene scene;
+    for (const Section& section : fixed_sections(scene)) {
+      if (!section.table.empty()) table_names_.push_back(section.table);
+    }
+    if (Member* body = find(document, "body")) bodies_ = std::get_if<Array>(&body->value.data);
+  }
+
+  void apply(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) {
+      throw Refusal{"expected PATH=VALUE, such as duration=2 or body.k=200"};
+    }
+    const auto path = split(trimmed(text.substr(0, equals)));
+    if (std::any_of(path.begin(), path.end(), [](const auto& part) { return part.empty(); })) {
+      throw Refusal{"expected PATH=VALUE, where PATH is names with full stops between them"};
+    }
+    value_ = parse_value(trimmed(text.substr(equals + 1)), index_);
+    if (path[0] == "body")
+      put_into_bodies(path);
+    else if (path.size() == 1 || is_table(path[0]))
+      put_into_table(path);
+    else
+      put_into_named_body(path);
+  }
+
+ private:
+  bool is_table(std::string_view name) const {
+    return std::find(table_names_.begin(), table_names_.end(), name) != table_names_.end();
+  }
+
+  /// "simulation.particles.max_sweeps": as many tables as there are, then one key.
+  void put_into_table(const std::vector<std::string>& path) {
+    Table* table = &document_;
+    std::string walked;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const std::string name = walked.empty() ? path[i] : walked + "." + path[i];
+      const bool last = i + 1 == path.size();
+      if (!is_table(name)) {
+        if (!last) throw Refusal{fmt::format("{} is a key, and has no keys of its own", name)};
+        put(*table, path[i], value_, false);
+        return;
+      }
+      table = enter(*table, path[i]);
+      if (table == nullptr) return;
+      walked = name;
+    }
+    throw Refusal{fmt::format("{} is a table; set its keys one by one", walked)};
+  }
+
+  /// The table within a table, made if it is missing; null, for the reader to report, when the
+  /// file has something else in its place.
+  Table* enter(Table& table, const std::string& name) const {
+    if (find(table, name) == nullptr) {
+      const Origin at = {1, 1, index_};
+      table.push_back({.key = name, .at = at, .value = {at, Table()}});
+    }
+    return std::get_if<Table>(&find(table, name)->value.data);
+  }
+
+  std::size_t body_count() const { return bodies_ == nullptr ? 0 : bodies_->size(); }
+
+  void put_into_bodies(const std::vector<std::string>& path) {
+    if (path.size() == 2) {
+      for (std::size_t i = 0; i < body_count(); ++i) put_into_body(i, path[1], true);
+      return;
+    }
+    if (path.size() != 3) throw Refusal{"expected body.KEY=VALUE or body.NUMBER.KEY=VALUE"};
+    std::size_t number = 0;
+    const char* end = path[1].data() + path[1].size();
+    const auto [stop, error] = std::from_chars(path[1].data(), end, number);
+    if (error != std::errc() || stop != end || number < 1 || number > body_count()) {
+      throw Refusal{fmt::format("there is no body number {}; the scene has {}, counted from 1",
+                                in_quotes(path[1]), body_count())};
+    }
+    put_into_body(number - 1, path[2], false);
+  }
+
+  void put_into_named_body(const std::vector<std::string>& path) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < body_count(); ++i) names.push_back(body_name(i));
+    const auto found = std::find(names.begin(), names.end(), path[0]);
+    if (found == names.end()) {
+      std::vector<std::string_view> candidates(table_names_);
+      candidates.push_back("body");
+      candidates.insert(candidates.end(), names.begin(), names.end());
+      throw Refusal{fmt::format("there is no table or body {}{}", in_quotes(path[0]),
+                                suggestion(path[0], candidates))};
+    }
+    if (path.size() != 2) throw Refusal{"expected NAME.KEY=VALUE"};
+    put_into_body(static_cast<std::size_t>(found - names.begin()), path[1], false);
+  }
+
+  std::string body_name(std::size_t i) const {
+    const auto* table = std::get_if<Table>(&(*bodies_)[i].data);
+    const Member* name = table == nullptr ? nullptr : find(*table, "name");
+    const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value.data);
+    return text == nullptr ? default_name(i) : *text;
+  }
+
+  void put_into_body(std::size_t i, const std::string& key, bool where_it_applies) {
+    if (auto* table = std::get_if<Table>(&(*bodies_)[i].data)) {
+      put(*table, key, value_, where_it_applies);
+    }
+  }
+
+  Table& document_;
+  int index_;
+  std::vector<std::string_view> table_names_;
+  Array* bodies_ = nullptr;
+  Value value_;
+};
+
+}  // namespace
+
+void apply_overrides(std::span<const std::string> overrides, Table& document, Report& report) {
+  for (std::size_t i = 0; i < overrides.size(); ++i) {
+    const int index = static_cast<int>(i);
+    try {
+      Override(document, index).apply(overrides[i]);
+    } catch (const Refusal& refusal) {
+      report.add({0, 0, index}, refusal.message);
+    }
+  }
+}
+
+}  // namespace pneuma::scenes

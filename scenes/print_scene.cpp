@@ -1,0 +1,121 @@
+#include "scenes/print_scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/nearest.h"
+#include "scenes/sections.h"
+
+namespace pneuma::scenes {
+namespace {
+
+std::string comment(const Key& key, const std::string& value, const std::string& default_value) {
+  const bool changed = value != default_value;
+  std::string text = fmt::format("# {} ", changed ? '*' : ' ');
+  if (!key.unit.empty()) text += fmt::format("{}: ", key.unit);
+  text += key.meaning;
+  if (!changed) return text;
+  return text + (default_value.empty() ? " (not set by default)"
+                                       : fmt::format(" (default {})", default_value));
+}
+
+/// The keys that apply, as TOML lines. `defaults` is the same section of a struct as it is made.
+std::string section_text(const Section& section, const Section& defaults, bool comments) {
+  std::string text;
+  for (std::size_t i = 0; i < section.keys.size(); ++i) {
+    const Key& key = section.keys[i];
+    const std::string value = value_text(key.slot);
+    if (!key.applies || value.empty()) continue;
+    const std::string line = fmt::format("{} = {}", key.name, value);
+    if (comments) {
+      text +=
+          fmt::format("{:<36}  {}\n", line, comment(key, value, value_text(defaults.keys[i].slot)));
+    } else {
+      text += line + '\n';
+    }
+  }
+  return text;
+}
+
+/// Sections point at members that can be set, so this works on a copy.
+std::string scene_text(Scene scene, bool comments) {
+  Scene default_scene;
+  const std::vector<Section> sections = fixed_sections(scene);
+  const std::vector<Section> defaults = fixed_sections(default_scene);
+  std::string text;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (!sections[i].table.empty()) text += fmt::format("\n[{}]\n", sections[i].table);
+    text += section_text(sections[i], defaults[i], comments);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    BodyScene default_body;
+    default_body.name = default_name(i);
+    if (scene.bodies[i].kind == BodyKind::rigid) default_body.shape = Shape::box;
+    text += "\n[[body]]\n";
+    text += section_text(body_section(scene.bodies[i]), body_section(default_body), comments);
+  }
+  return text;
+}
+
+/// What a slot takes, in words.
+struct TypeText {
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(const double*) const { return "number"; }
+  std::string operator()(const int*) const { return "whole number"; }
+  std::string operator()(const std::uint64_t*) const { return "whole number"; }
+  std::string operator()(const bool*) const { return "true or false"; }
+  std::string operator()(const std::string*) const { return "string"; }
+  std::string operator()(const Vec3*) const { return "3 numbers"; }
+  std::string operator()(const std::optional<double>*) const { return "number"; }
+  std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
+  std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
+  std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
+  std::string operator()(const std::optional<sim::Surface>*) const { return "true or false"; }
+  std::string operator()(const Word& word) const {
+    return fmt::format("\"{}\"", fmt::join(word.words, "\", \""));
+  }
+};
+
+std::string key_reference(const Key& key) {
+  const std::string range = key.range.text(key.name);
+  const std::string value = value_text(key.slot);
+  std::string text = fmt::format("  {:<18}{}", key.name, key.meaning);
+  if (!key.only_for.empty()) text += fmt::format(" ({} only)", key.only_for);
+  text += fmt::format("\n  {:<18}  {}", "", std::visit(TypeText{}, key.slot));
+  if (!range.empty()) text += fmt::format(", {}", range);
+  if (!key.unit.empty()) text += fmt::format(" {}", key.unit);
+  return text + (value.empty() ? "; not set by default\n" : fmt::format("; default {}\n", value));
+}
+
+}  // namespace
+
+std::string print_scene(const Scene& scene) {
+  return fmt::format("# The effective scene {}. * marks values that are not the default.\n{}",
+                     in_quotes(scene.name), scene_text(scene, true));
+}
+
+std::uint64_t scene_fingerprint(const Scene& scene) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : scene_text(scene, false)) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+std::string scene_reference() {
+  Scene scene;
+  BodyScene body;
+  body.name = default_name(0);
+  std::vector<Section> sections = fixed_sections(scene);
+  sections.push_back(body_section(body));
+  std::string text;
+  for (const Section& section : sections) {
+    if (!text.empty()) text += '\n';
+    text += place_of(section.table);
+    text += '\n';
+    for (const Key& key : section.keys) text += key_reference(key);
+  }
+  return text;
+}
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,112 @@
+// A scene as plain data: what a scene file says, with every default filled in.
+// Simulation settings and materials are the simulation's own structs, so that a default is written
+// once. The keys that set these members, with their ranges, are in sections.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/world.h"
+
+namespace pneuma::scenes {
+
+using sim::Vec3;
+
+enum class BodyKind { soft, rigid };
+enum class Shape { sphere, torus, box, icosphere };
+
+/// One body, or a block of copies of it.
+struct BodyScene {
+  std::string name;  // unique; by default "body1", "body2", ...
+  BodyKind kind = BodyKind::soft;
+
+  Shape shape = Shape::sphere;  // a rigid body is always a box
+  double radius = 3.0;          // m: sphere, icosphere; of a torus the centre line
+  double tube_radius = 1.0;     // m: torus
+  int stacks = 8;               // sphere, torus
+  int slices = 8;               // sphere, torus
+  int subdivisions = 2;         // icosphere
+  int divisions = 4;            // soft box: squares along each side of a face
+  Vec3 size = {2.0, 2.0, 2.0};  // m: box
+
+  sim::SoftMaterial material;  // soft
+
+  double mass = sim::RigidBox{}.mass;    // kg: rigid
+  double rho_g = sim::RigidBox{}.rho_g;  // rigid; a soft body's is in its material
+  sim::Surface surface;                  // likewise
+
+  Vec3 position = Vec3::Zero();          // m, of the shape's centre
+  Vec3 rotation = Vec3::Zero();          // degrees about world x, then y, then z
+  Vec3 velocity = Vec3::Zero();          // m/s
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
+
+  std::array<int, 3> copies = {1, 1, 1};  // along x, y, z
+  Vec3 spacing = {3.0, 3.0, 3.0};         // m between copies
+  double jitter = 0.0;  // m: each copy's position is moved by up to this, from the seed
+  bool tumble = false;  // each copy starts turned at random, from the seed
+
+  // "#rrggbb". One: plain; two: along colour_axis; three: along body x, y and z.
+  std::vector<std::string> colours = {"#6b8e23", "#d9381e"};
+  Vec3 colour_axis = {0.3, 0.0, 1.0};
+};
+
+/// Without an eye and a target the camera is placed so that every body is in view over the whole
+/// run.
+struct CameraScene {
+  std::optional<Vec3> eye;      // m
+  std::optional<Vec3> target;   // m
+  double azimuth = -60.0;       // degrees from +x towards +y: where an automatic camera stands
+  double elevation = 22.0;      // degrees above the horizon
+  double field_of_view = 35.0;  // degrees, vertical
+};
+
+struct PictureScene {
+  int width = 1280;
+  int height = 720;
+  int frames_per_second = 30;  // divides the steps per second
+  int samples = 4;
+  bool shadows = true;
+  bool caption = true;
+  bool grid = true;  // draw the ground plane with its grid, where the scene has a ground
+};
+
+/// What a scene may ask for at most, so that a slip of the pen does not fill the memory or run for
+/// days. A scene that means it raises them.
+struct Limits {
+  int bodies = 20'000;  // counted with copies
+  int vertices_per_body = 100'000;
+  int vertices = 2'000'000;  // of all bodies, counted with copies
+  int frames = 36'000;       // twenty minutes at 30 frames per second
+  double memory_gib = 4.0;   // GiB, as estimated by estimated_memory_gib
+};
+
+struct Scene {
+  std::string name;  // the file's name without its ending: frames are called NAME_00042.png
+  std::string title;
+  std::string figure;               // the paper's figure or benchmark row, as people call it
+  std::optional<double> paper_fps;  // what the paper measured
+  double duration = 10.0;           // s; a whole number of frames
+
+  sim::Settings settings;
+  std::vector<BodyScene> bodies;
+  CameraScene camera;
+  PictureScene picture;
+  Limits limits;
+};
+
+/// Vertices of one copy; a rigid box has 8.
+std::int64_t vertex_count(const BodyScene& body);
+
+/// How many bodies the copies make.
+std::int64_t copy_count(const BodyScene& body);
+
+/// Frames of the whole run, without the one at time zero.
+std::int64_t frame_count(const Scene& scene);
+
+/// A rough estimate, from the sizes of meshes, state and picture: within a factor of two or so.
+double estimated_memory_gib(const Scene& scene);
+
+}  // namespace pneuma::scenes

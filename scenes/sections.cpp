@@ -1,0 +1,287 @@
+#include "scenes/sections.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "scenes/text_checks.h"
+
+namespace pneuma::scenes {
+namespace {
+
+// Positions and lengths end here: beyond, the pictures' single precision resolves no better than
+// 6 cm.
+constexpr double farthest = 1e6;
+
+Range any() { return {}; }
+Range at_least(double low) { return {.low = low}; }
+Range above(double low) { return {.low = low, .low_open = true}; }
+Range between(double low, double high) { return {.low = low, .high = high}; }
+Range above_to(double low, double high) { return {.low = low, .high = high, .low_open = true}; }
+Range from_below(double low, double high) { return {.low = low, .high = high, .high_open = true}; }
+Range one_of(std::vector<int> values) { return {.only = std::move(values)}; }
+Range length() { return above_to(0, farthest); }
+Range place() { return between(-farthest, farthest); }
+
+template <class Enum>
+using Named = std::pair<Enum, std::string_view>;
+
+constexpr std::array integrators = {
+    Named<sim::Integrator>{sim::Integrator::martin, "martin"},
+    Named<sim::Integrator>{sim::Integrator::symplectic_euler, "symplectic_euler"},
+    Named<sim::Integrator>{sim::Integrator::velocity_verlet, "velocity_verlet"},
+    Named<sim::Integrator>{sim::Integrator::rk4, "rk4"},
+};
+constexpr std::array pressures = {
+    Named<sim::PressureWeighting>{sim::PressureWeighting::uniform, "uniform"},
+    Named<sim::PressureWeighting>{sim::PressureWeighting::valence, "valence"},
+};
+constexpr std::array dampings = {
+    Named<sim::Damping>{sim::Damping::dashpot, "dashpot"},
+    Named<sim::Damping>{sim::Damping::literal, "literal"},
+};
+constexpr std::array kinds = {
+    Named<BodyKind>{BodyKind::soft, "soft"},
+    Named<BodyKind>{BodyKind::rigid, "rigid"},
+};
+constexpr std::array shapes = {
+    Named<Shape>{Shape::sphere, "sphere"},
+    Named<Shape>{Shape::torus, "torus"},
+    Named<Shape>{Shape::box, "box"},
+    Named<Shape>{Shape::icosphere, "icosphere"},
+};
+
+/// `names` must outlive the word.
+template <class Enum, std::size_t Count>
+Word word(Enum& member, const std::array<Named<Enum>, Count>& names) {
+  Word result;
+  result.member = &member;
+  for (const auto& [value, name] : names) result.words.push_back(name);
+  result.get = [&member, &names] {
+    std::size_t i = 0;
+    while (i + 1 < Count && names[i].first != member) ++i;
+    return i;
+  };
+  result.set = [&member, &names](std::size_t i) { member = names[i].first; };
+  return result;
+}
+
+/// The structs for which a key is meant, and whether the one at hand is such.
+struct Applicability {
+  std::string_view only_for;
+  bool applies;
+};
+
+Key only(const Applicability& applicability, Key key) {
+  key.only_for = applicability.only_for;
+  key.applies = applicability.applies;
+  return key;
+}
+
+Key selector(Key key) {
+  key.selects = true;
+  return key;
+}
+
+}  // namespace
+
+Section top_section(Scene& scene) {
+  return {
+      .table = "",
+      .what = "a scene",
+      .keys = {
+          {"title", &scene.title, any(), "", "what the scene shows", check_line},
+          {"figure", &scene.figure, any(), "", "the paper's figure or benchmark row", check_line},
+          {"paper_fps", &scene.paper_fps, above(0), "frames/s",
+           "frame rate that the paper measured"},
+          {"duration", &scene.duration, above_to(0, 1e6), "s",
+           "length of the run, a whole number of frames"},
+      }};
+}
+
+Section simulation_section(sim::Settings& settings) {
+  return {.table = "simulation",
+          .what = "the simulation",
+          .keys = {
+              {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
+               "simulation steps; the time step is the inverse"},
+              {"integrator", word(settings.integrator, integrators), any(), "",
+               "how soft bodies are stepped"},
+              {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
+              {"skin_thickness", &settings.skin_thickness, length(), "m",
+               "features nearer than twice this are in contact"},
+              {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",
+               "over all contacts of a step"},
+              {"seed", &settings.seed, at_least(0), "",
+               "of everything random: particles, jitter, tumble"},
+          }};
+}
+
+Section particles_section(sim::ParticleSettings& particles) {
+  return {.table = "simulation.particles",
+          .what = "the collision particles",
+          .keys = {
+              {"per_vertex", &particles.per_vertex, above_to(0, 100), "",
+               "particles per vertex of a body, at least one per body"},
+              {"attraction", &particles.attraction, at_least(0), "",
+               "pull of the other body's particles, in units of the own ones' push"},
+              {"max_sweeps", &particles.max_sweeps, between(1, 10'000), "",
+               "of the refinement loop per step"},
+              {"settled_below", &particles.settled_below, between(0, 1e9), "",
+               "the loop ends when fewer particles than this move"},
+          }};
+}
+
+Section ground_section(sim::Settings& settings) {
+  const bool present = settings.ground.has_value();
+  const Slot restitution = present ? Slot(&settings.ground->restitution) : Slot();
+  const Slot friction = present ? Slot(&settings.ground->friction) : Slot();
+  const Applicability there{"a ground that is present", present};
+  return {.table = "ground",
+          .what = present ? "a ground" : "no ground (present = false)",
+          .keys = {
+              selector({"present", &settings.ground, any(), "",
+                        "whether the plane z = 0 holds bodies up"}),
+              only(there, {"restitution", restitution, between(0, 1), "",
+                           "0 keeps no normal velocity, 1 keeps all"}),
+              only(there, {"friction", friction, at_least(0), "", "Coulomb's coefficient"}),
+          }};
+}
+
+Section camera_section(CameraScene& camera) {
+  const bool placed = camera.eye.has_value() || camera.target.has_value();
+  const Applicability automatic{"a camera without eye and target", !placed};
+  return {.table = "camera",
+          .what = placed ? "a camera with an eye and a target" : "an automatic camera",
+          .keys = {
+              selector({"eye", &camera.eye, place(), "m", "where the camera stands"}),
+              selector({"target", &camera.target, place(), "m", "the point it looks at"}),
+              only(automatic, {"azimuth", &camera.azimuth, between(-360, 360), "degrees",
+                               "of the automatic camera's place, from +x towards +y"}),
+              only(automatic, {"elevation", &camera.elevation, between(-89, 89), "degrees",
+                               "of the automatic camera's place above the horizon"}),
+              {"field_of_view", &camera.field_of_view, between(1, 120), "degrees", "vertical"},
+          }};
+}
+
+Section picture_section(PictureScene& picture) {
+  return {
+      .table = "picture",
+      .what = "the picture",
+      .keys = {
+          {"width", &picture.width, between(16, 8192), "pixels", "of a frame"},
+          {"height", &picture.height, between(16, 8192), "pixels", "of a frame"},
+          {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
+           "of simulated time; divides steps_per_second"},
+          {"samples", &picture.samples, one_of({1, 2, 4}), "",
+           "per pixel; four cost about 2.6 times as much as one"},
+          {"shadows", &picture.shadows, any(), "", "draw shadows"},
+          {"caption", &picture.caption, any(), "", "draw the caption"},
+          {"grid", &picture.grid, any(), "", "draw the ground with its grid, where there is one"},
+      }};
+}
+
+Section limits_section(Limits& limits) {
+  return {
+      .table = "limits",
+      .what = "the limits",
+      .keys = {
+          {"bodies", &limits.bodies, between(1, 10'000'000), "", "at most, with copies"},
+          // Features (vertices, edges and triangles: six per vertex) are numbered by an int.
+          {"vertices_per_body", &limits.vertices_per_body, between(1, 100'000'000), "", "at most"},
+          {"vertices", &limits.vertices, between(1, 2e9), "", "of all bodies, with copies"},
+          {"frames", &limits.frames, between(1, 1e9), "", "of the run, at most"},
+          {"memory_gib", &limits.memory_gib, above(0), "GiB", "estimated, at most"},
+      }};
+}
+
+Section body_section(BodyScene& body) {
+  const bool soft = body.kind == BodyKind::soft;
+  const bool sphere = soft && body.shape == Shape::sphere;
+  const bool torus = soft && body.shape == Shape::torus;
+  const bool icosphere = soft && body.shape == Shape::icosphere;
+  const bool box = !soft || body.shape == Shape::box;
+
+  const Applicability round{"spheres, icospheres and tori", sphere || torus || icosphere};
+  const Applicability tori{"tori", torus};
+  const Applicability stacked{"spheres and tori", sphere || torus};
+  const Applicability icospheres{"icospheres", icosphere};
+  const Applicability soft_boxes{"soft boxes", soft && box};
+  const Applicability boxes{"boxes", box};
+  const Applicability soft_bodies{"soft bodies", soft};
+  const Applicability rigid_bodies{"rigid bodies", !soft};
+  const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
+
+  const Word kind = word(body.kind, kinds);
+  const Word shape = word(body.shape, shapes);
+  sim::SoftMaterial& material = body.material;
+  sim::Surface& surface = soft ? material.surface : body.surface;
+  double& rho_g = soft ? material.rho_g : body.rho_g;
+  return {
+      .table = "body",
+      .what = fmt::format("a {} {}", kind.words[kind.get()], shape.words[shape.get()]),
+      .keys = {
+          {"name", &body.name, any(), "", "of this body alone", check_body_name},
+          selector({"kind", kind, any(), "", "gas-filled membrane, or box that keeps its shape"}),
+          selector({"shape", shape, any(), "", "a rigid body is always a box"}),
+          only(round, {"radius", &body.radius, length(), "m",
+                       "of a sphere; of the centre line of a torus"}),
+          only(tori, {"tube_radius", &body.tube_radius, length(), "m", "less than radius"}),
+          only(stacked,
+               {"stacks", &body.stacks, between(torus ? 3 : 2, 10'000), "",
+                "circles; of a sphere one fewer, between its poles; of a torus 3 or more"}),
+          only(stacked,
+               {"slices", &body.slices, between(3, 10'000), "", "vertices of each circle"}),
+          only(icospheres, {"subdivisions", &body.subdivisions, between(0, 11), "",
+                            "10 * 4^subdivisions + 2 vertices"}),
+          only(soft_boxes, {"divisions", &body.divisions, between(1, 4'000), "",
+                            "squares along each side of a face"}),
+          only(boxes, {"size", &body.size, length(), "m", "full lengths along x, y, z"}),
+
+          only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
+          only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),
+          only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K", "of the gas"}),
+          only(soft_bodies, {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
+          only(soft_bodies, {"pressure", word(material.pressure, pressures), any(), "",
+                             "uniform: conservative; valence: the paper's"}),
+          only(soft_bodies, {"damping", word(material.damping, dampings), any(), "",
+                             "dashpot: continuous; literal: the paper's"}),
+          only(soft_bodies, {"k_max", &material.k_max, above(0), "N/m",
+                             "springs of this k or more are damped most"}),
+          only(rigid_bodies, {"mass", &body.mass, above(0), "kg", "of the whole box"}),
+          {"rho_g", &rho_g, from_below(0, 1), "", "share of velocity lost per 1/60 s"},
+          {"restitution", &surface.restitution, between(0, 1), "",
+           "0 keeps no normal velocity, 1 keeps all"},
+          {"friction", &surface.friction, at_least(0), "", "Coulomb's coefficient"},
+
+          {"position", &body.position, place(), "m", "of the shape's centre"},
+          {"rotation", &body.rotation, between(-360, 360), "degrees",
+           "about world x, then y, then z"},
+          {"velocity", &body.velocity, place(), "m/s", "at the start"},
+          {"angular_velocity", &body.angular_velocity, place(), "rad/s", "about world axes"},
+
+          {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
+          {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},
+          {"jitter", &body.jitter, between(0, farthest), "m",
+           "each copy is moved at random by up to this"},
+          {"tumble", &body.tumble, any(), "", "each copy starts turned at random"},
+          selector({"colours", &body.colours, any(), "",
+                    "one to three: plain, along colour_axis, along x, y, z", check_colour}),
+          only(two_colours,
+               {"colour_axis", &body.colour_axis, any(), "", "of two colours' gradient"}),
+      }};
+}
+
+std::vector<Section> fixed_sections(Scene& scene) {
+  return {top_section(scene),
+          simulation_section(scene.settings),
+          particles_section(scene.settings.particles),
+          ground_section(scene.settings),
+          camera_section(scene.camera),
+          picture_section(scene.picture),
+          limits_section(scene.limits)};
+}
+
+std::string default_name(std::size_t index) { return fmt::format("body{}", index + 1); }
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,19 @@
+// What strings of a scene file may hold. Each check gives the reason for a refusal, or nothing.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pneuma::scenes {
+
+/// One line that fits a list and a caption: at most 200 characters of printable ASCII.
+std::string check_line(std::string_view text);
+
+/// A body's name: a letter, then letters, digits, `_` and `-`; at most 64. Not a table's name,
+/// because overrides address both in the same way.
+std::string check_body_name(std::string_view text);
+
+/// "#rrggbb".
+std::string check_colour(std::string_view text);
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,163 @@
+#include "tests/scenes/same_scene.h"
+
+#include <cmath>
+#include <optional>
+
+namespace pneuma::scenes {
+namespace {
+
+// Each structured binding names all members of its struct, so that a new member does not compile
+// until it is compared here.
+
+bool same(double a, double b) { return a == b && std::signbit(a) == std::signbit(b); }
+bool same(int a, int b) { return a == b; }
+bool same(std::uint64_t a, std::uint64_t b) { return a == b; }
+bool same(const std::string& a, const std::string& b) { return a == b; }
+
+bool same(const Vec3& a, const Vec3& b) {
+  return same(a.x(), b.x()) && same(a.y(), b.y()) && same(a.z(), b.z());
+}
+
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b) {
+  return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+
+class Comparison {
+ public:
+  template <class T>
+  void member(const char* name, const T& a, const T& b) {
+    if constexpr (requires { same(a, b); }) {
+      if (!same(a, b)) note(name);
+    } else {
+      if (!(a == b)) note(name);
+    }
+  }
+  const std::string& first() const { return first_; }
+
+ private:
+  void note(const char* name) {
+    if (first_.empty()) first_ = name;
+  }
+  std::string first_;
+};
+
+void compare(Comparison& c, const sim::Surface& a, const sim::Surface& b) {
+  const auto& [restitution, friction] = a;
+  c.member("restitution", restitution, b.restitution);
+  c.member("friction", friction, b.friction);
+}
+
+void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial& b) {
+  const auto& [k, n, temperature, vertex_mass, pressure, damping, rho_g, k_max, surface] = a;
+  c.member("k", k, b.k);
+  c.member("n", n, b.n);
+  c.member("temperature", temperature, b.temperature);
+  c.member("vertex_mass", vertex_mass, b.vertex_mass);
+  c.member("pressure", pressure, b.pressure);
+  c.member("damping", damping, b.damping);
+  c.member("rho_g", rho_g, b.rho_g);
+  c.member("k_max", k_max, b.k_max);
+  compare(c, surface, b.surface);
+}
+
+void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
+  const auto& [name, kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions,
+               size, material, mass, rho_g, surface, position, rotation, velocity, angular_velocity,
+               copies, spacing, jitter, tumble, colours, colour_axis] = a;
+  c.member("name", name, b.name);
+  c.member("kind", kind, b.kind);
+  c.member("shape", shape, b.shape);
+  c.member("radius", radius, b.radius);
+  c.member("tube_radius", tube_radius, b.tube_radius);
+  c.member("stacks", stacks, b.stacks);
+  c.member("slices", slices, b.slices);
+  c.member("subdivisions", subdivisions, b.subdivisions);
+  c.member("divisions", divisions, b.divisions);
+  c.member("size", size, b.size);
+  compare(c, material, b.material);
+  c.member("mass", mass, b.mass);
+  c.member("body rho_g", rho_g, b.rho_g);
+  compare(c, surface, b.surface);
+  c.member("position", position, b.position);
+  c.member("rotation", rotation, b.rotation);
+  c.member("velocity", velocity, b.velocity);
+  c.member("angular_velocity", angular_velocity, b.angular_velocity);
+  c.member("copies", copies, b.copies);
+  c.member("spacing", spacing, b.spacing);
+  c.member("jitter", jitter, b.jitter);
+  c.member("tumble", tumble, b.tumble);
+  c.member("colours", colours, b.colours);
+  c.member("colour_axis", colour_axis, b.colour_axis);
+}
+
+void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
+  const auto& [steps_per_second, integrator, gravity, ground, skin_thickness, particles,
+               impulse_sweeps, seed] = a;
+  const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
+  c.member("steps_per_second", steps_per_second, b.steps_per_second);
+  c.member("integrator", integrator, b.integrator);
+  c.member("gravity", gravity, b.gravity);
+  c.member("ground.present", ground.has_value(), b.ground.has_value());
+  if (ground && b.ground) compare(c, *ground, *b.ground);
+  c.member("skin_thickness", skin_thickness, b.skin_thickness);
+  c.member("per_vertex", per_vertex, b.particles.per_vertex);
+  c.member("attraction", attraction, b.particles.attraction);
+  c.member("max_sweeps", max_sweeps, b.particles.max_sweeps);
+  c.member("settled_below", settled_below, b.particles.settled_below);
+  c.member("impulse_sweeps", impulse_sweeps, b.impulse_sweeps);
+  c.member("seed", seed, b.seed);
+}
+
+void compare(Comparison& c, const CameraScene& a, const CameraScene& b) {
+  const auto& [eye, target, azimuth, elevation, field_of_view] = a;
+  c.member("eye", eye, b.eye);
+  c.member("target", target, b.target);
+  c.member("azimuth", azimuth, b.azimuth);
+  c.member("elevation", elevation, b.elevation);
+  c.member("field_of_view", field_of_view, b.field_of_view);
+}
+
+void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {
+  const auto& [width, height, frames_per_second, samples, shadows, caption, grid] = a;
+  c.member("width", width, b.width);
+  c.member("height", height, b.height);
+  c.member("frames_per_second", frames_per_second, b.frames_per_second);
+  c.member("samples", samples, b.samples);
+  c.member("shadows", shadows, b.shadows);
+  c.member("caption", caption, b.caption);
+  c.member("grid", grid, b.grid);
+}
+
+void compare(Comparison& c, const Limits& a, const Limits& b) {
+  const auto& [bodies, vertices_per_body, vertices, frames, memory_gib] = a;
+  c.member("limits.bodies", bodies, b.bodies);
+  c.member("limits.vertices_per_body", vertices_per_body, b.vertices_per_body);
+  c.member("limits.vertices", vertices, b.vertices);
+  c.member("limits.frames", frames, b.frames);
+  c.member("limits.memory_gib", memory_gib, b.memory_gib);
+}
+
+}  // namespace
+
+std::string difference(const Scene& a, const Scene& b) {
+  const auto& [name, title, figure, paper_fps, duration, settings, bodies, camera, picture,
+               limits] = a;
+  Comparison c;
+  c.member("scene name", name, b.name);
+  c.member("title", title, b.title);
+  c.member("figure", figure, b.figure);
+  c.member("paper_fps", paper_fps, b.paper_fps);
+  c.member("duration", duration, b.duration);
+  compare(c, settings, b.settings);
+  c.member("number of bodies", bodies.size(), b.bodies.size());
+  for (std::size_t i = 0; i < bodies.size() && i < b.bodies.size(); ++i) {
+    compare(c, bodies[i], b.bodies[i]);
+  }
+  compare(c, camera, b.camera);
+  compare(c, picture, b.picture);
+  compare(c, limits, b.limits);
+  return c.first();
+}
+
+}  // namespace pneuma::scenes
