@@ -1,0 +1,71 @@
+// pneuma check: a scene as the program understands it, and what a run of it comes to.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/build_world.h"
+#include "app/check_report.h"
+#include "app/command.h"
+#include "app/errors.h"
+#include "app/find_scene.h"
+#include "scenes/load_scene.h"
+#include "scenes/print_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+struct CheckOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool run = false;
+  bool keys = false;
+  bool json = false;
+  int threads = 1;
+};
+
+ExitCode check(const CheckOptions& options) {
+  if (options.keys) {
+    fmt::print("{}", scenes::scene_reference());
+    return ExitCode::done;
+  }
+  if (options.scene.empty()) {
+    throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
+  }
+  CheckReport report;
+  report.scene = scenes::load_scene(find_scene(options.scene), options.overrides);
+  const sim::World world = build_world(report.scene);
+  report.plan = sim::make_plan(world);
+  report.size = world_size(world);
+  if (options.run) report.run = run_statistics(report.scene, options.threads);
+
+  fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));
+  if (report.run && report.run->divergence) throw DivergenceError(*report.run->divergence);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check", "Print a scene's effective values and the stages that will run");
+  command->add_option("scene", options->scene, "A scene file, or the name of one in scenes/")
+      ->type_name("SCENE");
+  command->add_option("--set", options->overrides, "Override a value of the scene, as body.k=200")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--run", options->run,
+                    "Also run it without pictures: penetration, energy, contacts, volumes");
+  command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
+  command->add_option("--threads", options->threads, "Threads of the simulation [1]")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--json", options->json, "JSON in place of text");
+  command->callback([options, &action] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,23 @@
+// The loop from the world to the files of its frames.
+#pragma once
+
+#include <cstdint>
+
+#include "app/build_frame.h"
+#include "app/journal.h"
+#include "app/progress.h"
+#include "app/run_folder.h"
+#include "app/simulation.h"
+#include "render/renderer.h"
+
+namespace pneuma::app {
+
+/// Advances the simulation to frame `last` and draws all frames from `next` on. After each, the
+/// journal has its line and the state file its state, in this order: whatever the moment of a kill,
+/// the state belongs to a frame that the journal knows.
+/// Throws DivergenceError, Interrupted and render::IoError; what is on disk then is whole.
+void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
+                 const FrameBuilder& builder, render::Renderer& renderer, const RunFolder& folder,
+                 Journal& journal, Progress& progress);
+
+}  // namespace pneuma::app

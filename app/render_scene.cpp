@@ -1,0 +1,153 @@
+#include "app/render_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "app/build_world.h"
+#include "app/command_line.h"
+#include "app/contact_sheet.h"
+#include "app/draw_frames.h"
+#include "app/errors.h"
+#include "app/find_program.h"
+#include "app/find_scene.h"
+#include "app/interrupt.h"
+#include "app/place_camera.h"
+#include "app/resume.h"
+#include "app/run_record.h"
+#include "app/video.h"
+#include "render/image/file.h"
+#include "scenes/load_scene.h"
+#include "scenes/print_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+/// First and last frame.
+struct Frames {
+  std::int64_t first = 0;
+  std::int64_t last = 0;
+};
+
+Frames frames_of(const scenes::Scene& scene, const FrameRange& wanted) {
+  const std::int64_t end = scenes::frame_count(scene);
+  const Frames frames{wanted.first, wanted.last.value_or(end)};
+  if (frames.first > end || frames.last > end) {
+    throw UsageError(
+        fmt::format("--frames: {} has the frames 0 to {}; more come from a longer run, "
+                    "as with --set duration={:g}",
+                    scene.name, end, 2.0 * scene.duration));
+  }
+  return frames;
+}
+
+RunFolder folder_of(const scenes::Scene& scene, const std::string& out) {
+  return {out.empty() ? std::filesystem::path("out") / scene.name : std::filesystem::path(out),
+          scene.name};
+}
+
+render::RenderOptions picture_options(const scenes::PictureScene& picture) {
+  render::RenderOptions options;
+  options.width = picture.width;
+  options.height = picture.height;
+  options.samples = picture.samples;
+  return options;
+}
+
+render::Camera choose_camera(const scenes::Scene& scene, const sim::World& start, int threads,
+                             Progress& progress) {
+  const auto on_frame = [&](const sim::World& world) {
+    throw_if_interrupted();
+    progress.show(fmt::format("looking ahead for the camera: t = {:.2f} s of {:g} s",
+                              sim::time(world), scene.duration));
+  };
+  const PlacedCamera placed = place_camera(scene, start, threads, on_frame);
+  if (!placed.notice.empty()) progress.say(fmt::format("{}: {}", scene.name, placed.notice));
+  return placed.camera;
+}
+
+/// The journal becomes run.json, and is the last thing to go: until then the run can be continued.
+void close_run(const RunFolder& folder) {
+  const auto journal = read_journal(folder.journal());
+  const std::string text = whole_record(journal.value()).dump(1) + "\n";
+  render::write_file_atomically(folder.record().string(),
+                                {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  std::filesystem::remove(folder.journal());
+  std::filesystem::remove(folder.state());
+}
+
+void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
+                 const RunFolder& folder, Progress& progress) {
+  const sim::World start = build_world(scene);
+  render::Renderer renderer(picture_options(scene.picture));
+
+  const Json identity =
+      run_identity(scene, frames.first, frames.last, request.show, renderer.description());
+  const OpenedFolder opened =
+      open_folder(folder, request.existing, identity, scenes::print_scene(scene));
+  if (opened.finished) return progress.say("the run is finished already");
+
+  const auto& old = opened.unfinished;
+  const Json header =
+      old ? old->header
+          : run_header(identity, scene, choose_camera(scene, start, request.threads, progress));
+  const Continuation from = old ? find_continuation(folder, *old, start, frames.first)
+                                : Continuation{frames.first, start, 0};
+  Journal journal(folder.journal(), from.journal_bytes);
+  if (!old) journal.append(header);
+  journal.append(launch_line(request.command_line, request.threads, from.next_frame));
+
+  Simulation simulation(scene, from.world, request.threads);
+  const FrameBuilder builder(scene, from.world, camera_of(header), request.show);
+  draw_frames(simulation, from.next_frame, frames.last, builder, renderer, folder, journal,
+              progress);
+  close_run(folder);
+}
+
+void make_video(const RunFolder& folder, std::int64_t first, int frames_per_second,
+                const std::string& video) {
+  const auto command = video_command(folder, first, frames_per_second, video);
+  if (const auto ffmpeg = find_program("ffmpeg")) {
+    run_command(*ffmpeg, command);
+    fmt::print("{}\n", video);
+  } else {
+    fmt::print(stderr,
+               "ffmpeg is not installed (apt-get install ffmpeg). The command for {}:\n{}\n", video,
+               shell_line(command));
+  }
+}
+
+/// The command that continues a run.
+std::string resume_command(std::vector<std::string> command_line) {
+  std::erase_if(command_line, [](const std::string& argument) {
+    return argument == "--overwrite" || argument == "--resume";
+  });
+  command_line.emplace_back("--resume");
+  return shell_line(command_line);
+}
+
+}  // namespace
+
+ExitCode render_scene(const RenderRequest& request) {
+  Progress progress(progress_style(request.quiet));
+  const scenes::Scene scene = scenes::load_scene(find_scene(request.scene), request.overrides);
+  const Frames frames = frames_of(scene, request.frames);
+  const RunFolder folder = folder_of(scene, request.out);
+  try {
+    make_frames(request, scene, frames, folder, progress);
+    fmt::print("{}\n", folder.path().string());
+    if (request.sheet) {
+      write_contact_sheet(folder, frames.first, frames.last, *request.sheet);
+      fmt::print("{}\n", folder.sheet().string());
+    }
+    if (!request.video.empty()) {
+      make_video(folder, frames.first, scene.picture.frames_per_second, request.video);
+    }
+  } catch (const Interrupted&) {
+    throw Interrupted("interrupted; continue with: " + resume_command(request.command_line));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace pneuma::app

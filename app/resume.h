@@ -1,0 +1,38 @@
+// What a folder holds of earlier runs, and where an interrupted one goes on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/journal.h"
+#include "app/render_request.h"
+#include "app/run_folder.h"
+#include "sim/world.h"
+
+namespace pneuma::app {
+
+/// What is there of a run that may go on.
+struct OpenedFolder {
+  bool finished = false;                      // nothing is left to be drawn
+  std::optional<JournalContents> unfinished;  // none: the run starts from the beginning
+};
+
+/// Makes the folder, and room for a run of this identity in it: removes an old run or finds the one
+/// to continue, as `existing` says. Throws render::IoError when the folder holds another run, or
+/// one that is going on.
+OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Json& identity,
+                         const std::string& scene_toml);
+
+struct Continuation {
+  std::int64_t next_frame = 0;      // the first that is still to be drawn
+  sim::World world;                 // at the frame before, or at the start
+  std::uint64_t journal_bytes = 0;  // of the journal that hold
+};
+
+/// The last frame for which picture, journal and saved state agree, with all frames before it
+/// whole. Where there is none the run begins again: its frames come out the same.
+Continuation find_continuation(const RunFolder& folder, const JournalContents& journal,
+                               const sim::World& start, std::int64_t first_frame);
+
+}  // namespace pneuma::app

@@ -1,0 +1,186 @@
+#include "app/run_record.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+
+#include "app/command_line.h"
+#include "app/contact_tally.h"
+#include "app/machine.h"
+#include "app/version.h"
+#include "render/image/file.h"
+#include "scenes/print_scene.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+namespace {
+
+/// JSON has no NaN and no infinity; null says that there is no such number.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+template <class Vector>
+Json vector(const Vector& values) {
+  return Json::array({number(values[0]), number(values[1]), number(values[2])});
+}
+
+Json energy_json(const sim::World& world) {
+  const sim::Energy energy = sim::energy(world);
+  return {{"kinetic", number(energy.kinetic)},
+          {"spring", number(energy.spring)},
+          {"gas", number(energy.gas)},
+          {"gravity", number(energy.gravity)},
+          {"total", number(energy.total())}};
+}
+
+Json momentum_json(const sim::World& world) {
+  const sim::Momentum momentum = sim::momentum(world);
+  return {{"linear", vector(momentum.linear)}, {"angular", vector(momentum.angular)}};
+}
+
+Json volumes_json(const sim::World& world) {
+  Json volumes = Json::object();
+  for (const sim::SoftBody& body : world.soft) {
+    volumes[body.name] = number(sim::volume(body.mesh->topology, body.positions));
+  }
+  return volumes;
+}
+
+Json contacts_json(std::span<const sim::Contact> contacts) {
+  std::array<std::int64_t, sim::contact_kind_count> counts = {};
+  for (const sim::Contact& contact : contacts) ++counts[static_cast<std::size_t>(kind_of(contact))];
+  Json json = {{"count", contacts.size()}};
+  for (std::size_t kind = 0; kind < counts.size(); ++kind) {
+    json[std::string(to_string(static_cast<sim::ContactKind>(kind)))] = counts[kind];
+  }
+  return json;
+}
+
+Json program_json() {
+  const Version built = version();
+  Json libraries = Json::object();
+  for (const auto& [name, number] : library_versions()) libraries[name] = number;
+  return {{"version", built.program},       {"commit", built.commit}, {"compiler", built.compiler},
+          {"build_type", built.build_type}, {"flags", built.flags},   {"libraries", libraries}};
+}
+
+std::string utc_now() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+constexpr std::string_view units =
+    "metre, kilogram, second, kelvin, mole, joule; the gas energy is -nRT ln(V / 1 m^3)";
+
+}  // namespace
+
+std::string hex(std::uint64_t value) { return fmt::format("{:#018x}", value); }
+
+Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last, Show show,
+                  const std::string& gl) {
+  const Version built = version();
+  const Json shown = shown_names(show);
+  return {{"scene", scene.name},
+          {"fingerprint", hex(scenes::scene_fingerprint(scene))},
+          {"first_frame", first},
+          {"last_frame", last},
+          {"show", shown},
+          {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
+                                built.compiler, built.build_type, built.flags)},
+          {"gl", gl}};
+}
+
+Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera) {
+  return {{"run", identity},
+          {"title", scene.title},
+          {"figure", scene.figure},
+          {"seed", scene.settings.seed},
+          {"steps_per_second", scene.settings.steps_per_second},
+          {"frames_per_second", scene.picture.frames_per_second},
+          {"units", units},
+          {"camera",
+           {{"eye", vector(camera.eye)},
+            {"target", vector(camera.target)},
+            {"field_of_view", camera.field_of_view}}},
+          {"scene_toml", scenes::print_scene(scene)},
+          {"program", program_json()}};
+}
+
+render::Camera camera_of(const Json& header) {
+  try {
+    const Json& json = header.at("camera");
+    render::Camera camera;
+    for (int axis = 0; axis < 3; ++axis) {
+      camera.eye[axis] = json.at("eye").at(static_cast<std::size_t>(axis)).get<float>();
+      camera.target[axis] = json.at("target").at(static_cast<std::size_t>(axis)).get<float>();
+    }
+    camera.field_of_view = json.at("field_of_view").get<float>();
+    return camera;
+  } catch (const Json::exception& error) {
+    throw render::IoError(
+        fmt::format("the journal's camera cannot be read ({}); start anew with "
+                    "--overwrite",
+                    error.what()));
+  }
+}
+
+Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
+  const Machine here = machine();
+  return {{"launch",
+           {{"date", utc_now()},
+            {"command_line", shell_line(command_line)},
+            {"first_frame", from},
+            {"threads", threads},
+            {"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}}}}};
+}
+
+Json FrameRecorder::line(const Simulation& simulation, std::size_t png_bytes,
+                         const FrameSeconds& seconds) {
+  const sim::World& world = simulation.world();
+  Json times = Json::object();
+  const sim::StageTimes& stage_times = simulation.stepper().stage_times();
+  for (std::size_t stage = 0; stage < stage_times.size(); ++stage) {
+    if (!simulation.stepper().plan().runs(static_cast<sim::Stage>(stage))) continue;
+    times[std::string(to_string(static_cast<sim::Stage>(stage)))] =
+        stage_times[stage] - stage_times_[stage];
+  }
+  stage_times_ = stage_times;
+  times["draw"] = seconds.draw;
+  times["png"] = seconds.png;
+  times["write"] = seconds.write;
+  times["total"] = seconds.total;
+
+  return {{"frame", simulation.frame()},
+          {"time", sim::time(world)},
+          {"step", world.steps},
+          {"state_hash", hex(sim::state_hash(world))},
+          {"energy", energy_json(world)},
+          {"momentum", momentum_json(world)},
+          {"volumes", volumes_json(world)},
+          {"contacts", contacts_json(simulation.stepper().contacts())},
+          {"greatest_penetration", number(sim::greatest_penetration(world))},
+          {"png_bytes", png_bytes},
+          {"seconds", times}};
+}
+
+Json whole_record(const JournalContents& journal) {
+  Json record = journal.header;
+  Json launches = Json::array();
+  Json frames = Json::array();
+  double wall_seconds = 0.0;
+  for (const Json& line : journal.lines) {
+    if (line.contains("launch")) launches.push_back(line["launch"]);
+    if (!line.contains("frame")) continue;
+    frames.push_back(line);
+    wall_seconds += line["seconds"]["total"].get<double>();
+  }
+  record["launches"] = launches;
+  record["wall_seconds"] = wall_seconds;
+  record["frames"] = frames;
+  return record;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,53 @@
+// What a run writes down: once, per launch, and per frame. A journal has it line by line, run.json
+// as a whole.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/journal.h"
+#include "app/render_request.h"
+#include "app/simulation.h"
+#include "render/frame.h"
+#include "scenes/scene.h"
+
+namespace pneuma::app {
+
+/// Seconds that one frame took, outside the stages of its steps.
+struct FrameSeconds {
+  double draw = 0.0;
+  double png = 0.0;
+  double write = 0.0;
+  double total = 0.0;  // since the frame before, everything
+};
+
+/// What decides the bytes of a run's frames. Only a run of the same identity can be continued.
+Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last, Show show,
+                  const std::string& gl);
+
+/// The first line of a journal.
+Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera);
+
+/// The camera in a header, exactly as it was. Throws render::IoError when it is not there.
+render::Camera camera_of(const Json& header);
+
+/// A line per time that the run is started or continued: where, when and how.
+Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);
+
+/// Makes a line per frame.
+class FrameRecorder {
+ public:
+  Json line(const Simulation& simulation, std::size_t png_bytes, const FrameSeconds& seconds);
+
+ private:
+  sim::StageTimes stage_times_ = {};  // up to the last line
+};
+
+/// "0x0123456789abcdef": JSON's numbers do not hold 64 bits everywhere.
+std::string hex(std::uint64_t value);
+
+/// run.json.
+Json whole_record(const JournalContents& journal);
+
+}  // namespace pneuma::app

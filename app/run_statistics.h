@@ -1,0 +1,62 @@
+// What a run of a scene comes to, in numbers.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/contact_tally.h"
+#include "scenes/scene.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+
+/// A greatest value and when it was reached, s.
+struct Peak {
+  double value = 0.0;
+  double time = 0.0;
+};
+
+struct VolumeRange {
+  std::string body;
+  double start = 0.0;  // m^3
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0.0;
+};
+
+/// Penetration and contacts are looked at in every step; energy and volumes in every frame, since
+/// that is how often the scene's pictures are taken.
+struct RunStatistics {
+  std::int64_t steps = 0;                 // done
+  double seconds = 0.0;                   // of the scene's time
+  std::optional<std::string> divergence;  // where the run ended early; what follows is up to there
+
+  Peak penetration;                  // m, over the whole run
+  double settled_penetration = 0.0;  // m, over the last half of it
+  ContactTally contacts;
+
+  sim::Energy energy_start;
+  sim::Energy energy_end;
+  Peak energy_rise;          // J, the greatest from one frame to the next
+  double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
+
+  std::vector<VolumeRange> volumes;  // of the soft bodies
+
+  bool free = false;  // no ground and no gravity, so that momentum should stay
+  sim::Momentum momentum_start;
+  sim::Momentum momentum_end;
+
+  double end_speed = 0.0;  // m/s, of the fastest point of any body
+  std::uint64_t state_hash = 0;
+};
+
+/// Slower than this, m/s, a body is called at rest. On the ground gravity adds 0.16 m/s in every
+/// 1/60 s, which the contact takes away again: the third of it is what may be left over.
+inline constexpr double rest_speed = 0.05;
+
+/// Runs the scene without pictures. `threads` changes nothing but the time that takes.
+RunStatistics run_statistics(const scenes::Scene& scene, int threads);
+
+}  // namespace pneuma::app
