@@ -52,7 +52,8 @@ std::optional<JournalContents> read_journal(const fs::path& path) {
 Journal::Journal(const fs::path& path, std::uint64_t keep) : path_(path) {
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) fail(path_, errno);
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+  // Some file systems have no locks (ENOLCK): there nothing watches over this.
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor_);
     throw render::IoError(fmt::format(
         "{} is being written by another run; wait for it or choose another folder with --out",
@@ -81,7 +82,7 @@ void Journal::append(const Json& line) {
 bool is_in_use(const fs::path& journal) {
   const int descriptor = open(journal.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  const bool locked = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(descriptor);
   return locked;
 }
