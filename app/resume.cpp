@@ -138,7 +138,10 @@ OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Js
                          const std::string& scene_toml) {
   folder.make();
   const std::vector<std::string> runs = folder.runs();
-  if (runs.empty()) return {};
+  if (runs.empty()) {
+    folder.remove_temporary_files();
+    return {};
+  }
   for (const std::string& run : runs) {
     if (is_in_use(RunFolder(folder.path(), run).journal())) {
       refuse(folder, fmt::format("a run of {} that is going on", run),

@@ -16,9 +16,18 @@ using Clock = std::chrono::steady_clock;
 // Long enough that most moments lie within it and not within the start of the program.
 const std::string longer = "--set duration=3";
 
-/// Ends the program by a signal after some seconds.
-std::string ended_by(const std::string& signal, double seconds) {
-  return fmt::format("timeout --preserve-status -s {} {:.4f}", signal, seconds);
+/// Kills the program after some seconds.
+std::string killed_after(double seconds) {
+  return fmt::format("timeout --preserve-status -s KILL {:.4f}", seconds);
+}
+
+/// Sends the program a signal as soon as a file is there.
+std::string signalled_at(const fs::path& file, const std::string& signal) {
+  return fmt::format(
+      "PNEUMA_TEST_FILE='{}' bash -c '\"$@\" & while kill -0 $! && "
+      "! test -e \"$PNEUMA_TEST_FILE\"; do sleep 0.005; done; "
+      "kill -{} $!; wait $!; exit $?' --",
+      file.string(), signal);
 }
 
 std::vector<std::string> state_hashes(const json& record) {
@@ -58,7 +67,7 @@ TEST_F(ResumeTest, AKilledRunLeavesWholePicturesAndEndsLikeAnother) {
   int kills = 0, in_the_middle = 0;
   for (int attempt = 0; kills < 20 && attempt < 100; ++attempt) {
     fs::remove_all(out());
-    if (render(longer, ended_by("KILL", moment(random))).exit_code == 0) continue;
+    if (render(longer, killed_after(moment(random))).exit_code == 0) continue;
     ++kills;
     const auto left = pictures();
     in_the_middle += !left.empty() && left.size() < reference_.size() ? 1 : 0;
@@ -74,11 +83,7 @@ TEST_F(ResumeTest, AKilledRunLeavesWholePicturesAndEndsLikeAnother) {
 }
 
 TEST_F(ResumeTest, AnInterruptedRunSaysHowToGoOn) {
-  ProgramResult result;
-  for (double part = 0.7; result.exit_code != 130 && part > 0.05; part *= 0.8) {
-    fs::remove_all(out());
-    result = render(longer, ended_by("INT", part * seconds_));
-  }
+  const ProgramResult result = render(longer, signalled_at(out() / "fall_00010.png", "INT"));
   ASSERT_EQ(result.exit_code, 130) << result.output;
   EXPECT_NE(result.output.find("--set duration=3 --resume"), std::string::npos) << result.output;
   expect_whole(pictures());
@@ -87,11 +92,7 @@ TEST_F(ResumeTest, AnInterruptedRunSaysHowToGoOn) {
 }
 
 TEST_F(ResumeTest, ATerminatedRunEndsAsAnInterruptedOne) {
-  ProgramResult result;
-  for (double part = 0.7; result.exit_code != 130 && part > 0.05; part *= 0.8) {
-    fs::remove_all(out());
-    result = render(longer, ended_by("TERM", part * seconds_));
-  }
+  const ProgramResult result = render(longer, signalled_at(out() / "fall_00010.png", "TERM"));
   EXPECT_EQ(result.exit_code, 130) << result.output;
 }
 
@@ -99,8 +100,8 @@ TEST_F(ResumeTest, ARunCanBeContinuedAgainAndAgain) {
   int launches = 0;
   for (; launches < 100; ++launches) {
     // Each time a little longer, so that on any machine some launch makes progress.
-    const double allowed = seconds_ * (0.3 + 0.05 * launches);
-    if (render(longer + " --resume", ended_by("KILL", allowed)).exit_code == 0) break;
+    const double allowed = seconds_ * (0.1 + 0.05 * launches);
+    if (render(longer + " --resume", killed_after(allowed)).exit_code == 0) break;
   }
   EXPECT_GT(launches, 0);
   expect_like_the_reference();
