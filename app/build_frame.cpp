@@ -112,7 +112,7 @@ std::vector<std::string> shown_names(Show show) {
   return names;
 }
 
-Show parse_show(const std::string& list) {
+Show parse_show(const std::string& option, const std::string& list) {
   Show show;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
@@ -120,7 +120,7 @@ Show parse_show(const std::string& list) {
     const auto known = std::ranges::find(show_names, name, &ShowName::first);
     if (known == show_names.end()) {
       throw UsageError(fmt::format(
-          "--show: '{}' is not known; allowed are wireframe, particles and contacts", name));
+          "{}: '{}' is not known; allowed are wireframe, particles and contacts", option, name));
     }
     show.*known->second = true;
     begin = end + 1;
@@ -129,13 +129,11 @@ Show parse_show(const std::string& list) {
 }
 
 FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
-                           const render::Camera& camera, Show show)
-    : show_(show),
-      title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
+                           const render::Camera& camera)
+    : title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
       caption_(scene.picture.caption) {
   scenery_.camera = camera;
   scenery_.light.shadows = scene.picture.shadows;
-  scenery_.wireframe = show.wireframe;
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
 
   // build_world puts a body's copies one after the other, in the order of the scene.
@@ -151,17 +149,18 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
   }
 }
 
-render::Frame FrameBuilder::build(const sim::World& world,
-                                  std::span<const sim::Contact> contacts) const {
+render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::Contact> contacts,
+                                  Show show) const {
   render::Frame frame = scenery_;
+  frame.wireframe = show.wireframe;
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_shapes_[i]));
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_shapes_[i]));
   }
-  if (show_.particles) add_particles(world, contacts, frame);
-  if (show_.contacts) add_contacts(contacts, frame);
+  if (show.particles) add_particles(world, contacts, frame);
+  if (show.contacts) add_contacts(contacts, frame);
   if (caption_) frame.caption = caption(title_, world);
   return frame;
 }

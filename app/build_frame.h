@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,25 +21,30 @@ struct Show {
   bool contacts = false;   // contact points and normals
 };
 
+/// What the pictures of a run show. With an overlay each frame is drawn twice, in two files.
+struct Pictures {
+  Show show;
+  std::optional<Show> overlay;
+};
+
 /// The names of what is shown, as in `--show`.
 std::vector<std::string> shown_names(Show show);
 
-/// Reads `--show`'s list: names separated by commas. Throws UsageError.
-Show parse_show(const std::string& list);
+/// Reads the list of `option`, --show or --overlay: names separated by commas. Throws UsageError.
+Show parse_show(const std::string& option, const std::string& list);
 
 /// Turns the states of one world into frames. What stays the same over a run (triangles, edges,
 /// colours) is made once and shared by all frames.
 class FrameBuilder {
  public:
   /// `world` is the scene's world in any state.
-  FrameBuilder(const scenes::Scene& scene, const sim::World& world, const render::Camera& camera,
-               Show show);
+  FrameBuilder(const scenes::Scene& scene, const sim::World& world, const render::Camera& camera);
 
   /// `contacts`: those of the step that led to this state.
-  render::Frame build(const sim::World& world, std::span<const sim::Contact> contacts = {}) const;
+  render::Frame build(const sim::World& world, std::span<const sim::Contact> contacts = {},
+                      Show show = {}) const;
 
  private:
-  Show show_;
   std::string title_;
   bool caption_ = false;
   render::Frame scenery_;  // all that is the same in every frame

@@ -29,29 +29,38 @@ class Stopwatch {
 
 class FrameWriter {
  public:
-  FrameWriter(const FrameBuilder& builder, render::Renderer& renderer, const RunFolder& folder,
-              Journal& journal)
-      : builder_(builder), renderer_(renderer), folder_(folder), journal_(journal) {}
+  explicit FrameWriter(const FrameOutput& output) : output_(output) {}
 
   void write(const Simulation& simulation) {
+    const RunFolder& folder = output_.folder;
+    const std::int64_t frame = simulation.frame();
     FrameSeconds seconds;
-    Stopwatch watch;
-    renderer_.draw(builder_.build(simulation.world(), simulation.stepper().contacts()), image_);
-    seconds.draw = watch.lap();
-    const std::vector<std::uint8_t> png = render::encode_png(image_);
-    seconds.png = watch.lap();
-    render::write_file_atomically(folder_.frame(simulation.frame()).string(), png);
-    seconds.write = watch.lap();
+    PictureBytes bytes;
+    bytes.frame = draw(simulation, output_.pictures.show, folder.frame(frame), seconds);
+    if (output_.pictures.overlay) {
+      bytes.overlay = draw(simulation, *output_.pictures.overlay, folder.overlay(frame), seconds);
+    }
     seconds.total = since_last_frame_.lap();
-    journal_.append(recorder_.line(simulation, png.size(), seconds));
-    render::write_file_atomically(folder_.state().string(), sim::save_state(simulation.world()));
+    output_.journal.append(recorder_.line(simulation, bytes, seconds));
+    render::write_file_atomically(folder.state().string(), sim::save_state(simulation.world()));
   }
 
  private:
-  const FrameBuilder& builder_;
-  render::Renderer& renderer_;
-  const RunFolder& folder_;
-  Journal& journal_;
+  /// Returns the size of the file.
+  std::size_t draw(const Simulation& simulation, Show show, const std::filesystem::path& file,
+                   FrameSeconds& seconds) {
+    Stopwatch watch;
+    output_.renderer.draw(
+        output_.builder.build(simulation.world(), simulation.stepper().contacts(), show), image_);
+    seconds.draw += watch.lap();
+    const std::vector<std::uint8_t> png = render::encode_png(image_);
+    seconds.png += watch.lap();
+    render::write_file_atomically(file.string(), png);
+    seconds.write += watch.lap();
+    return png.size();
+  }
+
+  FrameOutput output_;
   FrameRecorder recorder_;
   render::Image image_;
   Stopwatch since_last_frame_;
@@ -60,9 +69,8 @@ class FrameWriter {
 }  // namespace
 
 void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
-                 const FrameBuilder& builder, render::Renderer& renderer, const RunFolder& folder,
-                 Journal& journal, Progress& progress) {
-  FrameWriter writer(builder, renderer, folder, journal);
+                 const FrameOutput& output, Progress& progress) {
+  FrameWriter writer(output);
   Stopwatch watch;
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;

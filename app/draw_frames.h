@@ -12,12 +12,20 @@
 
 namespace pneuma::app {
 
+/// What becomes of a frame's state.
+struct FrameOutput {
+  const FrameBuilder& builder;
+  const Pictures& pictures;
+  render::Renderer& renderer;
+  const RunFolder& folder;
+  Journal& journal;
+};
+
 /// Advances the simulation to frame `last` and draws all frames from `next` on. After each, the
 /// journal has its line and the state file its state, in this order: whatever the moment of a kill,
 /// the state belongs to a frame that the journal knows.
 /// Throws DivergenceError, Interrupted and render::IoError; what is on disk then is whole.
 void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
-                 const FrameBuilder& builder, render::Renderer& renderer, const RunFolder& folder,
-                 Journal& journal, Progress& progress);
+                 const FrameOutput& output, Progress& progress);
 
 }  // namespace pneuma::app

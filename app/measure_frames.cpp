@@ -27,7 +27,7 @@ class FrameMaker {
         renderer_({.width = scene.picture.width,
                    .height = scene.picture.height,
                    .samples = scene.picture.samples}),
-        builder_(scene, replay.world(), camera, Show{}) {}
+        builder_(scene, replay.world(), camera) {}
 
   void make(Readings& readings) {
     replay_.prepare(steps_per_frame_);

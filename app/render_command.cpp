@@ -21,6 +21,7 @@ struct Typed {
   RenderRequest request;
   std::string frames;
   std::string show;
+  std::string overlay;
   std::string size;
   std::string sheet;
   bool no_caption = false;
@@ -31,7 +32,10 @@ struct Typed {
 RenderRequest read(const Typed& typed) {
   RenderRequest request = typed.request;
   if (!typed.frames.empty()) request.frames = parse_frames(typed.frames);
-  if (!typed.show.empty()) request.show = parse_show(typed.show);
+  if (!typed.show.empty()) request.pictures.show = parse_show("--show", typed.show);
+  if (!typed.overlay.empty()) {
+    request.pictures.overlay = parse_show("--overlay", typed.overlay);
+  }
   if (!typed.sheet.empty()) request.sheet = parse_grid("--sheet", typed.sheet, greatest_sheet);
   if (typed.overwrite) request.existing = ExistingRun::overwrite;
   if (typed.resume) request.existing = ExistingRun::resume;
@@ -66,6 +70,10 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
       ->type_name("WxH");
   command->add_option("--show", typed->show, "What else to draw: wireframe, particles, contacts")
+      ->type_name("LIST");
+  command
+      ->add_option("--overlay", typed->overlay,
+                   "A second picture of each frame, NAME_overlay_00042.png, with this also drawn")
       ->type_name("LIST");
   command->add_flag("--no-caption", typed->no_caption, "Leave out scene, time and step");
   auto* overwrite =

@@ -29,7 +29,7 @@ struct RenderRequest {
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
   FrameRange frames;
-  Show show;
+  Pictures pictures;
   ExistingRun existing = ExistingRun::refuse;
   std::optional<GridSize> sheet;
   std::string video;  // file; empty: none

@@ -83,7 +83,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   render::Renderer renderer(picture_options(scene.picture));
 
   const Json identity =
-      run_identity(scene, frames.first, frames.last, request.show, renderer.description());
+      run_identity(scene, frames.first, frames.last, request.pictures, renderer.description());
   const OpenedFolder opened =
       open_folder(folder, request.existing, identity, scenes::print_scene(scene));
   if (opened.finished) return progress.say("the run is finished already");
@@ -99,9 +99,9 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   journal.append(launch_line(request.command_line, request.threads, from.next_frame));
 
   Simulation simulation(scene, from.world, request.threads);
-  const FrameBuilder builder(scene, from.world, camera_of(header), request.show);
-  draw_frames(simulation, from.next_frame, frames.last, builder, renderer, folder, journal,
-              progress);
+  const FrameBuilder builder(scene, from.world, camera_of(header));
+  draw_frames(simulation, from.next_frame, frames.last,
+              {builder, request.pictures, renderer, folder, journal}, progress);
   close_run(folder);
 }
 

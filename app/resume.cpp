@@ -30,13 +30,20 @@ std::optional<sim::World> saved_world(const RunFolder& folder, const sim::World&
   return world;
 }
 
-/// Whether the line is that of the given frame and its picture is there as it was written. A file
-/// that a power cut left empty has another size.
-bool is_whole(const RunFolder& folder, const Json& line, std::int64_t frame) {
-  if (line.value("frame", std::int64_t{-1}) != frame) return false;
+bool has_size(const fs::path& file, std::uintmax_t expected) {
   std::error_code error;
-  const auto size = fs::file_size(folder.frame(frame), error);
-  return !error && size == line.value("png_bytes", std::uintmax_t{0});
+  const auto size = fs::file_size(file, error);
+  return !error && size == expected;
+}
+
+/// Whether the line is that of the given frame and its pictures are there as they were written. A
+/// file that a power cut left empty has another size.
+bool is_whole(const RunFolder& folder, const Json& line, std::int64_t frame) {
+  constexpr std::uintmax_t none = 0;
+  if (line.value("frame", std::int64_t{-1}) != frame) return false;
+  if (!has_size(folder.frame(frame), line.value("png_bytes", none))) return false;
+  return !line.contains("overlay_png_bytes") ||
+         has_size(folder.overlay(frame), line.value("overlay_png_bytes", none));
 }
 
 /// The lines of two scenes that differ, up to three: scenes with the same bodies print alike.

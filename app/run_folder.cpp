@@ -77,7 +77,7 @@ std::string without_temporary_ending(const std::string& file) {
 }
 
 bool is_file_of_run(const std::string& file, const std::string& run) {
-  static const std::regex endings(R"(_[0-9]{5,}\.png|_sheet\.png|\.journal|\.state)");
+  static const std::regex endings(R"((_overlay)?_[0-9]{5,}\.png|_sheet\.png|\.journal|\.state)");
   const std::string whole = without_temporary_ending(file);
   const std::string& name = whole.empty() ? file : whole;
   return name.starts_with(run) && std::regex_match(name.substr(run.size()), endings);
@@ -88,6 +88,10 @@ RunFolder::RunFolder(fs::path folder, std::string name)
 
 fs::path RunFolder::frame(std::int64_t index) const {
   return folder_ / fmt::format("{}_{:05}.png", name_, index);
+}
+
+fs::path RunFolder::overlay(std::int64_t index) const {
+  return folder_ / fmt::format("{}_overlay_{:05}.png", name_, index);
 }
 
 void RunFolder::make() const {

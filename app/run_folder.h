@@ -1,9 +1,10 @@
 // The files of a run:
-//   NAME_00042.png   frames
-//   NAME_sheet.png   contact sheet
-//   run.json         the record of a finished run
-//   NAME.journal     the record of an unfinished run, a line per frame
-//   NAME.state       the state of the world at an unfinished run's last frame
+//   NAME_00042.png          frames
+//   NAME_overlay_00042.png  their second pictures, with particles, contacts or wireframe
+//   NAME_sheet.png          contact sheet
+//   run.json                the record of a finished run
+//   NAME.journal            the record of an unfinished run, a line per frame
+//   NAME.state              the state of the world at an unfinished run's last frame
 // and, for moments, any of these with ".NUMBER-NUMBER.tmp" after it.
 #pragma once
 
@@ -22,6 +23,7 @@ class RunFolder {
   const std::string& name() const { return name_; }
 
   std::filesystem::path frame(std::int64_t index) const;
+  std::filesystem::path overlay(std::int64_t index) const;
   std::filesystem::path sheet() const { return folder_ / (name_ + "_sheet.png"); }
   std::filesystem::path record() const { return folder_ / "run.json"; }
   std::filesystem::path journal() const { return folder_ / (name_ + ".journal"); }

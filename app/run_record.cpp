@@ -79,15 +79,17 @@ constexpr std::string_view units =
 
 std::string hex(std::uint64_t value) { return fmt::format("{:#018x}", value); }
 
-Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last, Show show,
-                  const std::string& gl) {
+Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last,
+                  const Pictures& pictures, const std::string& gl) {
   const Version built = version();
-  const Json shown = shown_names(show);
+  const Json shown = shown_names(pictures.show);
+  const Json overlay = pictures.overlay ? Json(shown_names(*pictures.overlay)) : Json();
   return {{"scene", scene.name},
           {"fingerprint", hex(scenes::scene_fingerprint(scene))},
           {"first_frame", first},
           {"last_frame", last},
           {"show", shown},
+          {"overlay", overlay},
           {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
                                 built.compiler, built.build_type, built.flags)},
           {"gl", gl}};
@@ -137,7 +139,7 @@ Json launch_line(const std::vector<std::string>& command_line, int threads, std:
             {"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}}}}};
 }
 
-Json FrameRecorder::line(const Simulation& simulation, std::size_t png_bytes,
+Json FrameRecorder::line(const Simulation& simulation, const PictureBytes& bytes,
                          const FrameSeconds& seconds) {
   const sim::World& world = simulation.world();
   Json times = Json::object();
@@ -153,17 +155,19 @@ Json FrameRecorder::line(const Simulation& simulation, std::size_t png_bytes,
   times["write"] = seconds.write;
   times["total"] = seconds.total;
 
-  return {{"frame", simulation.frame()},
-          {"time", sim::time(world)},
-          {"step", world.steps},
-          {"state_hash", hex(sim::state_hash(world))},
-          {"energy", energy_json(world)},
-          {"momentum", momentum_json(world)},
-          {"volumes", volumes_json(world)},
-          {"contacts", contacts_json(simulation.stepper().contacts())},
-          {"greatest_penetration", number(sim::greatest_penetration(world))},
-          {"png_bytes", png_bytes},
-          {"seconds", times}};
+  Json line = {{"frame", simulation.frame()},
+               {"time", sim::time(world)},
+               {"step", world.steps},
+               {"state_hash", hex(sim::state_hash(world))},
+               {"energy", energy_json(world)},
+               {"momentum", momentum_json(world)},
+               {"volumes", volumes_json(world)},
+               {"contacts", contacts_json(simulation.stepper().contacts())},
+               {"greatest_penetration", number(sim::greatest_penetration(world))},
+               {"png_bytes", bytes.frame},
+               {"seconds", times}};
+  if (bytes.overlay) line["overlay_png_bytes"] = *bytes.overlay;
+  return line;
 }
 
 Json whole_record(const JournalContents& journal) {

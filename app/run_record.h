@@ -2,7 +2,9 @@
 // as a whole.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,15 @@ struct FrameSeconds {
   double total = 0.0;  // since the frame before, everything
 };
 
+/// Sizes of a frame's files, by which a run that is continued knows them to be whole.
+struct PictureBytes {
+  std::size_t frame = 0;
+  std::optional<std::size_t> overlay;
+};
+
 /// What decides the bytes of a run's frames. Only a run of the same identity can be continued.
-Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last, Show show,
-                  const std::string& gl);
+Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last,
+                  const Pictures& pictures, const std::string& gl);
 
 /// The first line of a journal.
 Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera);
@@ -38,7 +46,7 @@ Json launch_line(const std::vector<std::string>& command_line, int threads, std:
 /// Makes a line per frame.
 class FrameRecorder {
  public:
-  Json line(const Simulation& simulation, std::size_t png_bytes, const FrameSeconds& seconds);
+  Json line(const Simulation& simulation, const PictureBytes& bytes, const FrameSeconds& seconds);
 
  private:
   sim::StageTimes stage_times_ = {};  // up to the last line

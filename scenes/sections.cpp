@@ -100,21 +100,24 @@ Section top_section(Scene& scene) {
 }
 
 Section simulation_section(sim::Settings& settings) {
-  return {.table = "simulation",
-          .what = "the simulation",
-          .keys = {
-              {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
-               "simulation steps; the time step is the inverse"},
-              {"integrator", word(settings.integrator, integrators), any(), "",
-               "how soft bodies are stepped"},
-              {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
-              {"skin_thickness", &settings.skin_thickness, length(), "m",
-               "features nearer than twice this are in contact"},
-              {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",
-               "over all contacts of a step"},
-              {"seed", &settings.seed, at_least(0), "",
-               "of everything random: particles, jitter, tumble"},
-          }};
+  return {
+      .table = "simulation",
+      .what = "the simulation",
+      .keys = {
+          {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
+           "simulation steps; the time step is the inverse"},
+          {"integrator", word(settings.integrator, integrators), any(), "",
+           "how soft bodies are stepped"},
+          {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
+          {"skin_thickness", &settings.skin_thickness, length(), "m",
+           "features nearer than twice this are in contact"},
+          {"separation_time", &settings.separation_time, at_least(0), "s",
+           "in which soft features that overlap part by a factor e; 0: at once, as in the paper"},
+          {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",
+           "over all contacts of a step"},
+          {"seed", &settings.seed, at_least(0), "",
+           "of everything random: particles, jitter, tumble"},
+      }};
 }
 
 Section particles_section(sim::ParticleSettings& particles) {

@@ -85,6 +85,8 @@ struct Settings {
   std::optional<Surface> ground = Surface{};  // the plane z = 0; none: bodies fall for ever
   double skin_thickness = 0.5;  // m; features nearer than twice this are in contact (5.2.1.1)
   ParticleSettings particles;
+  double separation_time = 0.1;  // s in which soft features that overlap part by a factor e;
+                                 // 0: at once, as in the paper (5.3.1)
   int impulse_sweeps = 10;  // over all contacts of a step; soft bodies on the ground need only one
   std::uint64_t seed = 1;   // of the particles' start features
 };

@@ -78,13 +78,13 @@ double ContactImpulse::correct_friction() {
   return (impulse_.friction - before).norm();
 }
 
-void ContactImpulse::separate() const {
+void ContactImpulse::separate(double share) const {
   const double moved = (first_.place() - second_.place() - start_gap_).dot(normal_);
-  const double left = depth_ - moved;
+  const double left = share * depth_ - moved;
   if (!(left > 0.0)) return;
-  const double share = first_.inverse_mass() / (first_.inverse_mass() + second_.inverse_mass());
-  first_.displace(share * left * normal_);
-  second_.displace((share - 1.0) * left * normal_);
+  const double of_first = first_.inverse_mass() / (first_.inverse_mass() + second_.inverse_mass());
+  first_.displace(of_first * left * normal_);
+  second_.displace((of_first - 1.0) * left * normal_);
 }
 
 }  // namespace pneuma::sim

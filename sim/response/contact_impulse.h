@@ -38,9 +38,9 @@ class ContactImpulse {
   Vec3 total() const { return impulse_.normal * normal_ + impulse_.friction; }
   bool sticks() const { return sticks_; }  // friction is below its limit
 
-  /// Moves the sides apart until `depth` less than what they have moved since this was made is
-  /// zero, shared by their inverse masses.
-  void separate() const;
+  /// Moves the sides apart, shared by their inverse masses, until they have moved by `share` of
+  /// the contact's depth since this was made.
+  void separate(double share) const;
 
  private:
   Vec3 relative_velocity() const { return first_.velocity() - second_.velocity(); }

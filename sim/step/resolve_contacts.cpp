@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <utility>
 
 #include "sim/step/stages.h"
@@ -147,10 +147,26 @@ void put_onto_ground(World& world, const Contact& contact, bool sticks, const So
   positions[v] = position;
 }
 
+bool is_soft_soft(const Contact& contact) {
+  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::soft;
+}
+
+/// The paper moves a vertex out of the skin of a triangle at once. A particle that comes to a new
+/// feature finds it deep in the skin, and to push it out in one step strains the springs by far
+/// more than they bear at rest: bodies that lie on each other never come to rest. Given a few
+/// steps, the membrane yields instead.
+double separation_share(const Settings& settings) {
+  if (settings.separation_time == 0.0) return 1.0;
+  return -std::expm1(-time_step(settings) / settings.separation_time);
+}
+
 void separate(World& world, const StepWorkspace& workspace) {
+  const double soft_share = separation_share(world.settings);
   for (int sweep = 0; sweep < separation_sweeps; ++sweep) {
     for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
-      if (!is_soft_ground(workspace.contacts[i])) workspace.impulses[i].separate();
+      const Contact& contact = workspace.contacts[i];
+      if (is_soft_ground(contact)) continue;
+      workspace.impulses[i].separate(is_soft_soft(contact) ? soft_share : 1.0);
     }
   }
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {

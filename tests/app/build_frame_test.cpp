@@ -40,7 +40,7 @@ Built build(const std::vector<std::string>& overrides = {}, Show show = {}) {
   Built built;
   built.scene = scenes::parse_scene(two_kinds, "test.toml", overrides);
   built.world = build_world(built.scene);
-  built.frame = FrameBuilder(built.scene, built.world, {}, show).build(built.world);
+  built.frame = FrameBuilder(built.scene, built.world, {}).build(built.world, {}, show);
   return built;
 }
 
@@ -104,7 +104,7 @@ TEST(BuildFrame, DrawsABoxWithoutDiagonals) {
 TEST(BuildFrame, SharesShapesBetweenCopiesAndFrames) {
   const scenes::Scene scene = scenes::parse_scene(two_kinds, "test.toml");
   const sim::World world = build_world(scene);
-  const FrameBuilder builder(scene, world, {}, {});
+  const FrameBuilder builder(scene, world, {});
   const render::Frame first = builder.build(world), second = builder.build(world);
   EXPECT_EQ(first.meshes[0].shape, first.meshes[1].shape);
   for (std::size_t i = 0; i < first.meshes.size(); ++i) {
@@ -128,7 +128,7 @@ TEST(BuildFrame, FollowsThePictureSettings) {
 TEST(BuildFrame, SaysSceneTimeAndStep) {
   Built built = build();
   built.world.steps = 90;
-  const FrameBuilder builder(built.scene, built.world, {}, {});
+  const FrameBuilder builder(built.scene, built.world, {});
   EXPECT_EQ(builder.build(built.world).caption->text, "Balls and bricks\nt = 1.50 s   step 90");
   EXPECT_FALSE(build({"picture.caption=false"}).frame.caption);
 }
@@ -136,15 +136,15 @@ TEST(BuildFrame, SaysSceneTimeAndStep) {
 TEST(BuildFrame, WritesItsCaptionInAscii) {
   Built built = build({"title=\"\""});
   built.scene.name = "Bälle × 2";  // from the name of the file, which may be anything
-  const FrameBuilder builder(built.scene, built.world, {}, {});
+  const FrameBuilder builder(built.scene, built.world, {});
   EXPECT_EQ(builder.build(built.world).caption->text.substr(0, 10), "B?lle ? 2\n");
 }
 
 TEST(ParseShow, TakesAListOfKnownNames) {
-  EXPECT_TRUE(parse_show("wireframe").wireframe);
-  EXPECT_TRUE(parse_show("wireframe,wireframe").wireframe);
+  EXPECT_TRUE(parse_show("--show", "wireframe").wireframe);
+  EXPECT_TRUE(parse_show("--show", "wireframe,wireframe").wireframe);
   for (const char* wrong : {"", "wire", "wireframe,", ",wireframe", "wireframe particles"}) {
-    EXPECT_THROW(parse_show(wrong), UsageError) << wrong;
+    EXPECT_THROW(parse_show("--show", wrong), UsageError) << wrong;
   }
 }
 

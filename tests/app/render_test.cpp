@@ -82,6 +82,29 @@ TEST_F(RenderTest, FollowsSizeCaptionAndShow) {
   }
 }
 
+TEST_F(RenderTest, MakesACleanAndAnOverlaySequenceInOneRun) {
+  const std::string overlay = "wireframe,contacts";
+  EXPECT_EQ(render("--overlay " + overlay + " --frames 10-20 --sheet 2x2").exit_code, 0);
+  render_into("clean", "--frames 10-20 --sheet 2x2");
+  render_into("marked", "--frames 10-20 --show " + overlay);
+  const auto both = pictures();
+  auto clean = pictures("clean");
+  auto marked = pictures("marked");
+  EXPECT_EQ(both.size(), 11u + 11u + 1u);
+  for (auto& [name, bytes] : clean) EXPECT_EQ(both.at(name), bytes) << name;
+  for (const auto& [name, bytes] : marked) {
+    EXPECT_EQ(both.at(fmt::format("fall_overlay{}", name.substr(4))), bytes) << name;
+  }
+  EXPECT_NE(clean["fall_00020.png"], marked["fall_00020.png"]);
+  EXPECT_EQ(record()["run"]["overlay"], (json{"wireframe", "contacts"}));
+  EXPECT_EQ(record()["frames"][3]["overlay_png_bytes"], both.at("fall_overlay_00013.png").size());
+  // A lost overlay is missed, as a lost frame is.
+  fs::remove(out() / "fall_overlay_00013.png");
+  EXPECT_EQ(render("--overlay " + overlay + " --frames 10-20 --resume").exit_code, 6);
+  EXPECT_EQ(render("--frames 1 --overwrite").exit_code, 0);
+  EXPECT_EQ(pictures().size(), 1u);
+}
+
 TEST_F(RenderTest, MakesTheSameBytesOnAnyNumberOfThreads) {
   render("");
   render_into("threads", "--threads 3");
@@ -104,7 +127,8 @@ TEST_F(RenderTest, RecordsWhatEachFrameShows) {
   render("--set body.k=60");
   const json run = record();
   ASSERT_EQ(run["frames"].size(), 22u);
-  expect_nulls_only_at(run, {"/run/show"});  // an empty list looks like a null when flattened
+  // No overlay, and an empty list, which looks like a null when flattened.
+  expect_nulls_only_at(run, {"/run/overlay", "/run/show"});
   bool touched = false;
   for (std::size_t i = 0; i < 22; ++i) {
     const json& frame = run["frames"][i];

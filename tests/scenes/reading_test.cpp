@@ -31,6 +31,7 @@ steps_per_second = 240
 integrator = "velocity_verlet"
 gravity = [1.0, 2.0, -3.0]
 skin_thickness = 0.25
+separation_time = 0.125
 impulse_sweeps = 4
 seed = 9223372036854775807
 
@@ -81,6 +82,7 @@ memory_gib = 0.5
       .ground = sim::Surface{.restitution = 0.75, .friction = 0.125},
       .skin_thickness = 0.25,
       .particles = {.per_vertex = 0.5, .attraction = 3.0, .max_sweeps = 11, .settled_below = 7},
+      .separation_time = 0.125,
       .impulse_sweeps = 4,
       .seed = 9223372036854775807u};
   expected.camera.azimuth = 10.0;

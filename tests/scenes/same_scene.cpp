@@ -93,7 +93,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   const auto& [steps_per_second, integrator, gravity, ground, skin_thickness, particles,
-               impulse_sweeps, seed] = a;
+               separation_time, impulse_sweeps, seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
   c.member("steps_per_second", steps_per_second, b.steps_per_second);
   c.member("integrator", integrator, b.integrator);
@@ -105,6 +105,7 @@ void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   c.member("attraction", attraction, b.particles.attraction);
   c.member("max_sweeps", max_sweeps, b.particles.max_sweeps);
   c.member("settled_below", settled_below, b.particles.settled_below);
+  c.member("separation_time", separation_time, b.separation_time);
   c.member("impulse_sweeps", impulse_sweeps, b.impulse_sweeps);
   c.member("seed", seed, b.seed);
 }

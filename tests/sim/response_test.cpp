@@ -285,7 +285,7 @@ TEST(Separation, IsSharedByInverseMassesAndLeavesTheCentreOfMass) {
     const Sides sides(world, contact);
     const Vec3 first = place(world, contact.first), second = place(world, contact.second);
     ContactImpulse impulse(world, random.masses(), contact, 0.0);
-    impulse.separate();
+    impulse.separate(1.0);
     const Vec3 first_moved = place(world, contact.first) - first;
     const Vec3 second_moved = place(world, contact.second) - second;
     const Vec3 apart = std::max(0.0, contact.depth) * contact.normal;
@@ -298,7 +298,7 @@ TEST(Separation, IsSharedByInverseMassesAndLeavesTheCentreOfMass) {
       ASSERT_EQ(second_moved, Vec3::Zero());
     }
     // A second time there is nothing left but the rounding of the first.
-    impulse.separate();
+    impulse.separate(1.0);
     ASSERT_LT((place(world, contact.first) - first - first_moved).norm(), 1e-14);
     ASSERT_LT((place(world, contact.second) - second - second_moved).norm(), 1e-14);
   }
