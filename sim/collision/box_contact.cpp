@@ -9,46 +9,35 @@ namespace pneuma::sim {
 
 namespace {
 
-// The ways to make a point, in its key above the bits that number faces, edges and lines.
-constexpr unsigned second_face = 1U << 12U;
-constexpr unsigned edge_pair = 1U << 13U;
-constexpr unsigned lone_corner = 1U << 14U;
-
-/// A corner of the incident face while it is being clipped, in the reference face's coordinates.
-struct ClipCorner {
-  Vec3 at;        // along the face's two sides, and the height over the face
-  unsigned edge;  // the line from here to the next corner: 0 to 3 are the incident face's edges, 4
-                  // to 7 the reference face's sides
-};
-
-/// A convex polygon. A square clipped by four lines has at most eight corners; what rounding might
+/// The incident face while it is being clipped: a convex polygon, in the reference face's
+/// coordinates. A square clipped by four lines has at most eight corners; what rounding might
 /// add to those repeats a neighbour and is dropped.
 class Polygon {
  public:
   int size() const { return size_; }
-  const ClipCorner& operator[](int i) const { return corners_[at(i % size_)]; }
-  void add(const ClipCorner& corner) {
+  const Vec3& operator[](int i) const { return corners_[at(i % size_)]; }
+  void add(const Vec3& corner) {
     if (size_ < BoxContact::most_points) corners_[at(size_++)] = corner;
   }
 
  private:
   int size_ = 0;
-  std::array<ClipCorner, BoxContact::most_points> corners_;
+  std::array<Vec3, BoxContact::most_points> corners_;
 };
 
-/// Sutherland and Hodgman's clipping, by sign * coordinate <= limit, keeping the edges' names.
-Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit, unsigned side) {
+/// Sutherland and Hodgman's clipping, by sign * coordinate <= limit.
+Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) {
   Polygon result;
   for (int i = 0; i < polygon.size(); ++i) {
-    const ClipCorner& here = polygon[i];
-    const ClipCorner& next = polygon[i + 1];
-    const double here_beyond = sign * here.at[coordinate] - limit;
-    const double next_beyond = sign * next.at[coordinate] - limit;
+    const Vec3& here = polygon[i];
+    const Vec3& next = polygon[i + 1];
+    const double here_beyond = sign * here[coordinate] - limit;
+    const double next_beyond = sign * next[coordinate] - limit;
     if (here_beyond <= 0.0) result.add(here);
     if ((here_beyond <= 0.0) == (next_beyond <= 0.0)) continue;
-    Vec3 crossing = here.at + here_beyond / (here_beyond - next_beyond) * (next.at - here.at);
+    Vec3 crossing = here + here_beyond / (here_beyond - next_beyond) * (next - here);
     crossing[coordinate] = sign * limit;
-    result.add({crossing, here_beyond <= 0.0 ? side : here.edge});
+    result.add(crossing);
   }
   return result;
 }
@@ -59,7 +48,6 @@ struct FacePair {
   const OrientedBox& incident;
   int axis;      // of the reference face
   Vec3 outward;  // its normal, towards the incident box
-  unsigned key;  // second_face when the face is on the second box
 
   int u() const { return (axis + 1) % 3; }
   int v() const { return (axis + 2) % 3; }
@@ -76,17 +64,8 @@ struct FacePair {
   }
 };
 
-unsigned face_number(const OrientedBox& box, int axis, const Vec3& direction) {
-  return 2U * static_cast<unsigned>(axis) + (box.axes.col(axis).dot(direction) < 0.0 ? 1U : 0U);
-}
-
-/// The face of a box whose outward normal is most opposed to `direction`.
-struct IncidentFace {
-  std::array<Vec3, 4> corners;  // in order
-  unsigned number;
-};
-
-IncidentFace incident_face(const OrientedBox& box, const Vec3& direction) {
+/// The corners, in order, of the face of a box whose outward normal is most opposed to `direction`.
+std::array<Vec3, 4> incident_face(const OrientedBox& box, const Vec3& direction) {
   const Vec3 along = box.axes.transpose() * direction;
   int axis = 0;
   along.cwiseAbs().maxCoeff(&axis);
@@ -96,8 +75,7 @@ IncidentFace incident_face(const OrientedBox& box, const Vec3& direction) {
   const Vec3 middle = box.centre + side * box.axes.col(axis);
   const Vec3 to_u = box.half[u] * box.axes.col(u);
   const Vec3 to_v = box.half[v] * box.axes.col(v);
-  return {{middle + to_u + to_v, middle - to_u + to_v, middle - to_u - to_v, middle + to_u - to_v},
-          face_number(box, axis, -direction)};
+  return {middle + to_u + to_v, middle - to_u + to_v, middle - to_u - to_v, middle + to_u - to_v};
 }
 
 /// The number of the corner that reaches farthest in a direction.
@@ -109,50 +87,37 @@ int support_corner(const OrientedBox& box, const Vec3& direction) {
 /// Cuts the incident face off at the reference face's sides; what remains below the reference face
 /// touches. All points are kept: a choice of the deepest four would change from step to step.
 void add_face_points(BoxContact& contact, const FacePair& faces) {
-  const IncidentFace face = incident_face(faces.incident, faces.outward);
   Polygon polygon;
-  for (unsigned i = 0; i < 4; ++i) polygon.add({faces.to_face(face.corners[i]), i});
+  for (const Vec3& corner : incident_face(faces.incident, faces.outward)) {
+    polygon.add(faces.to_face(corner));
+  }
   const double u_limit = faces.reference.half[faces.u()];
   const double v_limit = faces.reference.half[faces.v()];
-  polygon = clip(polygon, 0, 1.0, u_limit, 4);
-  polygon = clip(polygon, 0, -1.0, u_limit, 5);
-  polygon = clip(polygon, 1, 1.0, v_limit, 6);
-  polygon = clip(polygon, 1, -1.0, v_limit, 7);
+  polygon = clip(polygon, 0, 1.0, u_limit);
+  polygon = clip(polygon, 0, -1.0, u_limit);
+  polygon = clip(polygon, 1, 1.0, v_limit);
+  polygon = clip(polygon, 1, -1.0, v_limit);
 
-  const unsigned key =
-      faces.key | face_number(faces.reference, faces.axis, faces.outward) << 9U | face.number << 6U;
   for (int i = 0; i < polygon.size(); ++i) {
-    const ClipCorner& corner = polygon[i];
-    if (corner.at.z() > 0.0) continue;
-    const unsigned before = polygon[i + polygon.size() - 1].edge;
-    contact.all[at(contact.count++)] = {faces.to_world(corner.at), -corner.at.z(),
-                                        key | before << 3U | corner.edge};
+    const Vec3& corner = polygon[i];
+    if (corner.z() > 0.0) continue;
+    contact.all[at(contact.count++)] = {faces.to_world(corner), -corner.z()};
   }
   if (contact.count > 0) return;
   // Only when this face was preferred to edges that overlap a little less: the incident box passes
   // the face by its side, and its deepest corner stands for it.
   const int corner = support_corner(faces.incident, -faces.outward);
-  contact.all[at(contact.count++)] = {faces.incident.corner(corner), contact.depth,
-                                      faces.key | lone_corner | static_cast<unsigned>(corner)};
+  contact.all[at(contact.count++)] = {faces.incident.corner(corner), contact.depth};
 }
 
-/// The middle of the edge along `axis` that reaches farthest in `direction`, and its number.
-struct SupportEdge {
-  Vec3 middle;
-  unsigned number;
-};
-
-SupportEdge support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
+/// The middle of the edge along `axis` that reaches farthest in `direction`.
+Vec3 support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
   Vec3 local = box.half;
-  unsigned number = static_cast<unsigned>(axis);
   for (int k = 0; k < 3; ++k) {
-    if (k == axis) continue;
-    const bool negative = box.axes.col(k).dot(direction) < 0.0;
-    if (negative) local[k] = -local[k];
-    number = number << 1U | (negative ? 1U : 0U);
+    if (box.axes.col(k).dot(direction) < 0.0) local[k] = -local[k];
   }
   local[axis] = 0.0;
-  return {box.to_world(local), number};
+  return box.to_world(local);
 }
 
 /// Halfway between the nearest points of the two edges p + s a and q + t b. There the line between
@@ -161,20 +126,19 @@ SupportEdge support_edge(const OrientedBox& box, int axis, const Vec3& direction
 /// The axis exists, so the edges are not parallel.
 void add_edge_point(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
                     const LeastOverlap& overlap) {
-  const SupportEdge p = support_edge(first, overlap.first_axis, -overlap.normal);
-  const SupportEdge q = support_edge(second, overlap.second_axis, overlap.normal);
+  const Vec3 p = support_edge(first, overlap.first_axis, -overlap.normal);
+  const Vec3 q = support_edge(second, overlap.second_axis, overlap.normal);
   const Vec3 a = first.axes.col(overlap.first_axis);
   const Vec3 b = second.axes.col(overlap.second_axis);
-  const Vec3 r = p.middle - q.middle;
+  const Vec3 r = p - q;
   const double squared_sine = a.cross(b).squaredNorm();
   const double c = a.dot(b);
   const double s_reach = first.half[overlap.first_axis];
   const double t_reach = second.half[overlap.second_axis];
   const double s = std::clamp((c * b.dot(r) - a.dot(r)) / squared_sine, -s_reach, s_reach);
   const double t = std::clamp((b.dot(r) - c * a.dot(r)) / squared_sine, -t_reach, t_reach);
-  const Vec3 middle = 0.5 * (p.middle + s * a + q.middle + t * b);
-  contact.all[at(contact.count++)] = {middle, overlap.overlap,
-                                      edge_pair | p.number << 4U | q.number};
+  const Vec3 middle = 0.5 * (p + s * a + q + t * b);
+  contact.all[at(contact.count++)] = {middle, overlap.overlap};
 }
 
 }  // namespace
@@ -188,9 +152,9 @@ std::optional<BoxContact> find_box_contact(const OrientedBox& first, const Orien
   if (overlap->kind == AxisKind::edges) {
     add_edge_point(contact, first, second, *overlap);
   } else if (overlap->kind == AxisKind::first_face) {
-    add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal, 0});
+    add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal});
   } else {
-    add_face_points(contact, {second, first, overlap->second_axis, overlap->normal, second_face});
+    add_face_points(contact, {second, first, overlap->second_axis, overlap->normal});
   }
   return contact;
 }

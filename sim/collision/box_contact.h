@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -13,8 +12,6 @@ namespace pneuma::sim {
 struct BoxContactPoint {
   Vec3 point = Vec3::Zero();  // m
   double depth = 0.0;         // m the boxes must move apart along the normal to part here, >= 0
-  std::uint32_t key = 0;      // names the edges and faces that make the point: unique within the
-                              // contact, and the same in the next step while they stay the same
 };
 
 /// One to eight points that share a normal.

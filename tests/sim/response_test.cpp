@@ -226,6 +226,18 @@ TEST(Friction, OfPointMassesIsAlongTheSlidingAndStopsItAtMost) {
   }
 }
 
+/// How much of a velocity along the normal an impulse across it makes, in units of what the same
+/// impulse along the normal makes.
+double tangential_coupling(const Sides& sides, const Vec3& normal) {
+  Vec3 response = Vec3::Zero();  // to an impulse of 1 N s along the normal
+  for (const Side& side : {sides.first, sides.second}) {
+    const Vec3 spin = side.inverse_inertia * side.arm.cross(normal);
+    response += side.inverse_mass * normal + spin.cross(side.arm);
+  }
+  const double along = response.dot(normal);
+  return (response - along * normal).norm() / along;
+}
+
 TEST(Friction, RepeatedCorrectionsOfBoxesEndInSticksOrSlips) {
   // The normal and the two directions across it disturb each other through the rotation, so that a
   // single call does not end in one of the two: no motion at all, or sliding with the friction at
@@ -246,6 +258,10 @@ TEST(Friction, RepeatedCorrectionsOfBoxesEndInSticksOrSlips) {
     if (normal == 0.0) continue;
     if (change > 1e-13 * normal) {
       ++unsettled;
+      // The friction that stops the sliding brings the point back by about as much as the impulse
+      // along the normal had pushed it away, again and again: only where mu and the arms are great.
+      const double mu = pair_surface(world, contact).friction;
+      EXPECT_GT(mu * tangential_coupling(Sides(world, contact), contact.normal), 0.75) << trial;
       continue;
     }
     const Vec3 velocity = Sides(world, contact).relative_velocity();
@@ -261,7 +277,6 @@ TEST(Friction, RepeatedCorrectionsOfBoxesEndInSticksOrSlips) {
   }
   EXPECT_GT(sticking, 300);
   EXPECT_GT(slipping, 1000);
-  // Arms so long and frictions so great that the friction brings the point back, again and again.
   EXPECT_LT(unsettled, (sticking + slipping) / 20);
 }
 

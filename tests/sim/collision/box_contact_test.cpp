@@ -1,11 +1,9 @@
-// The points in which boxes touch: where they lie, how deep they are, and that they keep their
-// keys.
+// The points in which boxes touch: where they lie, and how deep they are.
 #include "sim/collision/box_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <set>
 
 #include "sim/collision/separating_axis.h"
 #include "tests/sim/collision/box_samples.h"
@@ -45,9 +43,7 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
     double thickness = 2.0 * std::min(first.half.minCoeff(), second.half.minCoeff());
     if (least->kind == AxisKind::first_face) thickness = 2.0 * first.half[least->first_axis];
     if (least->kind == AxisKind::second_face) thickness = 2.0 * second.half[least->second_axis];
-    std::set<std::uint32_t> keys;
-    for (const auto& [point, depth, key] : contact->points()) {
-      keys.insert(key);
+    for (const auto& [point, depth] : contact->points()) {
       ASSERT_GE(depth, 0.0);
       ASSERT_LE(depth, contact->depth + rounding);
       const double below = top_of_second - point.dot(n);
@@ -74,7 +70,6 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
         ++beyond_a_thin_box;
       }
     }
-    ASSERT_EQ(static_cast<int>(keys.size()), contact->count);
   }
   EXPECT_GT(contacts, 30'000);
   EXPECT_GT(of_edges, 3'000);
@@ -92,12 +87,6 @@ OrientedBox cube_at(const Vec3& centre, const Mat3& axes = Mat3::Identity()) {
 /// The contact of a unit cube a little in the top of another one below it.
 std::optional<BoxContact> stacked(const OrientedBox& upper) {
   return find_box_contact(upper, cube_at(Vec3::Zero()));
-}
-
-std::set<std::uint32_t> keys_of(const BoxContact& contact) {
-  std::set<std::uint32_t> keys;
-  for (const BoxContactPoint& p : contact.points()) keys.insert(p.key);
-  return keys;
 }
 
 TEST(BoxContact, OfStackedCubesIsTheSharedSquare) {
@@ -129,11 +118,7 @@ TEST(BoxContact, OfACubeTurnedByFortyFiveDegreesIsAnOctagon) {
   for (const BoxContactPoint& p : contact->points()) {
     EXPECT_NEAR(p.point.head<2>().norm(), 0.5 / std::cos(std::numbers::pi / 8.0), 1e-15);
     EXPECT_NEAR(p.depth, 0.01, 1e-15);
-    // Where an edge of one square crosses an edge of the other: the key's lowest two octal digits
-    // name one of each, 0 to 3 and 4 to 7.
-    EXPECT_NE((p.key & 07U) < 4U, (p.key >> 3U & 07U) < 4U) << std::oct << p.key;
   }
-  EXPECT_EQ(keys_of(*contact).size(), 8U);
 }
 
 // Two cubes on edge, one above the other, the edges crossing at right angles: each reaches
@@ -161,7 +146,7 @@ TEST(BoxContact, HasAPointWhereThePreferredFaceIsMissed) {
   const auto contact = find_box_contact(first, second);
   ASSERT_TRUE(contact);
   ASSERT_EQ(contact->count, 1);
-  const auto& [point, depth, key] = contact->all[0];
+  const auto& [point, depth] = contact->all[0];
   EXPECT_EQ(depth, contact->depth);
   EXPECT_LT(depth, 0.0005);
   const double beside = std::max(outside(first, point), outside(second, point));
@@ -174,21 +159,6 @@ TEST(BoxContact, PushesTheFirstBoxAwayWhicheverIsFirst) {
   const OrientedBox lower = cube_at(Vec3::Zero());
   EXPECT_EQ(find_box_contact(upper, lower)->normal, Vec3::UnitZ().eval());
   EXPECT_EQ(find_box_contact(lower, upper)->normal, (-Vec3::UnitZ()).eval());
-}
-
-// While a cube slides, turns and rocks a little on another, its points keep their names: what a
-// response that starts from the last step's impulses needs.
-TEST(BoxContact, KeysStayWhileTheSameEdgesMeet) {
-  BoxRandom random(5);
-  const Mat3 start = turn(Vec3::UnitZ(), 0.3);
-  const auto before = stacked(cube_at({0.1, 0.2, 0.99}, start));
-  ASSERT_TRUE(before);
-  for (int i = 0; i < 1000; ++i) {
-    const Mat3 turned = turn(random.direction(), 1e-3 * random.unit()) * start;
-    const auto after = stacked(cube_at(Vec3(0.1, 0.2, 0.99) + 1e-3 * random.point(), turned));
-    ASSERT_TRUE(after);
-    ASSERT_EQ(keys_of(*after), keys_of(*before));
-  }
 }
 
 // Concentric boxes have no direction to the other's centre; flat and rod-like ones have faces far
