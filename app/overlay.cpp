@@ -17,7 +17,7 @@ const std::array<Colour, 6> body_hues = {Colour(0.10f, 0.85f, 0.95f), Colour(1.0
 const Colour white(1.0f, 1.0f, 1.0f);
 constexpr float free_diameter = 7.0f;  // pixels at 480 lines
 constexpr float touching_diameter = 9.0f;
-constexpr float ring_diameter = 13.0f;
+constexpr float ring_diameter = 17.0f;
 constexpr float normal_length = 1.0f;  // m
 
 bool is_part_of(const sim::MeshTopology& mesh, sim::Feature part, sim::Feature whole) {

@@ -39,6 +39,8 @@ class Observer {
         greatest_energy_(last_energy_) {
     result_.energy_start = sim::energy(start);
     result_.momentum_start = sim::momentum(start);
+    result_.start_penetration = sim::greatest_penetration(start);
+    result_.penetration = {result_.start_penetration, sim::time(start)};
     result_.free = !start.settings.ground && start.settings.gravity.isZero();
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
@@ -48,20 +50,22 @@ class Observer {
 
   void after_step(const sim::World& world, const sim::Stepper& stepper) {
     result_.contacts.add(stepper.contacts());
-    const double depth = sim::greatest_penetration(world);
-    if (depth > result_.penetration.value) result_.penetration = {depth, sim::time(world)};
-    if (2 * world.steps > all_steps_) {
-      result_.settled_penetration = std::max(result_.settled_penetration, depth);
-    }
+    if (2 * world.steps > all_steps_) result_.settled_contacts.add(stepper.contacts());
   }
 
   void after_frame(const sim::World& world) {
     const double now = sim::energy(world).total();
     const double rise = now - last_energy_;
+    result_.energy_rises += std::max(0.0, rise);
     if (rise > result_.energy_rise.value) result_.energy_rise = {rise, sim::time(world)};
     last_energy_ = now;
     least_energy_ = std::min(least_energy_, now);
     greatest_energy_ = std::max(greatest_energy_, now);
+    const double depth = sim::greatest_penetration(world);
+    if (depth > result_.penetration.value) result_.penetration = {depth, sim::time(world)};
+    if (2 * world.steps > all_steps_) {
+      result_.settled_penetration = std::max(result_.settled_penetration, depth);
+    }
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       VolumeRange& range = result_.volumes[b];
       range.least = std::min(range.least, volume(world.soft[b]));

@@ -26,21 +26,24 @@ struct VolumeRange {
   double greatest = 0.0;
 };
 
-/// Penetration and contacts are looked at in every step; energy and volumes in every frame, since
-/// that is how often the scene's pictures are taken.
+/// Contacts are looked at in every step; penetration, energy and volumes at the start and in every
+/// frame, since that is how often the scene's pictures are taken.
 struct RunStatistics {
   std::int64_t steps = 0;                 // done
   double seconds = 0.0;                   // of the scene's time
   std::optional<std::string> divergence;  // where the run ended early; what follows is up to there
 
   Peak penetration;                  // m, over the whole run
+  double start_penetration = 0.0;    // m
   double settled_penetration = 0.0;  // m, over the last half of it
   ContactTally contacts;
+  ContactTally settled_contacts;  // over the last half of the run
 
   sim::Energy energy_start;
   sim::Energy energy_end;
-  Peak energy_rise;          // J, the greatest from one frame to the next
-  double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
+  Peak energy_rise;           // J, the greatest from one frame to the next
+  double energy_rises = 0.0;  // J, all of them together
+  double energy_span = 0.0;   // J, between the greatest and the least: what a rise is judged by
 
   std::vector<VolumeRange> volumes;  // of the soft bodies
 

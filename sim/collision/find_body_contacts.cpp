@@ -8,13 +8,19 @@
 namespace pneuma::sim {
 namespace {
 
-/// m. Points of boxes this near are contacts already, so that boxes at rest do not lose each other
-/// to rounding; impulses let them close the gap.
-constexpr double resting_gap = 0.005;
+/// How boxes rest. Points this near are contacts already, so that boxes at rest do not lose each
+/// other to rounding; impulses let them close the gap. And boxes are left a little in each other:
+/// pushing the deepest point out altogether would lift the other points off, and they would rattle.
+struct RestingLengths {
+  double gap;      // m
+  double overlap;  // m
+};
 
-/// m. Boxes are left this far in each other: pushing the deepest point out altogether would lift
-/// the other points off, and boxes at rest would rattle.
-constexpr double resting_overlap = 0.0025;
+/// 5 mm and 2.5 mm, less for boxes smaller than 10 cm.
+RestingLengths resting_lengths(double shortest_side) {
+  const double gap = std::min(0.005, 0.05 * shortest_side);
+  return {gap, 0.5 * gap};
+}
 
 OrientedBox oriented_box(const RigidBox& box) {
   return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
@@ -39,14 +45,15 @@ void find_soft_ground(const World& world, int soft, std::vector<Contact>& contac
 
 void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& contacts) {
   const OrientedBox box = oriented_box(world.rigid[at(rigid)]);
+  const RestingLengths resting = resting_lengths(2.0 * box.half.minCoeff());
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = box.corner(i);
-    if (!(corner.z() < resting_gap)) continue;
+    if (!(corner.z() < resting.gap)) continue;
     contacts.push_back({box_side(rigid),
                         {},
                         corner,
                         Vec3::UnitZ(),
-                        -corner.z() - resting_overlap,
+                        -corner.z() - resting.overlap,
                         std::max(0.0, corner.z())});
   }
 }
@@ -78,17 +85,23 @@ void find_soft_rigid(const World& world, int soft, int rigid, std::vector<Contac
 }
 
 void find_rigid_rigid(const World& world, int first, int second, std::vector<Contact>& contacts) {
-  const auto grown = [&](int rigid) {
-    OrientedBox box = oriented_box(world.rigid[at(rigid)]);
-    box.half.array() += 0.5 * resting_gap;
-    return box;
-  };
-  const auto contact = find_box_contact(grown(first), grown(second));
+  OrientedBox a = oriented_box(world.rigid[at(first)]);
+  OrientedBox b = oriented_box(world.rigid[at(second)]);
+  const RestingLengths resting =
+      resting_lengths(2.0 * std::min(a.half.minCoeff(), b.half.minCoeff()));
+  const double growth = 0.5 * resting.gap;  // of each box on all sides
+  a.half.array() += growth;
+  b.half.array() += growth;
+  const auto contact = find_box_contact(a, b);
   if (!contact) return;
+  // A corner or an edge has come nearer by more than a face.
+  const double grown_along_normal = growth * ((a.axes.transpose() * contact->normal).lpNorm<1>() +
+                                              (b.axes.transpose() * contact->normal).lpNorm<1>());
   for (const BoxContactPoint& point : contact->points()) {
-    const double depth = point.depth - resting_gap;
+    const double depth = point.depth - grown_along_normal;
+    if (depth < -resting.gap) continue;
     contacts.push_back({box_side(first), box_side(second), point.point, contact->normal,
-                        depth - resting_overlap, std::max(0.0, -depth)});
+                        depth - resting.overlap, std::max(0.0, -depth)});
   }
 }
 

@@ -35,9 +35,11 @@ Momentum momentum(const SoftBody& body);
 Bounds bounds(const World& world);
 
 /// The greatest depth in metres by which, at this moment, a body reaches into the ground or into
-/// another body; 0 when nothing overlaps. Of soft bodies and boxes the vertices and corners count,
-/// each by its distance from the other body's surface; of two boxes the shortest way apart. Every
-/// vertex of bodies that are near each other is looked at: for reports, not for the step.
+/// another body; 0 when nothing overlaps. Of soft bodies the vertices and the middles of edges and
+/// triangles count, of boxes the corners and four points along each edge, each by its distance from
+/// the other body's surface; of two boxes the shortest way apart. The step itself keeps only
+/// vertices and corners out (5.2.2), so that an edge may cut off a corner of another body. Looks at
+/// all of this on bodies that are near each other: for reports, not for the step.
 double greatest_penetration(const World& world);
 
 /// 64-bit hash of the whole state. Equal states, equal hashes, on one build.

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "sim/collision/bounding_sphere.h"
+#include "sim/collision/particles.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/collision/separating_axis.h"
 #include "sim/inspect/inspect.h"
@@ -34,24 +35,46 @@ double depth_in_soft(const Shapes& shapes, int soft, const Vec3& point) {
   return exit ? exit->depth : 0.0;
 }
 
-double vertices_in_soft(const Shapes& shapes, int vertices_of, int soft) {
-  const VertexArray& vertices = shapes.surfaces[at(vertices_of)].positions;
-  double depth = 0.0;
-  for (int v = 0; v < vertices.size(); ++v) {
-    depth = std::max(depth, depth_in_soft(shapes, soft, vertices[v]));
+/// Calls `look` with each vertex, the middle of each edge and of each triangle.
+template <class Look>
+void sample_surface(const SurfaceView& surface, const Look& look) {
+  for (int feature = 0; feature < surface.topology.feature_count(); ++feature) {
+    look(feature_centre(surface, feature));
   }
+}
+
+/// Calls `look` with each corner and four points between the ends of each edge.
+template <class Look>
+void sample_box(const OrientedBox& box, const Look& look) {
+  constexpr int parts = 5;
+  for (int i = 0; i < 8; ++i) {
+    look(box.corner(i));
+    for (int axis = 0; axis < 3; ++axis) {
+      const int other = i | 1 << axis;  // corners number their sides bit by bit
+      if (other == i) continue;
+      for (int part = 1; part < parts; ++part) {
+        const double share = static_cast<double>(part) / parts;
+        look(box.corner(i) + share * (box.corner(other) - box.corner(i)));
+      }
+    }
+  }
+}
+
+double surface_in_soft(const Shapes& shapes, int inner, int soft) {
+  double depth = 0.0;
+  sample_surface(shapes.surfaces[at(inner)], [&](const Vec3& point) {
+    depth = std::max(depth, depth_in_soft(shapes, soft, point));
+  });
   return depth;
 }
 
 double soft_and_box(const Shapes& shapes, int soft, const OrientedBox& box) {
-  const VertexArray& vertices = shapes.surfaces[at(soft)].positions;
   double depth = 0.0;
-  for (int v = 0; v < vertices.size(); ++v) {
-    if (const auto exit = find_box_exit(box, vertices[v])) depth = std::max(depth, exit->depth);
-  }
-  for (int i = 0; i < 8; ++i) {
-    depth = std::max(depth, depth_in_soft(shapes, soft, box.corner(i)));
-  }
+  sample_surface(shapes.surfaces[at(soft)], [&](const Vec3& point) {
+    if (const auto exit = find_box_exit(box, point)) depth = std::max(depth, exit->depth);
+  });
+  sample_box(
+      box, [&](const Vec3& point) { depth = std::max(depth, depth_in_soft(shapes, soft, point)); });
   return depth;
 }
 
@@ -64,8 +87,8 @@ double depth_of_pair(const Shapes& shapes, const BodyPair& pair) {
   const int soft = static_cast<int>(shapes.surfaces.size());
   const auto box = [&](int body) -> const OrientedBox& { return shapes.boxes[at(body - soft)]; };
   if (pair.second < soft) {
-    return std::max(vertices_in_soft(shapes, pair.first, pair.second),
-                    vertices_in_soft(shapes, pair.second, pair.first));
+    return std::max(surface_in_soft(shapes, pair.first, pair.second),
+                    surface_in_soft(shapes, pair.second, pair.first));
   }
   if (pair.first < soft) return soft_and_box(shapes, pair.first, box(pair.second));
   return box_and_box(box(pair.first), box(pair.second));

@@ -11,28 +11,37 @@ struct Impulse {
   Vec3 friction = Vec3::Zero();  // across it, at most mu times the normal one
 };
 
+/// m/s. A body that would part more slowly, and rise by less than 5 um, does not bounce: a stack
+/// that always trembles a little rests better without.
+inline constexpr double least_bounce_speed = 0.01;
+
 class ContactImpulse {
  public:
   /// `start_approach` (m/s): how fast the sides approached along the normal at the start of the
   /// step. They will part with the restitution's share of it: of what forces add within the step
   /// nothing comes back, or bodies at rest would bounce for ever.
+  /// `work`: J, what all contacts of this pair of bodies have added to their energy so far in the
+  /// step; 0 at first, shared by them and kept by the caller for as long as this lives.
   ContactImpulse(World& world, std::span<const BoxMass> masses, const Contact& contact,
-                 double start_approach);
+                 double start_approach, double& work);
 
   /// Starts from an impulse that is likely to be near the result, instead of from none. Called
   /// again, from the sum.
   void start_from(const Vec3& impulse);
 
-  /// Corrects the impulse so that the sides part as they should, with everything else that has
-  /// happened to them so far: j = -(1 + epsilon) v_rel . n / (1/m0 + 1/m1 + ...), and friction that
-  /// stops the sliding with at most mu j. In a first call on sides that are only approaching, the
-  /// total is the paper's impulse; j never becomes negative. Returns the size of the correction, N
-  /// s.
-  ///
-  /// Never adds kinetic energy in a first call for restitution <= 1: the normal part ends between
-  /// the velocity it found and its mirror image, and the frictional part between sliding and not
-  /// sliding.
+  /// Corrects the impulse so that the sides no longer approach, with everything else that has
+  /// happened to them so far: j = -v_rel . n / (1/m0 + 1/m1 + ...), and friction that stops the
+  /// sliding with at most mu j. Called again and again, over all contacts of a step; j never
+  /// becomes negative, also between boxes, which 5.3.3 leaves open. Returns the size of the
+  /// correction, N s.
   double correct();
+
+  /// To be called once the sides no longer approach. From now on `correct` makes them part with the
+  /// restitution's share of the speed with which they met: with a single contact the total is the
+  /// paper's j = -(1 + epsilon) v_rel . n / (1/m0 + 1/m1 + ...). What it gives back is at most the
+  /// energy that the contacts of the two bodies have taken, so that with friction and rotation too
+  /// a restitution of 1 adds none. Returns whether there is anything to give back.
+  bool bounce();
 
   const Impulse& impulse() const { return impulse_; }
   Vec3 total() const { return impulse_.normal * normal_ + impulse_.friction; }
@@ -46,6 +55,7 @@ class ContactImpulse {
   Vec3 relative_velocity() const { return first_.velocity() - second_.velocity(); }
   void apply(const Vec3& impulse) const;
   double correct_normal();
+  double most_without_gain(double parting) const;
   double correct_friction();
 
   SideInContact first_;
@@ -57,7 +67,9 @@ class ContactImpulse {
   double normal_mass_;
   std::array<double, 2> tangent_masses_;
   double friction_;
-  double target_ = 0.0;  // m/s with which the sides part; negative: may still approach
+  double target_ = 0.0;        // m/s with which the sides part; negative: may still approach
+  double bounce_speed_ = 0.0;  // m/s, the target once they have been stopped
+  double* work_;               // J, shared
   Impulse impulse_;
   bool sticks_ = false;
 };

@@ -7,15 +7,18 @@
 namespace pneuma::sim {
 namespace {
 
+constexpr double box_margin = 0.005;  // m
+
 /// Of soft bodies first, then of boxes. Soft bodies are in contact at a distance of twice the skin,
-/// half of it each (ERRATA row 10); boxes only when something is inside them.
+/// half of it each (ERRATA row 10). Boxes are in contact when something is inside them, or a few
+/// millimetres before (find_body_contacts.cpp): a margin for that.
 void make_spheres(const World& world, std::vector<BoundingSphere>& spheres) {
   spheres.clear();
   for (const SoftBody& body : world.soft) {
     spheres.push_back(bounding_sphere(body.positions, world.settings.skin_thickness));
   }
   for (const RigidBox& box : world.rigid) {
-    spheres.push_back({box.position, 0.5 * box.size.norm()});
+    spheres.push_back({box.position, 0.5 * box.size.norm() + box_margin});
   }
 }
 

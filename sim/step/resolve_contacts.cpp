@@ -60,13 +60,26 @@ Vec3 place_on_first(const World& world, const Contact& contact) {
   return box.orientation.conjugate() * (contact.point - box.position);
 }
 
+/// Contacts of the same bodies follow each other. Vertices on the ground each stand for themselves.
+bool are_of_same_bodies(const Contact& a, const Contact& b) {
+  const auto same = [](const ContactSide& x, const ContactSide& y) {
+    return x.kind == y.kind && x.body == y.body;
+  };
+  return !is_soft_ground(a) && same(a.first, b.first) && same(a.second, b.second);
+}
+
 void prepare(World& world, StepWorkspace& workspace) {
   workspace.box_masses.clear();
   for (const RigidBox& box : world.rigid) workspace.box_masses.push_back(box_mass(box));
   workspace.impulses.clear();
-  for (const Contact& contact : workspace.contacts) {
-    workspace.impulses.emplace_back(world, workspace.box_masses, contact,
-                                    start_approach(world, workspace, contact));
+  const std::vector<Contact>& contacts = workspace.contacts;
+  workspace.pair_work.assign(contacts.size(), 0.0);
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (i > 0 && !are_of_same_bodies(contacts[i - 1], contacts[i])) pair = i;
+    workspace.impulses.emplace_back(world, workspace.box_masses, contacts[i],
+                                    start_approach(world, workspace, contacts[i]),
+                                    workspace.pair_work[pair]);
   }
 }
 
@@ -113,7 +126,7 @@ void start_from_last_step(const World& world, StepWorkspace& workspace) {
 
 /// Vertices on the ground do not know of each other: one sweep is exact for them. Everything else
 /// is corrected until the corrections have died away.
-void sweep(const Settings& settings, StepWorkspace& workspace) {
+void correct_all(const Settings& settings, StepWorkspace& workspace) {
   const bool coupled =
       !std::all_of(workspace.contacts.begin(), workspace.contacts.end(), is_soft_ground);
   const int sweeps = coupled ? settings.impulse_sweeps : 1;
@@ -131,6 +144,14 @@ void sweep(const Settings& settings, StepWorkspace& workspace) {
     }
     if (change <= 1e-6 * total) return;
   }
+}
+
+/// First what stops bodies from approaching, then what makes them bounce.
+void apply_impulses(const Settings& settings, StepWorkspace& workspace) {
+  correct_all(settings, workspace);
+  bool bounces = false;
+  for (ContactImpulse& impulse : workspace.impulses) bounces |= impulse.bounce();
+  if (bounces) correct_all(settings, workspace);
 }
 
 /// A vertex is put back onto the ground (3.1.4). One that friction holds is also put where it would
@@ -197,7 +218,7 @@ void remember(World& world, const StepWorkspace& workspace) {
 void resolve_contacts(World& world, StepWorkspace& workspace) {
   prepare(world, workspace);
   start_from_last_step(world, workspace);
-  sweep(world.settings, workspace);
+  apply_impulses(world.settings, workspace);
   separate(world, workspace);
   remember(world, workspace);
 }

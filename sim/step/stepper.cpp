@@ -1,6 +1,7 @@
 #include "sim/step/stepper.h"
 
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "sim/step/stages.h"
@@ -58,6 +59,25 @@ void restore(World& world, const StepWorkspace& workspace, Stage failed) {
   }
 }
 
+/// The last look at a step: what it made is finite.
+std::optional<Divergence> find_not_finite(const World& world, Stage stage) {
+  const auto divergence = [&](const std::string& body) {
+    return Divergence{stage, world.steps + 1, body,
+                      "its contacts gave it a position or velocity that is not a finite number"};
+  };
+  for (const SoftBody& body : world.soft) {
+    // A sum is finite only if all its terms are, and far quicker to look at.
+    const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
+    if (!std::isfinite(sum)) return divergence(body.name);
+  }
+  for (const RigidBox& box : world.rigid) {
+    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
+                       box.orientation.coeffs().sum();
+    if (!std::isfinite(sum)) return divergence(box.name);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
@@ -92,6 +112,11 @@ std::optional<Divergence> Stepper::step(World& world) {
   run(Stage::move_particles, [&] { move_particles(world, workspace); });
   run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
   run(Stage::resolve_contacts, [&] { resolve_contacts(world, workspace); });
+  divergence = find_not_finite(world, Stage::resolve_contacts);
+  if (divergence) {
+    restore(world, workspace, Stage::integrate_rigid);
+    return divergence;
+  }
 
   ++world.steps;
   return std::nullopt;

@@ -49,6 +49,7 @@ struct StepWorkspace {
   SoftSoftScratch soft_soft;
   std::vector<Contact> contacts;
   std::vector<BoxMass> box_masses;
+  std::vector<double> pair_work;         // J, by the contacts of each pair of bodies
   std::vector<ContactImpulse> impulses;  // per contact
   StageTimes stage_times{};
 };

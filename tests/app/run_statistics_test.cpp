@@ -75,6 +75,8 @@ position = [0.0, 0.0, 1.0]
   EXPECT_GT(run.contacts.of(sim::ContactKind::soft_ground).most, 0);
   EXPECT_EQ(run.contacts.all.sum, run.contacts.of(sim::ContactKind::soft_ground).sum);
   EXPECT_LE(run.settled_penetration, run.penetration.value);
+  EXPECT_EQ(run.settled_contacts.steps, 30);
+  EXPECT_NEAR(run.start_penetration, 0.0, 1e-15);  // the pole's height is 1 - 1, rounded
   EXPECT_LE(run.penetration.time, 1.0);
 }
 

@@ -121,7 +121,8 @@ TEST(Ground, FrictionIsCoulombs) {
     body.velocities[57] = Vec3(sliding, 0.0, -2.0);
     const Contact contact{
         {BodyKind::soft, 0, {FeatureKind::vertex, 57}}, {}, {0, 0, 0}, Vec3::UnitZ(), 0.0};
-    ContactImpulse impulse(world, {}, contact, 2.0);
+    double work = 0.0;
+    ContactImpulse impulse(world, {}, contact, 2.0, work);
     impulse.correct();
     EXPECT_NEAR(impulse.impulse().normal, body.material.vertex_mass * 2.0, 1e-15);
     EXPECT_EQ(body.velocities[57].z(), 0.0);

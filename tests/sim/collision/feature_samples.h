@@ -127,10 +127,10 @@ class FeatureSampler {
         move(b, 0.5 * point());
         break;
       case 2:  // parallel or coplanar, but for rounding
-        b = parallel_to(a, second_size);
+        make_parallel(a, b);
         break;
       case 3:  // the same with an angle of 1e-12 to 1e-1 between them
-        b = parallel_to(a, second_size);
+        make_parallel(a, b);
         for (Vec3& p : b) p += std::pow(10.0, -12.0 + 11.0 * unit()) * point();
         break;
       case 4:  // touching in a point
@@ -152,7 +152,7 @@ class FeatureSampler {
         for (Points* points : {&a, &b}) {
           for (Vec3& p : *points) p *= size;
         }
-        const Vec3 origin = 100.0 * size * point();
+        const Vec3 origin = std::pow(10.0, 6.0 * unit()) * size * point();
         move(a, origin);
         move(b, origin + size * point());
         reach = size;
@@ -166,7 +166,7 @@ class FeatureSampler {
         move(b, point());
         break;
       case 9:  // nearly parallel, and crossing in the middle
-        b = parallel_to(a, second_size);
+        make_parallel(a, b);
         for (Vec3& p : b) p += std::pow(10.0, -12.0 + 11.0 * unit()) * point();
         move(b, inside(a) - inside(b));
         reach = unit() < 0.5 ? 1.0 : 1e-6;
@@ -237,6 +237,17 @@ class FeatureSampler {
     return sum / weights;
   }
 
+  /// Of features of different orders the lower one follows the higher one: a triangle along an edge
+  /// would be none.
+  void make_parallel(Points& a, Points& b) {
+    if (b.size() > a.size()) {
+      a = parallel_to(b, a.size());
+    } else {
+      b = parallel_to(a, b.size());
+    }
+  }
+
+  /// In the plane of a triangle's sides, or along an edge, moved elsewhere.
   Points parallel_to(const Points& a, std::size_t size) {
     const Vec3 along = a.back() - a.front();
     const Vec3 other = a[a.size() / 2] - a.front();
@@ -244,7 +255,7 @@ class FeatureSampler {
     Points result(size);
     for (Vec3& p : result) {
       const double s = 3.0 * unit() - 1.0;
-      const double t = size < 3 ? 0.0 : 3.0 * unit() - 1.0;
+      const double t = a.size() < 3 ? 0.0 : 3.0 * unit() - 1.0;
       p = origin + s * along + t * other;
     }
     return result;
