@@ -1,5 +1,8 @@
 #include "sim/soft/soft_mesh.h"
 
+#include <cmath>
+#include <stdexcept>
+
 #include "sim/mesh/measure.h"
 
 namespace pneuma::sim {
@@ -21,6 +24,22 @@ std::shared_ptr<const SoftMesh> make_soft_mesh(const TriangleMesh& mesh) {
   for (int v = 0; v < topology.vertex_count(); ++v) {
     result.valence_weights.push_back(static_cast<double>(topology.ring(v).size()) / mean_springs);
   }
+  return std::make_shared<const SoftMesh>(std::move(result));
+}
+
+std::shared_ptr<const SoftMesh> make_soft_mesh(const SoftMesh& mesh,
+                                               std::vector<double> rest_lengths) {
+  if (rest_lengths.size() != mesh.rest_lengths.size()) {
+    throw std::invalid_argument(std::to_string(rest_lengths.size()) + " rest lengths for " +
+                                std::to_string(mesh.rest_lengths.size()) + " edges");
+  }
+  for (const double length : rest_lengths) {
+    if (std::isfinite(length) && length >= 0.0) continue;
+    throw std::invalid_argument("a rest length of " + std::to_string(length) +
+                                " m: it must be finite and not negative");
+  }
+  SoftMesh result = mesh;
+  result.rest_lengths = std::move(rest_lengths);
   return std::make_shared<const SoftMesh>(std::move(result));
 }
 

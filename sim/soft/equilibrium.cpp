@@ -1,0 +1,163 @@
+#include "sim/soft/equilibrium.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "sim/mesh/measure.h"
+#include "sim/soft/pressure_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Rounds of the proximal iteration: what is given up falls off steeply at the softening.
+constexpr int rounds = 10;
+
+/// In place of a softening of 0, as a share of k: far below the stiffness of any load that a mesh
+/// of sane triangles balances, far above the 1e-15 to which the equations are solved.
+constexpr double least_softening = 1e-9;
+
+/// Net force and torque up to which they are rounding, as a share of the sum of all forces.
+constexpr double rounding = 1e-9;
+
+std::string text(double value) {
+  std::array<char, 32> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
+  return buffer.data();
+}
+
+/// The pressure force on every vertex in N, as one column x0 y0 z0 x1 ...
+Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& positions,
+                               const SoftMaterial& material) {
+  const int count = topology.vertex_count();
+  VertexArray gradient(count);
+  volume_gradient(topology, positions, gradient);
+  const double enclosed = volume(positions, gradient);
+  if (!(enclosed > 0.0)) {
+    throw EquilibriumError("the shape's volume is " + text(enclosed) +
+                           " m^3: gas needs a volume above zero, its triangles must be "
+                           "counter-clockwise from outside");
+  }
+  const double pressure = gas_strength(material) / enclosed;
+  const double mean_springs = 2.0 * topology.edge_count() / count;
+  Eigen::VectorXd force(3 * count);
+  for (int v = 0; v < count; ++v) {
+    const bool valence = material.pressure == PressureWeighting::valence;
+    const double springs = static_cast<double>(topology.ring(v).size());
+    force.segment<3>(3 * v) = (valence ? springs / mean_springs : 1.0) * pressure * gradient[v];
+  }
+  return force;
+}
+
+/// Springs pull on both ends alike: they balance neither a net force nor a net torque.
+void check_balance(const VertexArray& positions, const Eigen::VectorXd& force) {
+  const Vec3 centre = mean(positions);
+  Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
+  double sum = 0.0, sum_of_moments = 0.0;
+  for (int v = 0; v < positions.size(); ++v) {
+    const Vec3 here = force.segment<3>(3 * v);
+    const Vec3 arm = positions[v] - centre;
+    net += here;
+    torque += arm.cross(here);
+    sum += here.norm();
+    sum_of_moments += arm.norm() * here.norm();
+  }
+  if (net.norm() <= rounding * sum && torque.norm() <= rounding * sum_of_moments) return;
+  throw EquilibriumError("the pressure has a net force of " + text(net.norm()) +
+                         " N and a net torque of " + text(torque.norm()) +
+                         " N m, which springs cannot balance: use uniform pressure, not valence");
+}
+
+/// Column e holds the force of a tension of 1 N in spring e on every vertex.
+Sparse spring_directions(const MeshTopology& topology, const VertexArray& positions) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int e = 0; e < topology.edge_count(); ++e) {
+    const auto& [a, b] = topology.edges()[at(e)];
+    const Vec3 direction = (positions[b] - positions[a]).normalized();
+    for (int axis = 0; axis < 3; ++axis) {
+      entries.emplace_back(3 * a + axis, e, direction[axis]);
+      entries.emplace_back(3 * b + axis, e, -direction[axis]);
+    }
+  }
+  Sparse result(3 * topology.vertex_count(), topology.edge_count());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+struct Tensions {
+  Eigen::VectorXd values;  // N, per edge
+  double residual;
+};
+
+/// D t = -f for the least t, where D D^T is k's stiffness over k. The exact t = -D^T (D D^T)^-1 f
+/// does not exist for rigid motions, and is enormous for motions that hardly stretch a spring. With
+/// s added to the diagonal, a load of the stiffness q k is balanced to the share q / (q + s), and
+/// after n rounds on what is left over, to 1 - (s / (q + s))^n.
+Tensions solve(const Sparse& directions, const Eigen::VectorXd& force, double softening) {
+  Sparse stiffness = directions * Sparse(directions.transpose());
+  Sparse identity(stiffness.rows(), stiffness.cols());
+  identity.setIdentity();
+  stiffness += std::max(softening, least_softening) * identity;
+  const Eigen::SimplicialLDLT<Sparse> solver(stiffness);
+  if (solver.info() != Eigen::Success) {
+    throw EquilibriumError("the equations of the springs cannot be solved: an edge has no length");
+  }
+  Tensions result{Eigen::VectorXd::Zero(directions.cols()), 1.0};
+  Eigen::VectorXd left = -force;
+  for (int i = 0; i < rounds; ++i) {
+    result.values += directions.transpose() * solver.solve(left);
+    left = -force - directions * result.values;
+  }
+  result.residual = left.norm() / force.norm();
+  return result;
+}
+
+double rest_length(const MeshTopology& topology, int edge, double length, double tension,
+                   double k) {
+  const double rest = length - tension / k;
+  if (rest > 0.0) return rest;
+  const auto& [a, b] = topology.edges()[at(edge)];
+  throw EquilibriumError("edge " + std::to_string(a) + "-" + std::to_string(b) + ", " +
+                         text(length) + " m long, would need a rest length of " + text(rest) +
+                         " m, which must be above zero: it bears " + text(tension) + " N at k = " +
+                         text(k) + " N/m. Use a greater k, less gas, or more softening");
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
+                             const SoftMaterial& material, const EquilibriumOptions& options) {
+  Tensions tensions{Eigen::VectorXd::Zero(topology.edge_count()), 0.0};
+  if (gas_strength(material) > 0.0) {
+    if (!(material.k > 0.0)) {
+      throw EquilibriumError(
+          "k = " + text(material.k) +
+          " N/m: without springs nothing balances the gas; k must be above zero");
+    }
+    const Eigen::VectorXd force = pressure_force(topology, positions, material);
+    check_balance(positions, force);
+    tensions = solve(spring_directions(topology, positions), force, options.softening);
+  }
+  if (!(tensions.residual <= options.greatest_residual)) {
+    throw EquilibriumError("the springs leave " + text(tensions.residual) +
+                           " of the pressure force unbalanced, " + text(options.greatest_residual) +
+                           " is allowed: the shape is too flat for the softening of " +
+                           text(options.softening));
+  }
+  Equilibrium result{{}, tensions.residual};
+  for (int e = 0; e < topology.edge_count(); ++e) {
+    const auto& [a, b] = topology.edges()[at(e)];
+    const double length = (positions[b] - positions[a]).norm();
+    const double tension = tensions.values[e];
+    result.rest_lengths.push_back(
+        tension == 0.0 ? length : rest_length(topology, e, length, tension, material.k));
+  }
+  return result;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,276 @@
+#include "sim/soft/equilibrium.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "sim/inspect/inspect.h"
+#include "sim/soft/acceleration.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// The project's own meshes: header lines up to end_header, then rows of numbers.
+TriangleMesh read_cat(const std::string& name) {
+  std::ifstream file(std::string(PNEUMA_ASSETS_FOLDER) + "/" + name);
+  std::size_t vertices = 0, triangles = 0;
+  for (std::string line; std::getline(file, line) && line != "end_header";) {
+    std::istringstream words(line);
+    std::string word, kind;
+    words >> word >> kind;
+    if (word == "element") words >> (kind == "vertex" ? vertices : triangles);
+  }
+  TriangleMesh mesh{std::vector<Vec3>(vertices), std::vector<Triangle>(triangles)};
+  for (Vec3& v : mesh.vertices) file >> v.x() >> v.y() >> v.z();
+  int corners = 3;
+  for (auto& [a, b, c] : mesh.triangles) file >> corners >> a >> b >> c;
+  if (!file) throw std::runtime_error("cannot read " + name);
+  return mesh;
+}
+
+/// A body in the shape of its mesh, with rest lengths for it.
+SoftBody balanced_body(const TriangleMesh& mesh, const SoftMaterial& material,
+                       const EquilibriumOptions& options) {
+  SoftBody body = make_body(mesh);
+  body.material = material;
+  const Equilibrium found =
+      find_equilibrium(body.mesh->topology, body.positions, body.material, options);
+  body.mesh = make_soft_mesh(*body.mesh, found.rest_lengths);
+  return body;
+}
+
+/// Whatever is left of forces, over the pressure force alone, both as norms over all vertices. By
+/// the simulation's own force, which knows nothing of how the rest lengths were found.
+double unbalanced(const SoftBody& body) {
+  const auto force = [&](double k) {
+    SoftMaterial material = body.material;
+    material.k = k;
+    AccelerationScratch scratch(*body.mesh);
+    VertexArray result(body.positions.size());
+    SoftAcceleration(*body.mesh, material, Vec3::Zero(), scratch)(body.positions, body.velocities,
+                                                                  result);
+    return result.rows().norm();
+  };
+  return force(body.material.k) / force(0.0);
+}
+
+/// Gas for a pressure in Pa in the shape of the mesh.
+SoftMaterial inflated(const TriangleMesh& mesh, double pressure, double k) {
+  SoftMaterial material;
+  material.k = k;
+  material.k_max = 2.0 * k;
+  const SoftBody body = make_body(mesh);
+  material.n = pressure * volume(body.mesh->topology, body.positions) /
+               (gas_constant * material.temperature);
+  return material;
+}
+
+TEST(Equilibrium, BalancesThePressureUpToRounding) {
+  // The stiffness of the cat's softest motion is 3e-7 of k, which costs seven of sixteen digits.
+  for (const TriangleMesh& mesh : {make_sphere(3.0, 8, 8), make_icosphere(1.0, 3),
+                                   make_torus(4.0, 1.5, 16, 16), read_cat("cat_500.ply")}) {
+    const SoftBody body = balanced_body(mesh, inflated(mesh, 100.0, 1e5), exact_equilibrium);
+    EXPECT_LT(unbalanced(body), 1e-9) << mesh.vertices.size() << " vertices";
+  }
+}
+
+TEST(Equilibrium, TensionsObeyTheVirial) {
+  // The balance at each vertex times its position, summed over all: sum t l = 3 P V, by Euler's
+  // theorem for V, whatever the shape. Tolerance as above.
+  const double pressure = 100.0, k = 1e5;
+  for (const TriangleMesh& mesh :
+       {make_icosphere(1.0, 3), make_torus(4.0, 1.5, 16, 16), read_cat("cat_500.ply")}) {
+    const SoftBody body = balanced_body(mesh, inflated(mesh, pressure, k), exact_equilibrium);
+    const MeshTopology& topology = body.mesh->topology;
+    double sum = 0.0;
+    for (int e = 0; e < topology.edge_count(); ++e) {
+      const auto& [a, b] = topology.edges()[at(e)];
+      const double length = (body.positions[b] - body.positions[a]).norm();
+      sum += k * (length - body.mesh->rest_lengths[at(e)]) * length;
+    }
+    const double expected = 3.0 * pressure * volume(topology, body.positions);
+    EXPECT_NEAR(sum / expected, 1.0, 1e-9) << mesh.vertices.size() << " vertices";
+  }
+}
+
+TEST(Equilibrium, OfAnIcosahedronIsTheSameForAllEdges) {
+  // 30 edges of the length a and the volume 5 (3 + sqrt 5) a^3 / 12: t = 3 P V / (30 a).
+  const double pressure = 50.0, k = 1e4;
+  const TriangleMesh mesh = make_icosphere(2.0, 0);
+  const SoftBody body = balanced_body(mesh, inflated(mesh, pressure, k), exact_equilibrium);
+  const double a = 2.0 / std::sin(0.4 * std::numbers::pi);
+  const double tension = pressure * 5.0 * (3.0 + std::sqrt(5.0)) * a * a / 120.0;
+  for (const double rest : body.mesh->rest_lengths) EXPECT_NEAR(rest, a - tension / k, 1e-9);
+}
+
+TEST(Equilibrium, ABodyLeftAloneDoesNotMove) {
+  for (const TriangleMesh& mesh :
+       {make_sphere(3.0, 8, 8), make_icosphere(1.0, 2), make_torus(4.0, 1.5, 16, 16)}) {
+    World world =
+        make_free_world(balanced_body(mesh, inflated(mesh, 20.0, 300.0), exact_equilibrium));
+    const VertexArray before = world.soft[0].positions;
+    ASSERT_FALSE(run(world, 5.0));
+    // Forces of 1e-9 of the pressure's, for seconds, on a body of some metres.
+    EXPECT_LT((world.soft[0].positions.rows() - before.rows()).norm(), 1e-7)
+        << mesh.vertices.size() << " vertices";
+  }
+}
+
+TEST(Equilibrium, WithoutItTheSameBodySwells) {
+  const TriangleMesh mesh = make_icosphere(1.0, 2);
+  SoftBody body = make_body(mesh);
+  body.material = inflated(mesh, 20.0, 300.0);
+  World world = make_free_world(std::move(body));
+  const double before = volume(world.soft[0].mesh->topology, world.soft[0].positions);
+  ASSERT_FALSE(run(world, 5.0));
+  EXPECT_GT(volume(world.soft[0].mesh->topology, world.soft[0].positions), 1.02 * before);
+}
+
+TEST(Equilibrium, OfNoGasIsTheShapeItself) {
+  SoftMaterial material;
+  material.n = 0.0;
+  const SoftBody plain = make_body(make_sphere(3.0, 8, 8));
+  const Equilibrium found = find_equilibrium(plain.mesh->topology, plain.positions, material);
+  EXPECT_EQ(found.rest_lengths, plain.mesh->rest_lengths);
+  EXPECT_EQ(found.residual, 0.0);
+}
+
+/// What find_equilibrium says against it.
+std::string refusal(const TriangleMesh& mesh, const SoftMaterial& material,
+                    const EquilibriumOptions& options = exact_equilibrium) {
+  try {
+    balanced_body(mesh, material, options);
+  } catch (const EquilibriumError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Equilibrium, RefusesWhatHasNone) {
+  const TriangleMesh sphere = make_sphere(3.0, 8, 8);
+  SoftMaterial material = inflated(sphere, 100.0, 1.0);
+  EXPECT_NE(refusal(sphere, material).find("rest length of -"), std::string::npos)
+      << refusal(sphere, material);
+  EXPECT_NE(refusal(sphere, material).find("edge "), std::string::npos);
+  material.k = 0.0;
+  EXPECT_NE(refusal(sphere, material).find("k = 0"), std::string::npos);
+
+  // All of a box's faces are flat: inside them nothing balances the gas.
+  const TriangleMesh box = make_box({1.0, 1.0, 1.0}, 4);
+  EXPECT_NE(refusal(box, inflated(box, 100.0, 1e6)).find("unbalanced"), std::string::npos)
+      << refusal(box, inflated(box, 100.0, 1e6));
+
+  TriangleMesh inside_out = sphere;
+  for (Triangle& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_NE(refusal(inside_out, inflated(sphere, 100.0, 1e4)).find("volume"), std::string::npos);
+
+  const TriangleMesh cat = read_cat("cat_500.ply");
+  material = inflated(cat, 100.0, 1e5);
+  material.pressure = PressureWeighting::valence;
+  EXPECT_NE(refusal(cat, material).find("net force"), std::string::npos) << refusal(cat, material);
+}
+
+TEST(Equilibrium, OtherRestLengthsMustFit) {
+  const auto mesh = make_soft_mesh(make_sphere(3.0, 8, 8));
+  std::vector<double> lengths(168, 0.5);
+  EXPECT_EQ(make_soft_mesh(*mesh, lengths)->rest_lengths, lengths);
+  lengths[7] = -0.1;
+  EXPECT_THROW(make_soft_mesh(*mesh, lengths), std::invalid_argument);
+  lengths[7] = std::nan("");
+  EXPECT_THROW(make_soft_mesh(*mesh, lengths), std::invalid_argument);
+  lengths.pop_back();
+  EXPECT_THROW(make_soft_mesh(*mesh, lengths), std::invalid_argument);
+}
+
+/// How far a body is from its rest shape, apart from having moved as a whole.
+struct Departure {
+  double greatest;  // of a vertex, as a share of the rest shape's height
+  double lean;      // of the body's z axis from the vertical, degrees
+  double kinetic;   // J
+  double crept;     // of the mean, m
+};
+
+/// The turn that takes the columns of `from` nearest to those of `to`, both about their means
+/// (Kabsch 1976).
+Mat3 best_turn(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
+  const Eigen::JacobiSVD<Mat3> svd(to * from.transpose(),
+                                   Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 signs = Vec3::Ones();
+  signs.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+Departure departure(const World& world, const VertexArray& rest) {
+  const VertexArray& now = world.soft[0].positions;
+  const Eigen::Matrix3Xd from = rest.rows().topRows<3>().colwise() - mean(rest);
+  const Eigen::Matrix3Xd to = now.rows().topRows<3>().colwise() - mean(now);
+  const Mat3 turn = best_turn(from, to);
+  return {(turn * from - to).colwise().norm().maxCoeff() / bounds(rest).size().z(),
+          std::acos(std::min(1.0, turn(2, 2))) * 180.0 / std::numbers::pi, energy(world).kinetic,
+          (mean(now) - mean(rest)).norm()};
+}
+
+/// The cat of 1 kg on the ground, inflated to `pressure` in Pa.
+World standing_cat(const std::string& file, double pressure, int steps_per_second) {
+  const TriangleMesh mesh = read_cat(file);
+  SoftMaterial material = inflated(mesh, pressure, 1000.0);
+  material.vertex_mass = 1.0 / static_cast<double>(mesh.vertices.size());
+  material.rho_g = 0.05;
+  material.surface = {0.0, 1.0};
+  World world = make_free_world(balanced_body(mesh, material, {}));
+  VertexArray& positions = world.soft[0].positions;
+  positions.rows().row(2).array() -= bounds(positions).low.z();
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  world.settings.ground = Surface{0.0, 1.0};
+  world.settings.steps_per_second = steps_per_second;
+  return world;
+}
+
+void expect_to_stand(World world, double seconds) {
+  const VertexArray rest = world.soft[0].positions;
+  ASSERT_FALSE(run(world, seconds));
+  const Departure found = departure(world, rest);
+  // The goal is 5 % of the height (of the Hausdorff distance, which is at most this).
+  EXPECT_LT(found.greatest, 0.03);
+  EXPECT_LT(found.lean, 2.0);
+  EXPECT_LT(found.crept, 0.05);
+  // At 1 kg, a millijoule is 4 cm/s of every vertex: what is left of the sway after setting down.
+  EXPECT_LT(found.kinetic, 1e-3);
+}
+
+TEST(StandingCat, StandsOnTheGround) {
+  expect_to_stand(standing_cat("cat_500.ply", 100.0, 720), 2.5);
+}
+
+TEST(StandingCat, StandsWithMoreVerticesToo) {
+  expect_to_stand(standing_cat("cat_2000.ply", 100.0, 1440), 1.5);
+}
+
+TEST(StandingCat, FallsWithoutGas) {
+  World world = standing_cat("cat_500.ply", 0.0, 720);
+  const double before = bounds(world.soft[0].positions).size().z();
+  ASSERT_FALSE(run(world, 4.0));
+  EXPECT_LT(bounds(world.soft[0].positions).size().z(), 0.7 * before);
+}
+
+TEST(StandingCat, TensionsKeepItNearerToItsShape) {
+  // In free space, so that only the gas acts: with the springs at rest in the shape it swells.
+  const auto alone = [](bool tuned) {
+    World world = standing_cat("cat_500.ply", 100.0, 720);
+    world.settings.gravity.setZero();
+    world.settings.ground.reset();
+    if (!tuned) world.soft[0].mesh = make_soft_mesh(read_cat("cat_500.ply"));
+    const VertexArray rest = world.soft[0].positions;
+    EXPECT_FALSE(run(world, 3.0));
+    return departure(world, rest).greatest;
+  };
+  EXPECT_LT(alone(true), 0.9 * alone(false));
+}
+
+}  // namespace
+}  // namespace pneuma::sim
