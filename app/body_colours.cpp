@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/srgb.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -13,14 +14,6 @@ using sim::Vec3;
 
 // Colours are mixed as light: halfway between red and green lies the yellow of the paper's figures,
 // where a mean of sRGB values is a dark brown.
-float to_light(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
-float to_srgb(float light) {
-  const float srgb =
-      light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1.0f / 2.4f) - 0.055f;
-  return std::clamp(srgb, 0.0f, 1.0f);
-}
 
 /// Of a checked "#rrggbb".
 Colour light_of(const std::string& hex) {

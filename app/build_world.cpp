@@ -8,6 +8,7 @@
 #include <random>
 #include <tuple>
 
+#include "app/find_model.h"
 #include "scenes/load_scene.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
@@ -89,7 +90,7 @@ std::vector<Start> place_copies(const BodyScene& body, Random random) {
   return starts;
 }
 
-sim::TriangleMesh make_mesh(const BodyScene& body) {
+sim::TriangleMesh make_mesh(const scenes::Scene& scene, const BodyScene& body) {
   switch (body.shape) {
     case Shape::sphere:
       return sim::make_sphere(body.radius, body.stacks, body.slices);
@@ -99,6 +100,8 @@ sim::TriangleMesh make_mesh(const BodyScene& body) {
       return sim::make_box(body.size, body.divisions);
     case Shape::icosphere:
       return sim::make_icosphere(body.radius, body.subdivisions);
+    case Shape::model:
+      return load_model_mesh(scene, body);
   }
   return {};
 }
@@ -111,18 +114,38 @@ sim::TriangleMesh make_mesh(const BodyScene& body) {
   throw scenes::SceneError({diagnostic});
 }
 
+/// 64-bit FNV-1a over the rest shape and the triangles.
+std::uint64_t fingerprint(const sim::SoftMesh& mesh) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto include = [&](const void* data, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+    }
+  };
+  const auto& rows = mesh.rest_positions.rows();
+  const auto& triangles = mesh.topology.triangles();
+  include(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(double));
+  include(triangles.data(), triangles.size() * sizeof(sim::Triangle));
+  return hash;
+}
+
 class Builder {
  public:
-  explicit Builder(const scenes::Scene& scene) : scene_(scene) { world_.settings = scene.settings; }
+  explicit Builder(const scenes::Scene& scene)
+      : scene_(scene), memory_gib_(scenes::estimated_memory_gib(scene)) {
+    world_.settings = scene.settings;
+  }
 
   sim::World build() {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyScene& body = scene_.bodies[i];
       const auto starts = place_copies(body, Random(scene_.settings.seed, i));
       if (body.kind == BodyKind::rigid) {
+        vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
         for (const Start& start : starts) add_rigid(body, start);
       } else {
         const auto mesh = shared_mesh(body);
+        count(body, mesh->topology.vertex_count());
         check_gas(body, *mesh);
         for (const Start& start : starts) add_soft(body, start, mesh);
       }
@@ -132,20 +155,45 @@ class Builder {
 
  private:
   /// What decides a mesh. Numbers that do not belong to the shape only cost a mesh of its own.
-  using MeshKey = std::tuple<Shape, double, double, int, int, int, int, double, double, double>;
+  using MeshKey = std::tuple<Shape, double, double, int, int, int, int, double, double, double,
+                             std::string, std::string, double, double, double, double, bool>;
 
   std::shared_ptr<const sim::SoftMesh> shared_mesh(const BodyScene& body) {
-    const MeshKey key{body.shape,    body.radius,    body.tube_radius,  body.stacks,
-                      body.slices,   body.divisions, body.subdivisions, body.size.x(),
-                      body.size.y(), body.size.z()};
+    const scenes::ModelScene& model = body.model;
+    const MeshKey key{body.shape,    body.radius,        body.tube_radius,   body.stacks,
+                      body.slices,   body.divisions,     body.subdivisions,  body.size.x(),
+                      body.size.y(), body.size.z(),      model.file,         model.component,
+                      model.scale,   model.rotation.x(), model.rotation.y(), model.rotation.z(),
+                      model.centre};
     auto& mesh = meshes_[key];
     if (mesh) return mesh;
     try {
-      mesh = sim::make_soft_mesh(make_mesh(body));
+      mesh = sim::make_soft_mesh(make_mesh(scene_, body));
     } catch (const sim::TopologyError& error) {
       refuse(scene_, body, error.what());
     }
     return mesh;
+  }
+
+  /// The scene was checked without its models.
+  void count(const BodyScene& body, std::int64_t in_body) {
+    const scenes::Limits& limits = scene_.limits;
+    vertices_ += in_body * scenes::copy_count(body);
+    if (vertices_ > limits.vertices) {
+      refuse(scene_, body,
+             fmt::format("{} vertices are more than the limit of {}; use a smaller model, ask for "
+                         "fewer copies, or raise vertices in [limits]",
+                         vertices_, limits.vertices));
+    }
+    if (body.shape != Shape::model) return;
+    memory_gib_ += scenes::estimated_memory_gib(in_body, scenes::copy_count(body));
+    if (memory_gib_ > limits.memory_gib) {
+      refuse(scene_, body,
+             fmt::format("about {:.2g} GiB of memory are needed, more than the limit of {} GiB; "
+                         "use a smaller model, ask for fewer copies, or raise memory_gib in "
+                         "[limits]",
+                         memory_gib_, limits.memory_gib));
+    }
   }
 
   /// P = nRT / V needs a volume.
@@ -193,10 +241,23 @@ class Builder {
   const scenes::Scene& scene_;
   sim::World world_;
   std::map<MeshKey, std::shared_ptr<const sim::SoftMesh>> meshes_;
+  std::int64_t vertices_ = 0;
+  double memory_gib_;
 };
 
 }  // namespace
 
 sim::World build_world(const scenes::Scene& scene) { return Builder(scene).build(); }
+
+std::vector<std::uint64_t> model_fingerprints(const scenes::Scene& scene, const sim::World& world) {
+  std::vector<std::uint64_t> fingerprints;
+  std::size_t index = 0;  // of the body's first copy
+  for (const BodyScene& body : scene.bodies) {
+    if (body.kind == BodyKind::rigid) continue;
+    if (body.shape == Shape::model) fingerprints.push_back(fingerprint(*world.soft[index].mesh));
+    index += static_cast<std::size_t>(scenes::copy_count(body));
+  }
+  return fingerprints;
+}
 
 }  // namespace pneuma::app

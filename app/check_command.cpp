@@ -1,4 +1,4 @@
-// pneuma check: a scene as the program understands it, and what a run of it comes to.
+// pneuma check: a scene as the program understands it, and what a run of it comes to; or a model.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -8,10 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/build_world.h"
+#include "app/check_model.h"
 #include "app/check_report.h"
 #include "app/command.h"
 #include "app/errors.h"
+#include "app/find_model.h"
 #include "app/find_scene.h"
+#include "assets/model_file.h"
 #include "scenes/load_scene.h"
 #include "scenes/print_scene.h"
 
@@ -27,6 +30,19 @@ struct CheckOptions {
   int threads = 1;
 };
 
+ExitCode check_model_file(const CheckOptions& options) {
+  if (options.run || !options.overrides.empty()) {
+    throw UsageError(
+        "check: --run and --set are for scenes; for this model use "
+        "`pneuma check model --set model.file=" +
+        options.scene + "`");
+  }
+  const ModelCheck checked = check_model(find_model(options.scene, ""));
+  fmt::print("{}",
+             options.json ? model_check_json(checked).dump(2) + "\n" : model_check_text(checked));
+  return ExitCode::done;
+}
+
 ExitCode check(const CheckOptions& options) {
   if (options.keys) {
     fmt::print("{}", scenes::scene_reference());
@@ -35,6 +51,7 @@ ExitCode check(const CheckOptions& options) {
   if (options.scene.empty()) {
     throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
   }
+  if (assets::has_model_ending(options.scene)) return check_model_file(options);
   CheckReport report;
   report.scene = scenes::load_scene(find_scene(options.scene), options.overrides);
   const sim::World world = build_world(report.scene);
@@ -52,9 +69,14 @@ ExitCode check(const CheckOptions& options) {
 void add_check_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
-      app.add_subcommand("check", "Print a scene's effective values and the stages that will run");
-  command->add_option("scene", options->scene, "A scene file, or the name of one in scenes/")
-      ->type_name("SCENE");
+      app.add_subcommand("check",
+                         "Print a scene's effective values and the stages that will run, or what "
+                         "a model is like");
+  command
+      ->add_option("scene", options->scene,
+                   "A scene file, or the name of one in scenes/; or a model file (" +
+                       assets::model_endings() + ")")
+      ->type_name("SCENE|MODEL");
   command->add_option("--set", options->overrides, "Override a value of the scene, as body.k=200")
       ->type_name("PATH=VALUE")
       ->expected(1)

@@ -97,7 +97,7 @@ json run_statistics_json(const RunStatistics& run) {
       {"momentum",
        {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},
       {"end_speed_m_per_s", run.end_speed},
-      {"at_rest", run.end_speed < rest_speed},
+      {"at_rest", run.end_speed < rest_speed && !run.divergence},
       {"state_hash", fmt::format("{:016x}", run.state_hash)}};
 }
 

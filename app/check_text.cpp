@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "app/check_report.h"
@@ -40,8 +41,18 @@ std::string bytes(double count) {
   return fmt::format("{:.0f} MiB", count / (1024.0 * 1024.0));
 }
 
+/// The scene's own estimate leaves models out.
+double memory_gib(const WorldSize& size, const scenes::Scene& scene) {
+  std::int64_t of_models = size.vertices;
+  for (const scenes::BodyScene& body : scene.bodies) {
+    if (body.kind == scenes::BodyKind::rigid) continue;
+    of_models -= scenes::vertex_count(body) * scenes::copy_count(body);
+  }
+  return scenes::estimated_memory_gib(scene) + scenes::estimated_memory_gib(of_models, 1);
+}
+
 std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
-  const double all_bytes = scenes::estimated_memory_gib(scene) * 1024.0 * 1024.0 * 1024.0;
+  const double all_bytes = memory_gib(size, scene) * 1024.0 * 1024.0 * 1024.0;
   const std::string shared =
       size.soft_bodies > size.meshes
           ? fmt::format(", sharing {} mesh{}", size.meshes, size.meshes == 1 ? "" : "es")
@@ -76,6 +87,7 @@ std::string penetration_text(const RunStatistics& run, double skin_thickness) {
 
 std::string energy_text(const RunStatistics& run) {
   const double start = run.energy_start.total(), end = run.energy_end.total();
+  if (!std::isfinite(start) || !std::isfinite(end)) return line("energy", "not a finite number");
   std::string text = line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, drift "
                                                 "{:+.4g} J",
                                                 start, end, end - start));
@@ -141,9 +153,10 @@ std::string run_statistics_text(const RunStatistics& run, double skin_thickness)
   if (run.divergence) text += line("DIVERGED", *run.divergence);
   text += penetration_text(run, skin_thickness);
   text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + momentum_text(run);
+  const bool rests = run.end_speed < rest_speed && !run.divergence;
   text += line("speed at the end",
                fmt::format("{:.3g} m/s at most: {} (that is below {:g} m/s)", run.end_speed,
-                           run.end_speed < rest_speed ? "at rest" : "not at rest", rest_speed));
+                           rests ? "at rest" : "not at rest", rest_speed));
   return text + line("state hash", fmt::format("{:016x}", run.state_hash));
 }
 

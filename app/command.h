@@ -20,6 +20,7 @@ using Action = std::function<ExitCode()>;
 /// `action` must outlive the parsing of the command line. `command_line` is what the user typed,
 /// for the record of a run, and must outlive the action.
 void add_render_command(CLI::App& app, Action& action, std::span<const std::string> command_line);
+void add_export_command(CLI::App& app, Action& action);
 void add_bench_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);

@@ -1,6 +1,7 @@
 // What can go wrong, as exceptions of one name each, and the exit code that each becomes:
 //   UsageError            2   the options do not fit together
 //   scenes::SceneError    3   scene invalid or not readable
+//   assets::ModelError    3   model invalid or not readable
 //   render::GlError       4
 //   DivergenceError       5
 //   render::IoError       6

@@ -15,6 +15,7 @@
 #include "app/errors.h"
 #include "app/interrupt.h"
 #include "app/version.h"
+#include "assets/model.h"
 #include "render/context/context.h"
 #include "render/image/file.h"
 #include "scenes/load_scene.h"
@@ -41,6 +42,9 @@ ExitCode run(const app::Action& action) {
   } catch (const scenes::SceneError& error) {
     // As they are: each line starts with file:line:column, which editors jump to.
     fmt::print(stderr, "{}\n", error.what());
+    return ExitCode::invalid_scene;
+  } catch (const assets::ModelError& error) {
+    fmt::print(stderr, "{}\n", error.what());  // starts with the file's path
     return ExitCode::invalid_scene;
   } catch (const render::GlError& error) {
     return fail(ExitCode::no_gl, error);
@@ -72,6 +76,7 @@ int main(int argc, char** argv) {
   cli.set_version_flag("--version", "pneuma " + app::version().program);
   cli.require_subcommand(1);
   app::add_render_command(cli, action, command_line);
+  app::add_export_command(cli, action);
   app::add_bench_command(cli, action);
   app::add_check_command(cli, action);
   app::add_list_command(cli, action);

@@ -29,7 +29,8 @@ std::string pace(const ProgressState& state) {
 }  // namespace
 
 std::string summary_line(const ProgressState& state) {
-  return fmt::format("{} frames in {:.1f} s: {:.3g} frames/s, {}", state.drawn, state.elapsed,
+  return fmt::format("{} frame{} in {:.1f} s: {:.3g} frames/s, {}", state.drawn,
+                     state.drawn == 1 ? "" : "s", state.elapsed,
                      static_cast<double>(state.drawn) / state.elapsed, pace(state));
 }
 

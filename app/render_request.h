@@ -1,20 +1,14 @@
 // What `pneuma render` was asked to do.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/build_frame.h"
+#include "app/frame_range.h"
 
 namespace pneuma::app {
-
-/// Frames first..last, both drawn. Without a last one, to the end of the scene.
-struct FrameRange {
-  std::int64_t first = 0;
-  std::optional<std::int64_t> last;
-};
 
 struct GridSize {
   int columns = 0;
@@ -38,11 +32,7 @@ struct RenderRequest {
   std::vector<std::string> command_line;
 };
 
-/// "30": the first 30 frames, 0 to 29. "10-20": frames 10 to 20. "10-": from 10 to the end.
-/// Throws UsageError, as the others.
-FrameRange parse_frames(const std::string& text);
-
-/// "4x3". Each from 1 to `greatest`; `option` is named in messages.
+/// "4x3". Throws UsageError. Each from 1 to `greatest`; `option` is named in messages.
 GridSize parse_grid(const std::string& option, const std::string& text, int greatest);
 
 }  // namespace pneuma::app

@@ -24,24 +24,6 @@
 namespace pneuma::app {
 namespace {
 
-/// First and last frame.
-struct Frames {
-  std::int64_t first = 0;
-  std::int64_t last = 0;
-};
-
-Frames frames_of(const scenes::Scene& scene, const FrameRange& wanted) {
-  const std::int64_t end = scenes::frame_count(scene);
-  const Frames frames{wanted.first, wanted.last.value_or(end)};
-  if (frames.first > end || frames.last > end) {
-    throw UsageError(
-        fmt::format("--frames: {} has the frames 0 to {}; more come from a longer run, "
-                    "as with --set duration={:g}",
-                    scene.name, end, 2.0 * scene.duration));
-  }
-  return frames;
-}
-
 RunFolder folder_of(const scenes::Scene& scene, const std::string& out) {
   return {out.empty() ? std::filesystem::path("out") / scene.name : std::filesystem::path(out),
           scene.name};
@@ -82,8 +64,8 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   const sim::World start = build_world(scene);
   render::Renderer renderer(picture_options(scene.picture));
 
-  const Json identity =
-      run_identity(scene, frames.first, frames.last, request.pictures, renderer.description());
+  const Json identity = run_identity(scene, start, frames.first, frames.last, request.pictures,
+                                     renderer.description());
   const OpenedFolder opened =
       open_folder(folder, request.existing, identity, scenes::print_scene(scene));
   if (opened.finished) return progress.say("the run is finished already");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "app/build_world.h"
 #include "app/command_line.h"
 #include "app/contact_tally.h"
 #include "app/machine.h"
@@ -79,20 +80,24 @@ constexpr std::string_view units =
 
 std::string hex(std::uint64_t value) { return fmt::format("{:#018x}", value); }
 
-Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last,
-                  const Pictures& pictures, const std::string& gl) {
+Json run_identity(const scenes::Scene& scene, const sim::World& start, std::int64_t first,
+                  std::int64_t last, const Pictures& pictures, const std::string& gl) {
   const Version built = version();
   const Json shown = shown_names(pictures.show);
   const Json overlay = pictures.overlay ? Json(shown_names(*pictures.overlay)) : Json();
-  return {{"scene", scene.name},
-          {"fingerprint", hex(scenes::scene_fingerprint(scene))},
-          {"first_frame", first},
-          {"last_frame", last},
-          {"show", shown},
-          {"overlay", overlay},
-          {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
-                                built.compiler, built.build_type, built.flags)},
-          {"gl", gl}};
+  Json identity = {{"scene", scene.name},
+                   {"fingerprint", hex(scenes::scene_fingerprint(scene))},
+                   {"first_frame", first},
+                   {"last_frame", last},
+                   {"show", shown},
+                   {"overlay", overlay},
+                   {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
+                                         built.compiler, built.build_type, built.flags)},
+                   {"gl", gl}};
+  for (const std::uint64_t model : model_fingerprints(scene, start)) {
+    identity["models"].push_back(hex(model));
+  }
+  return identity;
 }
 
 Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera) {

@@ -31,8 +31,9 @@ struct PictureBytes {
 };
 
 /// What decides the bytes of a run's frames. Only a run of the same identity can be continued.
-Json run_identity(const scenes::Scene& scene, std::int64_t first, std::int64_t last,
-                  const Pictures& pictures, const std::string& gl);
+/// `start` is the scene's world, in which its models are.
+Json run_identity(const scenes::Scene& scene, const sim::World& start, std::int64_t first,
+                  std::int64_t last, const Pictures& pictures, const std::string& gl);
 
 /// The first line of a journal.
 Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera);

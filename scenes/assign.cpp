@@ -116,8 +116,14 @@ class Assignment {
   }
 
   std::string text(const Value& value) const {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data); whole && key_.or_number) {
+      return fmt::format("{}", *whole);
+    }
     const auto* result = std::get_if<std::string>(&value.data);
-    if (result == nullptr) refuse_type(value, key_.name, "a string in quotes");
+    if (result == nullptr) {
+      refuse_type(value, key_.name,
+                  key_.or_number ? "a string in quotes or a whole number" : "a string in quotes");
+    }
     const std::string reason = key_.check == nullptr ? std::string() : key_.check(*result);
     if (!reason.empty())
       refuse(value, fmt::format("{}: {} {}", key_.name, in_quotes(*result), reason));

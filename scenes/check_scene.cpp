@@ -110,6 +110,11 @@ class Checks {
                       "no hole",
                       body.tube_radius, body.radius));
     }
+    if (soft && body.shape == Shape::model && body.model.file.empty() &&
+        reader_.sound({&body.model.file})) {
+      report_.add(reader_.origin({&body.model.file}, header),
+                  "a model needs a file; write model.file = \"...\"");
+    }
     if (body.colours.size() == 2 && body.colour_axis.norm() == 0.0) {
       report_.add(reader_.origin({&body.colour_axis}, header),
                   "colour_axis has no direction; make one of its numbers other than 0");

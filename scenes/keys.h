@@ -58,6 +58,7 @@ struct Key {
   std::string_view only_for = {};  // "soft bodies"; empty: for all
   bool applies = true;             // to the struct at hand
   bool selects = false;            // decides which other keys apply, so it is read first
+  bool or_number = false;          // a string's key that also takes a whole number as its digits
 };
 
 /// One table of a scene file.

@@ -104,6 +104,35 @@ class Loader {
   Reader reader_;
 };
 
+/// The keys of a body's table `model` become keys of the body, "model.file" and so on: it is a
+/// table for people only.
+void flatten_models(Table& document, Report& report) {
+  Member* member = find(document, "body");
+  auto* bodies = member == nullptr ? nullptr : std::get_if<Array>(&member->value.data);
+  if (bodies == nullptr) return;
+  for (Value& value : *bodies) {
+    auto* body = std::get_if<Table>(&value.data);
+    if (body == nullptr) continue;
+    Table flat;
+    for (Member& key : *body) {
+      auto* model = std::get_if<Table>(&key.value.data);
+      if (key.key != "model") {
+        flat.push_back(std::move(key));
+      } else if (model == nullptr) {
+        report.add(key.at, fmt::format("model must be a table, with keys such as model.file; got "
+                                       "{}",
+                                       describe(key.value)));
+      } else {
+        for (Member& inner : *model) {
+          inner.key = "model." + inner.key;
+          flat.push_back(std::move(inner));
+        }
+      }
+    }
+    *body = std::move(flat);
+  }
+}
+
 [[noreturn]] void throw_unreadable(const std::filesystem::path& path, const std::string& why) {
   throw SceneError({{path.string(), 0, 0, why}});
 }
@@ -141,8 +170,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   Report report(file.string(), overrides);
   Scene scene;
   scene.name = file.stem().string();
+  scene.folder = file.parent_path();
   try {
     Table document = parse_document(text, -1);
+    flatten_models(document, report);
     apply_overrides(overrides, document, report);
     Loader(document, scene, report).load();
   } catch (const SyntaxError& error) {

@@ -44,6 +44,7 @@ class SceneError : public std::runtime_error {
 ///   duration, simulation.integrator, ...   a key of the file
 ///   body.k                                 of every body to which the key applies
 ///   body.2.k, NAME.k                       of the second body, of the body called NAME
+///   model.file                             short for body.model.file
 /// and VALUE is a TOML value, or a bare word that stands for a string. Later overrides win. They
 /// take the place of the file's values before anything is checked, so that a bad value in the file
 /// is no error once it is overridden, and checks across keys see the final values. An override of a

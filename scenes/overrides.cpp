@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "scenes/nearest.h"
 #include "scenes/sections.h"
@@ -60,6 +61,16 @@ void put(Table& table, const std::string& key, Value value, bool where_it_applie
   }
 }
 
+/// The body's key that a path names from its part `first` on: one name, or "model" and one of that
+/// table's; none when it is neither.
+std::optional<std::string> key_at(const std::vector<std::string>& path, std::size_t first) {
+  if (first >= path.size()) return std::nullopt;
+  const std::size_t parts = path.size() - first;
+  if (path[first] != "model") return parts == 1 ? std::optional(path[first]) : std::nullopt;
+  if (parts == 1) throw Refusal{"model is a table; set its keys one by one"};
+  return parts == 2 ? std::optional("model." + path[first + 1]) : std::nullopt;
+}
+
 class Override {
  public:
   Override(Table& document, int index) : document_(document), index_(index) {
@@ -75,7 +86,8 @@ class Override {
     if (equals == std::string_view::npos) {
       throw Refusal{"expected PATH=VALUE, such as duration=2 or body.k=200"};
     }
-    const auto path = split(trimmed(text.substr(0, equals)));
+    auto path = split(trimmed(text.substr(0, equals)));
+    if (path[0] == "model") path.insert(path.begin(), "body");
     if (std::any_of(path.begin(), path.end(), [](const auto& part) { return part.empty(); })) {
       throw Refusal{"expected PATH=VALUE, where PATH is names with full stops between them"};
     }
@@ -125,11 +137,12 @@ class Override {
   std::size_t body_count() const { return bodies_ == nullptr ? 0 : bodies_->size(); }
 
   void put_into_bodies(const std::vector<std::string>& path) {
-    if (path.size() == 2) {
-      for (std::size_t i = 0; i < body_count(); ++i) put_into_body(i, path[1], true);
+    if (const auto key = key_at(path, 1)) {
+      for (std::size_t i = 0; i < body_count(); ++i) put_into_body(i, *key, true);
       return;
     }
-    if (path.size() != 3) throw Refusal{"expected body.KEY=VALUE or body.NUMBER.KEY=VALUE"};
+    const auto key = key_at(path, 2);
+    if (!key) throw Refusal{"expected body.KEY=VALUE or body.NUMBER.KEY=VALUE"};
     std::size_t number = 0;
     const char* end = path[1].data() + path[1].size();
     const auto [stop, error] = std::from_chars(path[1].data(), end, number);
@@ -137,7 +150,7 @@ class Override {
       throw Refusal{fmt::format("there is no body number {}; the scene has {}, counted from 1",
                                 in_quotes(path[1]), body_count())};
     }
-    put_into_body(number - 1, path[2], false);
+    put_into_body(number - 1, *key, false);
   }
 
   void put_into_named_body(const std::vector<std::string>& path) {
@@ -146,13 +159,14 @@ class Override {
     const auto found = std::find(names.begin(), names.end(), path[0]);
     if (found == names.end()) {
       std::vector<std::string_view> candidates(table_names_);
-      candidates.push_back("body");
+      candidates.insert(candidates.end(), {"body", "model"});
       candidates.insert(candidates.end(), names.begin(), names.end());
       throw Refusal{fmt::format("there is no table or body {}{}", in_quotes(path[0]),
                                 suggestion(path[0], candidates))};
     }
-    if (path.size() != 2) throw Refusal{"expected NAME.KEY=VALUE"};
-    put_into_body(static_cast<std::size_t>(found - names.begin()), path[1], false);
+    const auto key = key_at(path, 1);
+    if (!key) throw Refusal{"expected NAME.KEY=VALUE"};
+    put_into_body(static_cast<std::size_t>(found - names.begin()), *key, false);
   }
 
   std::string body_name(std::size_t i) const {

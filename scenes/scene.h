@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,16 @@ namespace pneuma::scenes {
 using sim::Vec3;
 
 enum class BodyKind { soft, rigid };
-enum class Shape { sphere, torus, box, icosphere };
+enum class Shape { sphere, torus, box, icosphere, model };
+
+/// A triangle model from a file of anyone's.
+struct ModelScene {
+  std::string file;              // beside the scene file, or as app/find_model.h says
+  std::string component;         // which, by name or number from 1; empty: the only closed one
+  double scale = 1.0;            // m per unit of the file
+  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z: how the model is set up
+  bool centre = true;            // the middle of its bounding box is its centre, else its origin
+};
 
 /// One body, or a block of copies of it.
 struct BodyScene {
@@ -31,6 +41,7 @@ struct BodyScene {
   int subdivisions = 2;         // icosphere
   int divisions = 4;            // soft box: squares along each side of a face
   Vec3 size = {2.0, 2.0, 2.0};  // m: box
+  ModelScene model;             // model
 
   sim::SoftMaterial material;  // soft
 
@@ -85,6 +96,7 @@ struct Limits {
 
 struct Scene {
   std::string name;  // the file's name without its ending: frames are called NAME_00042.png
+  std::filesystem::path folder;  // of the scene file
   std::string title;
   std::string figure;               // the paper's figure or benchmark row, as people call it
   std::optional<double> paper_fps;  // what the paper measured
@@ -97,7 +109,8 @@ struct Scene {
   Limits limits;
 };
 
-/// Vertices of one copy; a rigid box has 8.
+/// Vertices of one copy; a rigid box has 8. 0 for a model: only its file knows, and it is read when
+/// the world is built, which checks the limits again.
 std::int64_t vertex_count(const BodyScene& body);
 
 /// How many bodies the copies make.
@@ -107,6 +120,10 @@ std::int64_t copy_count(const BodyScene& body);
 std::int64_t frame_count(const Scene& scene);
 
 /// A rough estimate, from the sizes of meshes, state and picture: within a factor of two or so.
+/// Without models.
 double estimated_memory_gib(const Scene& scene);
+
+/// The part of one body of so many vertices and copies.
+double estimated_memory_gib(std::int64_t vertices, std::int64_t copies);
 
 }  // namespace pneuma::scenes

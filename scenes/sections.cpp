@@ -45,10 +45,9 @@ constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::rigid, "rigid"},
 };
 constexpr std::array shapes = {
-    Named<Shape>{Shape::sphere, "sphere"},
-    Named<Shape>{Shape::torus, "torus"},
-    Named<Shape>{Shape::box, "box"},
-    Named<Shape>{Shape::icosphere, "icosphere"},
+    Named<Shape>{Shape::sphere, "sphere"}, Named<Shape>{Shape::torus, "torus"},
+    Named<Shape>{Shape::box, "box"},       Named<Shape>{Shape::icosphere, "icosphere"},
+    Named<Shape>{Shape::model, "model"},
 };
 
 /// `names` must outlive the word.
@@ -80,6 +79,11 @@ Key only(const Applicability& applicability, Key key) {
 
 Key selector(Key key) {
   key.selects = true;
+  return key;
+}
+
+Key or_number(Key key) {
+  key.or_number = true;
   return key;
 }
 
@@ -204,6 +208,7 @@ Section body_section(BodyScene& body) {
   const bool torus = soft && body.shape == Shape::torus;
   const bool icosphere = soft && body.shape == Shape::icosphere;
   const bool box = !soft || body.shape == Shape::box;
+  const bool model = soft && body.shape == Shape::model;
 
   const Applicability round{"spheres, icospheres and tori", sphere || torus || icosphere};
   const Applicability tori{"tori", torus};
@@ -211,6 +216,7 @@ Section body_section(BodyScene& body) {
   const Applicability icospheres{"icospheres", icosphere};
   const Applicability soft_boxes{"soft boxes", soft && box};
   const Applicability boxes{"boxes", box};
+  const Applicability models{"models", model};
   const Applicability soft_bodies{"soft bodies", soft};
   const Applicability rigid_bodies{"rigid bodies", !soft};
   const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
@@ -240,6 +246,16 @@ Section body_section(BodyScene& body) {
           only(soft_boxes, {"divisions", &body.divisions, between(1, 4'000), "",
                             "squares along each side of a face"}),
           only(boxes, {"size", &body.size, length(), "m", "full lengths along x, y, z"}),
+          only(models, {"model.file", &body.model.file, any(), "",
+                        "a triangle model, beside the scene file or in assets/", check_file}),
+          only(models, or_number({"model.component", &body.model.component, any(), "",
+                                  "of several in the file, by name or number", check_line})),
+          only(models,
+               {"model.scale", &body.model.scale, above_to(0, 1e30), "m", "per unit of the file"}),
+          only(models, {"model.rotation", &body.model.rotation, between(-360, 360), "degrees",
+                        "sets the model upright: about x, then y, then z"}),
+          only(models, {"model.centre", &body.model.centre, any(), "",
+                        "its middle is the body's position, not the file's origin"}),
 
           only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
           only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),

@@ -9,9 +9,10 @@ namespace pneuma::scenes {
 namespace {
 
 constexpr std::size_t longest_line = 200;
+constexpr std::size_t longest_path = 4095;  // Linux takes no longer one
 constexpr std::size_t longest_body_name = 64;
-constexpr std::array<std::string_view, 6> table_names = {"simulation", "ground", "camera",
-                                                         "picture",    "limits", "body"};
+constexpr std::array<std::string_view, 7> table_names = {
+    "simulation", "ground", "camera", "picture", "limits", "body", "model"};
 
 // Not the functions of <cctype>, which follow the locale.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
@@ -29,6 +30,17 @@ std::string check_line(std::string_view text) {
   }
   if (!std::all_of(text.begin(), text.end(), is_printable_ascii)) {
     return "holds something else than printable ASCII; captions can show nothing else";
+  }
+  return {};
+}
+
+std::string check_file(std::string_view text) {
+  if (text.size() > longest_path) {
+    return fmt::format("is {} characters long; at most {} are allowed", text.size(), longest_path);
+  }
+  if (!std::all_of(text.begin(), text.end(), is_printable_ascii)) {
+    return "holds something else than printable ASCII; scene files can say nothing else, so give "
+           "the file another name or a link";
   }
   return {};
 }

@@ -9,6 +9,9 @@ namespace pneuma::scenes {
 /// One line that fits a list and a caption: at most 200 characters of printable ASCII.
 std::string check_line(std::string_view text);
 
+/// A file's path: one line, longer than others.
+std::string check_file(std::string_view text);
+
 /// A body's name: a letter, then letters, digits, `_` and `-`; at most 64. Not a table's name,
 /// because overrides address both in the same way.
 std::string check_body_name(std::string_view text);

@@ -110,6 +110,7 @@ void make_consistent(Scene& scene) {
       body.tube_radius = body.radius / 3.0;
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);
     }
+    if (body.shape == Shape::model && body.model.file.empty()) body.model.file = "a.ply";
     for (int axis = 0; axis < 3; ++axis) {
       if (body.spacing[axis] == 0.0) body.spacing[axis] = 1.0;
     }

@@ -61,10 +61,19 @@ void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial&
   compare(c, surface, b.surface);
 }
 
+void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
+  const auto& [file, component, scale, rotation, centre] = a;
+  c.member("model.file", file, b.file);
+  c.member("model.component", component, b.component);
+  c.member("model.scale", scale, b.scale);
+  c.member("model.rotation", rotation, b.rotation);
+  c.member("model.centre", centre, b.centre);
+}
+
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   const auto& [name, kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions,
-               size, material, mass, rho_g, surface, position, rotation, velocity, angular_velocity,
-               copies, spacing, jitter, tumble, colours, colour_axis] = a;
+               size, model, material, mass, rho_g, surface, position, rotation, velocity,
+               angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -75,6 +84,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("subdivisions", subdivisions, b.subdivisions);
   c.member("divisions", divisions, b.divisions);
   c.member("size", size, b.size);
+  compare(c, model, b.model);
   compare(c, material, b.material);
   c.member("mass", mass, b.mass);
   c.member("body rho_g", rho_g, b.rho_g);
@@ -142,7 +152,8 @@ void compare(Comparison& c, const Limits& a, const Limits& b) {
 }  // namespace
 
 std::string difference(const Scene& a, const Scene& b) {
-  const auto& [name, title, figure, paper_fps, duration, settings, bodies, camera, picture,
+  // Where a scene's file lies is no part of what it says.
+  const auto& [name, folder, title, figure, paper_fps, duration, settings, bodies, camera, picture,
                limits] = a;
   Comparison c;
   c.member("scene name", name, b.name);

@@ -1,0 +1,29 @@
+// `pneuma export`: the bodies of each frame as mesh files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/exit_code.h"
+#include "app/frame_range.h"
+
+namespace pneuma::app {
+
+enum class MeshFormat { ply, obj, glb };
+
+struct ExportRequest {
+  std::string scene;  // a path or a name
+  MeshFormat format = MeshFormat::ply;
+  std::string out;                     // folder; empty: out/NAME
+  std::vector<std::string> overrides;  // "PATH=VALUE"
+  FrameRange frames;
+  bool overwrite = false;
+  int threads = 1;
+  bool quiet = false;
+};
+
+/// Writes NAME_00042.ply and so on; no pictures, no GL. Throws scenes::SceneError, UsageError,
+/// DivergenceError, Interrupted and render::IoError; what is on disk then is whole.
+ExitCode export_scene(const ExportRequest& request);
+
+}  // namespace pneuma::app

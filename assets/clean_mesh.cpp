@@ -1,0 +1,304 @@
+#include "assets/clean_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "assets/check_surface.h"
+#include "assets/choose_component.h"
+#include "assets/weld.h"
+
+namespace pneuma::assets {
+namespace {
+
+using sim::at;
+
+// Beyond, squares and cubes of lengths leave the range of numbers.
+constexpr double greatest_extent = 1e30;
+constexpr double least_extent = 1e-30;
+constexpr std::size_t most_triangles = 100'000'000;  // their corners are numbered by an int
+constexpr double least_volume = 1e-9;                // of the cubed diagonal
+
+void check_input(const sim::TriangleMesh& mesh) {
+  const auto& [vertices, triangles] = mesh;
+  if (triangles.empty()) throw ModelError("the model has no triangles");
+  if (std::max(vertices.size(), triangles.size()) > most_triangles) {
+    throw ModelError("the model has more than 100 million vertices or triangles; simplify it");
+  }
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (vertices[v].allFinite()) continue;
+    throw ModelError(fmt::format("vertex {} is not finite: {}", v, coordinates(vertices[v])));
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const int v : triangles[t]) {
+      if (v >= 0 && at(v) < vertices.size()) continue;
+      throw ModelError(fmt::format("triangle {} uses vertex {}, but there are {} vertices", t, v,
+                                   vertices.size()));
+    }
+  }
+}
+
+double diagonal(const sim::TriangleMesh& mesh) {
+  sim::Bounds box;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const int v : triangle) box.include(mesh.vertices[at(v)]);
+  }
+  const double greatest = box.size().maxCoeff();
+  if (!(greatest <= greatest_extent)) {
+    throw ModelError(
+        fmt::format("the model is {:.3g} across; the most is {:.0e}", greatest, greatest_extent));
+  }
+  if (greatest < least_extent) {
+    throw ModelError(fmt::format("all triangles are in one place, {}",
+                                 coordinates(mesh.vertices[at(mesh.triangles[0][0])])));
+  }
+  return box.size().norm();
+}
+
+class Cleaner {
+ public:
+  Cleaner(const Model& model, const CleanOptions& options) : model_(model), options_(options) {}
+
+  CleanModel clean() {
+    check_input(model_.mesh);
+    result_.vertices_before = static_cast<int>(model_.mesh.vertices.size());
+    weld_distance_ = weld_tolerance * diagonal(model_.mesh);
+    weld_vertices();
+    drop_triangles();
+    keep_component();
+    make_surface();
+    place();
+    return std::move(result_);
+  }
+
+ private:
+  void say(std::string mended) { result_.mended.push_back(std::move(mended)); }
+
+  void weld_vertices() {
+    const Weld welded = weld(model_.mesh.vertices, weld_distance_);
+    work_.mesh.vertices = welded.vertices;
+    const int before = result_.vertices_before;
+    for (int v = 0; v < before; ++v) {
+      const bool is_kept = welded.new_index[at(v)] == static_cast<int>(work_.vertex_number.size());
+      if (is_kept) work_.vertex_number.push_back(v);
+    }
+    for (std::size_t t = 0; t < model_.mesh.triangles.size(); ++t) {
+      Triangle triangle = model_.mesh.triangles[t];
+      for (int& v : triangle) v = welded.new_index[at(v)];
+      work_.mesh.triangles.push_back(triangle);
+      work_.triangle_number.push_back(static_cast<int>(t));
+    }
+    result_.vertices_welded = static_cast<int>(welded.vertices.size());
+    if (result_.vertices_welded < before) {
+      say(fmt::format("{} vertices welded to {}", before, result_.vertices_welded));
+    }
+  }
+
+  /// Those for which `keep` says true, in their order.
+  template <class Keep>
+  void filter_triangles(const Keep& keep) {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < work_.mesh.triangles.size(); ++t) {
+      if (!keep(t)) continue;
+      work_.mesh.triangles[count] = work_.mesh.triangles[t];
+      work_.triangle_number[count] = work_.triangle_number[t];
+      ++count;
+    }
+    work_.mesh.triangles.resize(count);
+    work_.triangle_number.resize(count);
+  }
+
+  void drop_triangles() {
+    const std::size_t all = work_.mesh.triangles.size();
+    filter_triangles([&](std::size_t t) {
+      const auto& [a, b, c] = work_.mesh.triangles[t];
+      return a != b && b != c && c != a;
+    });
+    const std::size_t proper = work_.mesh.triangles.size();
+    if (proper < all) {
+      say(counted(all - proper, "degenerate triangle", "degenerate triangles") + " dropped");
+    }
+    std::set<Triangle> known;
+    filter_triangles([&](std::size_t t) {
+      Triangle corners = work_.mesh.triangles[t];
+      std::sort(corners.begin(), corners.end());
+      return known.insert(corners).second;
+    });
+    const std::size_t single = work_.mesh.triangles.size();
+    if (single < proper) {
+      say(counted(proper - single, "duplicate triangle", "duplicate triangles") + " dropped");
+    }
+    if (single == 0) throw ModelError("the model has no triangles that are not degenerate");
+    drop_lonely_vertices();
+  }
+
+  /// Vertices without triangles, so that what is left is numbered without gaps.
+  void drop_lonely_vertices() {
+    const int dropped = compact();
+    if (dropped > 0) {
+      say(counted(at(dropped), "vertex", "vertices") + " without triangles dropped");
+    }
+  }
+
+  int compact() {
+    const std::size_t before = work_.mesh.vertices.size();
+    std::vector<int> new_index(before, -1);
+    for (const Triangle& triangle : work_.mesh.triangles) {
+      for (const int v : triangle) new_index[at(v)] = 0;
+    }
+    int count = 0;
+    for (std::size_t v = 0; v < before; ++v) {
+      if (new_index[v] < 0) continue;
+      new_index[v] = count;
+      work_.mesh.vertices[at(count)] = work_.mesh.vertices[v];
+      work_.vertex_number[at(count)] = work_.vertex_number[v];
+      ++count;
+    }
+    work_.mesh.vertices.resize(at(count));
+    work_.vertex_number.resize(at(count));
+    for (Triangle& triangle : work_.mesh.triangles) {
+      for (int& v : triangle) v = new_index[at(v)];
+    }
+    return static_cast<int>(before) - count;
+  }
+
+  std::string part_name(std::size_t triangle) const {
+    const std::size_t before = at(work_.triangle_number[triangle]);
+    if (before >= model_.parts.size()) return {};
+    const std::size_t part = at(model_.parts[before]);
+    return part < model_.part_names.size() ? model_.part_names[part] : std::string();
+  }
+
+  void describe_components(const std::vector<int>& component, const std::vector<Edge>& edges) {
+    const auto& [vertices, triangles] = work_.mesh;
+    std::vector<Component>& all = result_.components;
+    all.resize(at(*std::max_element(component.begin(), component.end())) + 1);
+    std::vector<sim::Bounds> boxes(all.size());
+    std::vector<char> counted_already(vertices.size(), 0);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const std::size_t number = at(component[t]);
+      if (all[number].triangles++ == 0) all[number].name = part_name(t);
+      for (const int v : triangles[t]) {
+        boxes[number].include(vertices[at(v)]);
+        if (!counted_already[at(v)]) ++all[number].vertices;
+        counted_already[at(v)] = 1;
+      }
+    }
+    for (const Edge& edge : edges) {
+      Component& owner = all[at(component[at(edge.triangles.front())])];
+      if (edge.triangles.size() == 1) ++owner.boundary_edges;
+      if (edge.triangles.size() > 2) ++owner.non_manifold_edges;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].size = boxes[i].size();
+  }
+
+  void keep_component() {
+    const std::vector<int> component =
+        components_of(work_.mesh.triangles, static_cast<int>(work_.mesh.vertices.size()));
+    describe_components(component, edges_of(work_.mesh.triangles));
+    result_.kept = choose_component(result_.components, options_.component);
+    const std::size_t others = result_.components.size() - 1;
+    if (others > 0) {
+      filter_triangles([&](std::size_t t) { return component[t] == result_.kept; });
+      compact();
+      say(fmt::format("{} left out", counted(others, "other component", "other components")));
+    }
+    if (work_.mesh.vertices.size() > at(options_.most_vertices)) {
+      throw ModelError(fmt::format(
+          "{} vertices are more than the limit of {}; simplify the model (or, in a scene, raise "
+          "vertices_per_body in [limits])",
+          work_.mesh.vertices.size(), options_.most_vertices));
+    }
+  }
+
+  void make_surface() {
+    const std::vector<Edge> edges = edges_of(work_.mesh.triangles);
+    check_manifold(work_, edges, weld_distance_);
+    const Orientation orientation = orient(work_.mesh.triangles, edges);
+    if (!orientation.impossible.empty()) {
+      throw ModelError(fmt::format(
+          "the surface has one side only, like a Klein bottle: {} at which the triangles cannot "
+          "agree{}",
+          counted(orientation.impossible.size(), "edge", "edges"),
+          first_places(orientation.impossible.size(), [&](std::size_t i) {
+            return edge_place(work_, orientation.impossible[i]);
+          })));
+    }
+    turn_outwards(orientation);
+    check_self_touching(work_);
+  }
+
+  void turn_outwards(const Orientation& orientation) {
+    double volume = 0.0;  // as the first triangle has it
+    const Vec3 origin = work_.mesh.vertices.front();
+    for (std::size_t t = 0; t < work_.mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = work_.mesh.triangles[t];
+      const double part = (work_.mesh.vertices[at(a)] - origin)
+                              .dot((work_.mesh.vertices[at(b)] - origin)
+                                       .cross(work_.mesh.vertices[at(c)] - origin)) /
+                          6.0;
+      volume += orientation.turned[t] ? -part : part;
+    }
+    const double extent = diagonal(work_.mesh);
+    if (!(std::abs(volume) > least_volume * extent * extent * extent)) {
+      throw ModelError(fmt::format("the surface holds no volume: {:.3g}, with an extent of {:.3g}",
+                                   std::abs(volume), extent));
+    }
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < work_.mesh.triangles.size(); ++t) {
+      if ((orientation.turned[t] != 0) == (volume < 0.0)) continue;
+      std::swap(work_.mesh.triangles[t][1], work_.mesh.triangles[t][2]);
+      ++count;
+    }
+    if (count > 0) say(counted(count, "triangle", "triangles") + " turned");
+  }
+
+  void place() {
+    const double extent = options_.scale * diagonal(work_.mesh);
+    if (!(extent >= smallest_model && extent <= largest_model)) {
+      throw ModelError(fmt::format(
+          "the model is {:.3g} m across; allowed: {:g} m to {:g} m. Give it another scale (in a "
+          "scene model.scale), such as {:.3g}",
+          extent, smallest_model, largest_model, options_.scale * 2.0 / extent));
+    }
+    const Vec3 angles = options_.rotation * (std::numbers::pi / 180.0);
+    const sim::Mat3 rotation = (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
+                                Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
+                                Eigen::AngleAxisd(angles.x(), Vec3::UnitX()))
+                                   .toRotationMatrix();
+    const bool turned = options_.rotation != Vec3::Zero();
+    sim::Bounds box;
+    for (Vec3& vertex : work_.mesh.vertices) {
+      vertex *= options_.scale;
+      if (turned) vertex = rotation * vertex;
+      box.include(vertex);
+    }
+    if (options_.centre) {
+      for (Vec3& vertex : work_.mesh.vertices) vertex -= box.centre();
+    } else if (std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()) >
+               largest_model) {
+      throw ModelError(fmt::format(
+          "the model lies further than {:g} m from its origin; centre it (in a scene with "
+          "model.centre = true)",
+          largest_model));
+    }
+    result_.mesh = std::move(work_.mesh);
+  }
+
+  const Model& model_;
+  const CleanOptions& options_;
+  NumberedMesh work_;
+  double weld_distance_ = 0.0;
+  CleanModel result_;
+};
+
+}  // namespace
+
+CleanModel clean_mesh(const Model& model, const CleanOptions& options) {
+  return Cleaner(model, options).clean();
+}
+
+}  // namespace pneuma::assets

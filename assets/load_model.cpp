@@ -1,0 +1,29 @@
+#include "assets/load_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pneuma::assets {
+namespace {
+
+// A closed surface has two triangles per vertex, each with three corners of its own where a file
+// shares none; and there may be components that are left out.
+constexpr std::size_t raw_per_welded = 8;
+
+}  // namespace
+
+CleanModel load_model(const std::filesystem::path& path, const CleanOptions& options) {
+  ImportLimits limits;
+  const std::size_t most = sim::at(options.most_vertices) * raw_per_welded;
+  limits.vertices = std::max(limits.vertices, most);
+  limits.triangles = std::max(limits.triangles, most);
+  const Model model = import_model(path, limits);
+  try {
+    return clean_mesh(model, options);
+  } catch (const ModelError& error) {
+    throw ModelError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace pneuma::assets

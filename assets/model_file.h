@@ -1,0 +1,35 @@
+// A model's bytes, and what can be told from them before any importer sees them.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "assets/model.h"
+
+namespace pneuma::assets {
+
+enum class Format { obj, ply, stl, off, gltf, glb, a3ds, dae, fbx };
+
+/// By the file's ending, upper or lower case. Throws ModelError that lists the endings.
+Format format_of(const std::filesystem::path& path);
+
+/// Whether the ending is one of a model's.
+bool has_model_ending(const std::filesystem::path& path);
+
+/// "obj, ply, stl, off, gltf, glb, 3ds, dae or fbx".
+std::string model_endings();
+
+/// The whole file. Throws ModelError when it cannot be read, is a folder, is empty or is larger
+/// than `most_bytes`; no more than that is read.
+std::string read_model_file(const std::filesystem::path& path, std::size_t most_bytes);
+
+/// Throws ModelError when the bytes are not of the format, or when a header announces more than the
+/// file can hold or than `most_vertices` and `most_triangles`: importers believe it, and reserve
+/// memory for it. Formats without counts in one place (obj, gltf, dae, fbx, 3ds) pass when they
+/// begin as they must.
+void check_model_header(Format format, std::string_view bytes, std::size_t most_vertices,
+                        std::size_t most_triangles);
+
+}  // namespace pneuma::assets

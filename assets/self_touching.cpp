@@ -1,0 +1,237 @@
+#include "assets/self_touching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "assets/exact.h"
+#include "sim/mesh/measure.h"
+
+namespace pneuma::assets {
+namespace {
+
+using sim::at;
+
+/// About 20 s. An evenly meshed closed surface has some thirty pairs per triangle whose boxes
+/// overlap; only triangles laid across each other in masses come here.
+constexpr std::size_t most_pairs = 200'000'000;
+
+std::vector<GridPoint> to_grid(const std::vector<Vec3>& vertices) {
+  sim::Bounds box;
+  for (const Vec3& vertex : vertices) box.include(vertex);
+  const double extent = box.size().maxCoeff();
+  std::vector<GridPoint> points;
+  points.reserve(vertices.size());
+  for (const Vec3& vertex : vertices) {
+    GridPoint point;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = (vertex[axis] - box.low[axis]) / extent;
+      point[at(axis)] = std::llround(share * static_cast<double>(grid_steps));
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+struct Box {
+  GridPoint low = {grid_steps, grid_steps, grid_steps};
+  GridPoint high = {0, 0, 0};
+
+  void include(const Box& other) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+  }
+  bool overlaps(const Box& other) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (low[i] > other.high[i] || other.low[i] > high[i]) return false;
+    }
+    return true;
+  }
+};
+
+/// A binary tree of boxes over the triangles, each half of its triangles in either branch.
+class Tree {
+ public:
+  explicit Tree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    nodes_.reserve(2 * boxes_.size() / leaf_size + 2);
+    build(0, order_.size());
+  }
+
+  /// Calls `visit(a, b)` for each two boxes that overlap, until it says false.
+  template <class Visit>
+  bool visit_pairs(const Visit& visit) const {
+    std::vector<std::pair<int, int>> open = {{0, 0}};
+    while (!open.empty()) {
+      const auto [a, b] = open.back();
+      open.pop_back();
+      const Node &left = nodes_[at(a)], &right = nodes_[at(b)];
+      if (!left.box.overlaps(right.box)) continue;
+      if (left.is_leaf() && right.is_leaf()) {
+        if (!visit_leaves(left, right, a == b, visit)) return false;
+      } else if (a == b) {
+        open.insert(
+            open.end(),
+            {{left.first, left.first}, {left.first, left.second}, {left.second, left.second}});
+      } else if (right.is_leaf() || (!left.is_leaf() && left.count() > right.count())) {
+        open.insert(open.end(), {{left.first, b}, {left.second, b}});
+      } else {
+        open.insert(open.end(), {{a, right.first}, {a, right.second}});
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t leaf_size = 4;
+
+  struct Node {
+    Box box;
+    std::size_t begin = 0, end = 0;  // in order_
+    int first = -1, second = -1;     // branches
+    bool is_leaf() const { return first < 0; }
+    std::size_t count() const { return end - begin; }
+  };
+
+  int build(std::size_t begin, std::size_t end) {
+    const int index = static_cast<int>(nodes_.size());
+    Node node;
+    node.begin = begin;
+    node.end = end;
+    for (std::size_t i = begin; i < end; ++i) node.box.include(boxes_[at(order_[i])]);
+    nodes_.push_back(node);
+    if (end - begin <= leaf_size) return index;
+    const std::size_t middle = begin + (end - begin) / 2;
+    split(node.box, begin, middle, end);
+    const int first = build(begin, middle);
+    const int second = build(middle, end);
+    nodes_[at(index)].first = first;
+    nodes_[at(index)].second = second;
+    return index;
+  }
+
+  /// By the boxes' middles along the longest axis, so that the tree is as deep as its count says.
+  void split(const Box& box, std::size_t begin, std::size_t middle, std::size_t end) {
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+    }
+    const auto start = order_.begin();
+    using Offset = std::vector<int>::difference_type;
+    std::nth_element(start + static_cast<Offset>(begin), start + static_cast<Offset>(middle),
+                     start + static_cast<Offset>(end), [&](int a, int b) {
+                       const Box &left = boxes_[at(a)], &right = boxes_[at(b)];
+                       return left.low[axis] + left.high[axis] < right.low[axis] + right.high[axis];
+                     });
+  }
+
+  template <class Visit>
+  bool visit_leaves(const Node& left, const Node& right, bool same, const Visit& visit) const {
+    for (std::size_t i = left.begin; i < left.end; ++i) {
+      for (std::size_t j = same ? i + 1 : right.begin; j < right.end; ++j) {
+        if (!boxes_[at(order_[i])].overlaps(boxes_[at(order_[j])])) continue;
+        if (!visit(order_[i], order_[j])) return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+class Tests {
+ public:
+  Tests(const std::vector<GridPoint>& points, const std::vector<Triangle>& triangles)
+      : points_(points), triangles_(triangles) {}
+
+  Box box(int t) const {
+    Box box;
+    for (const int v : triangles_[at(t)]) box.include({point(v), point(v)});
+    return box;
+  }
+
+  bool is_flat(int t) const {
+    const auto& [a, b, c] = triangles_[at(t)];
+    return on_one_line(point(a), point(b), point(c));
+  }
+
+  bool touch(int s, int t) const {
+    const Triangle a = shared_first(triangles_[at(s)], triangles_[at(t)]);
+    const Triangle b = shared_first(triangles_[at(t)], triangles_[at(s)]);
+    switch (shared(a, b)) {
+      case 0:
+        return any_side_meets(a, b, 3) || any_side_meets(b, a, 3);
+      case 1:  // beyond the shared vertex only if the side opposite to it meets the other triangle
+        return any_side_meets(a, b, 1) || any_side_meets(b, a, 1);
+      case 2:  // beyond the shared side only if they lie on each other
+        return side_of_plane(point(a[0]), point(a[1]), point(a[2]), point(b[2])) == 0 &&
+               same_side_of_edge(point(a[0]), point(a[1]), point(a[2]), point(b[2]));
+      default:
+        return true;
+    }
+  }
+
+ private:
+  const GridPoint& point(int vertex) const { return points_[at(vertex)]; }
+
+  static bool has(const Triangle& triangle, int vertex) {
+    return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
+  }
+
+  static Triangle shared_first(Triangle triangle, const Triangle& other) {
+    std::stable_partition(triangle.begin(), triangle.end(), [&](int v) { return has(other, v); });
+    return triangle;
+  }
+
+  static int shared(const Triangle& a, const Triangle& b) {
+    return static_cast<int>(std::count_if(a.begin(), a.end(), [&](int v) { return has(b, v); }));
+  }
+
+  /// The first `count` sides of a, from the one opposite to its first corner on, against b.
+  bool any_side_meets(const Triangle& a, const Triangle& b, std::size_t count) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (segment_meets_triangle(point(a[(i + 1) % 3]), point(a[(i + 2) % 3]), point(b[0]),
+                                 point(b[1]), point(b[2]))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const std::vector<GridPoint>& points_;
+  const std::vector<Triangle>& triangles_;
+};
+
+}  // namespace
+
+SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t most_places) {
+  SelfTouching result;
+  if (mesh.triangles.empty()) return result;
+  const std::vector<GridPoint> points = to_grid(mesh.vertices);
+  const Tests tests(points, mesh.triangles);
+  std::vector<Box> boxes;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boxes.push_back(tests.box(t));
+  std::size_t pairs = 0;
+  result.complete = Tree(std::move(boxes)).visit_pairs([&](int s, int t) {
+    if (++pairs > most_pairs) return false;
+    if (tests.is_flat(s) || tests.is_flat(t) || !tests.touch(s, t)) return true;
+    ++result.count;
+    result.first.push_back({std::min(s, t), std::max(s, t)});
+    if (result.first.size() >= 2 * most_places + 100) {
+      std::sort(result.first.begin(), result.first.end());
+      result.first.resize(most_places);
+    }
+    return true;
+  });
+  std::sort(result.first.begin(), result.first.end());
+  if (result.first.size() > most_places) result.first.resize(most_places);
+  return result;
+}
+
+}  // namespace pneuma::assets
