@@ -137,9 +137,10 @@ TEST_F(ExportTest, GlbIsAWholeContainer) {
   for (std::size_t body = 0; body < 3; ++body) {
     EXPECT_EQ(gltf["meshes"][body]["name"], expected[body].name);
     const json& primitive = gltf["meshes"][body]["primitives"][0];
-    const json& positions = gltf["accessors"][primitive["attributes"]["POSITION"].get<int>()];
+    const json& positions =
+        gltf["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     ASSERT_EQ(positions["count"], expected[body].vertices.size());
-    const json& view = gltf["bufferViews"][positions["bufferView"].get<int>()];
+    const json& view = gltf["bufferViews"][positions["bufferView"].get<std::size_t>()];
     std::size_t offset = binary + view["byteOffset"].get<std::size_t>();
     for (const Vec3& vertex : expected[body].vertices) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -149,7 +150,7 @@ TEST_F(ExportTest, GlbIsAWholeContainer) {
         ASSERT_LE(value, positions["max"][axis].get<float>());
       }
     }
-    const json& indices = gltf["accessors"][primitive["indices"].get<int>()];
+    const json& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
     EXPECT_EQ(indices["count"], 3 * expected[body].triangles->size());
   }
 }

@@ -113,11 +113,12 @@ TEST_F(RenderTest, MakesTheSameBytesOnAnyNumberOfThreads) {
 
 TEST_F(RenderTest, DoesNotDisturbTheSimulation) {
   render("");
+  const json run = record();
   // The same steps without a renderer, a camera that looks ahead, or files.
   const scenes::Scene loaded = scenes::load_scene(scene());
   sim::World world = app::build_world(loaded);
   sim::Stepper stepper(world, {.threads = 1, .plan = {}});
-  for (const json& frame : record()["frames"]) {
+  for (const json& frame : run["frames"]) {
     while (world.steps < frame["step"]) ASSERT_FALSE(stepper.step(world));
     EXPECT_EQ(frame["state_hash"], app::hex(sim::state_hash(world))) << frame["frame"];
   }
