@@ -12,6 +12,7 @@
 #include "scenes/load_scene.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/soft/equilibrium.h"
 
 namespace pneuma::app {
 namespace {
@@ -147,7 +148,8 @@ class Builder {
         const auto mesh = shared_mesh(body);
         count(body, mesh->topology.vertex_count());
         check_gas(body, *mesh);
-        for (const Start& start : starts) add_soft(body, start, mesh);
+        const auto held = body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh) : mesh;
+        for (const Start& start : starts) add_soft(body, start, held);
       }
     }
     return std::move(world_);
@@ -173,6 +175,17 @@ class Builder {
       refuse(scene_, body, error.what());
     }
     return mesh;
+  }
+
+  /// Not shared with other bodies: its rest lengths depend on the material.
+  std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh) {
+    try {
+      return sim::make_soft_mesh(
+          mesh,
+          sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
+    } catch (const sim::EquilibriumError& error) {
+      refuse(scene_, body, error.what());
+    }
   }
 
   /// The scene was checked without its models.

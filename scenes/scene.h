@@ -19,6 +19,13 @@ using sim::Vec3;
 enum class BodyKind { soft, rigid };
 enum class Shape { sphere, torus, box, icosphere, model };
 
+/// When a soft body's springs are at rest.
+enum class Rest {
+  shape,        // in the shape as it is made: the gas then blows it up
+  equilibrium,  // with tensions in them that hold the shape against its gas
+                // (sim/soft/equilibrium.h)
+};
+
 /// A triangle model from a file of anyone's.
 struct ModelScene {
   std::string file;              // beside the scene file, or as app/find_model.h says
@@ -43,6 +50,7 @@ struct BodyScene {
   Vec3 size = {2.0, 2.0, 2.0};  // m: box
   ModelScene model;             // model
 
+  Rest rest = Rest::shape;     // soft
   sim::SoftMaterial material;  // soft
 
   double mass = sim::RigidBox{}.mass;    // kg: rigid

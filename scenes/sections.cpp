@@ -44,6 +44,10 @@ constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::soft, "soft"},
     Named<BodyKind>{BodyKind::rigid, "rigid"},
 };
+constexpr std::array rests = {
+    Named<Rest>{Rest::shape, "shape"},
+    Named<Rest>{Rest::equilibrium, "equilibrium"},
+};
 constexpr std::array shapes = {
     Named<Shape>{Shape::sphere, "sphere"}, Named<Shape>{Shape::torus, "torus"},
     Named<Shape>{Shape::box, "box"},       Named<Shape>{Shape::icosphere, "icosphere"},
@@ -257,6 +261,8 @@ Section body_section(BodyScene& body) {
           only(models, {"model.centre", &body.model.centre, any(), "",
                         "its middle is the body's position, not the file's origin"}),
 
+          only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
+                             "of the springs: in the shape, or so that it holds its gas"}),
           only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
           only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),
           only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K", "of the gas"}),

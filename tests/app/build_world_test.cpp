@@ -7,7 +7,9 @@
 
 #include "scenes/load_scene.h"
 #include "sim/inspect/inspect.h"
+#include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/step/stepper.h"
 
 namespace pneuma::app {
 namespace {
@@ -204,6 +206,40 @@ TEST(BuildWorld, RefusesGasWithoutAVolume) {
   body.material.n = 1.0;
   body.material.temperature = 0.0;
   EXPECT_EQ(refusal(body), "");
+}
+
+TEST(BuildWorld, ABodyWithRestInEquilibriumStaysAsItIsMade) {
+  // In free space: with springs at rest in the shape it would be blown up to several times its
+  // volume.
+  const std::string ball = R"(
+[simulation]
+gravity = [0.0, 0.0, 0.0]
+[ground]
+present = false
+[[body]]
+shape = "icosphere"
+k = 100.0
+n = 1.0
+)";
+  const auto volume_after = [&](const std::string& rest) {
+    sim::World world = build_world(scene_of(ball, {"body.rest=" + rest}));
+    sim::Stepper stepper(world);
+    while (world.steps < 300) EXPECT_FALSE(stepper.step(world));
+    const sim::SoftBody& body = world.soft[0];
+    return sim::volume(body.mesh->topology, body.positions) /
+           sim::volume(body.mesh->topology, body.mesh->rest_positions);
+  };
+  EXPECT_NEAR(volume_after("equilibrium"), 1.0, 0.1);  // but for loads that are left alone
+  EXPECT_GT(volume_after("shape"), 2.0);
+}
+
+TEST(BuildWorld, RefusesARestThatNoTensionsHold) {
+  scenes::BodyScene body;
+  body.name = "cube";
+  body.shape = scenes::Shape::box;
+  body.rest = scenes::Rest::equilibrium;
+  const std::string message = refusal(body);
+  EXPECT_NE(message.find("'cube'"), std::string::npos) << message;
 }
 
 TEST(BuildWorld, RefusesAMeshThatIsNone) {

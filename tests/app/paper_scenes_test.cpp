@@ -50,6 +50,7 @@ struct PaperScene {
 };
 
 const PaperScene paper_scenes[] = {
+    {"cat_on_sphere", soft_bodies, 0.03, 1e-4, 0.6, false},
     // Edges of the cubes press between the torus' vertices; some cubes still roll.
     {"cubes_on_torus", soft_body_and_boxes, 0.4, 1e-5, 10.0, true},
     {"model", one_body, 0.0, 1e-5, 0.2, false},
@@ -111,10 +112,16 @@ std::int64_t all_steps(const scenes::Scene& scene) {
          scene.picture.frames_per_second;
 }
 
+/// All of the paper's scenes but the cat's, which takes many small steps: it has met the sphere by
+/// then.
+std::int64_t compared_steps(const scenes::Scene& scene) {
+  return std::min<std::int64_t>(all_steps(scene), 720);
+}
+
 std::uint64_t hash_at_end(const scenes::Scene& scene, sim::World world,
                           sim::StepperOptions options) {
   sim::Stepper stepper(world, std::move(options));
-  while (world.steps < all_steps(scene)) EXPECT_FALSE(stepper.step(world));
+  while (world.steps < compared_steps(scene)) EXPECT_FALSE(stepper.step(world));
   return sim::state_hash(world);
 }
 
@@ -134,7 +141,7 @@ TEST_P(PaperSceneTest, ComesOutTheSameWithPictures) {
   render::Renderer renderer({.width = 64, .height = 48, .samples = 1});
   render::Image image;
   sim::Stepper stepper(world);
-  while (world.steps < all_steps(scene_)) {
+  while (world.steps < compared_steps(scene_)) {
     if (world.steps % 60 == 0) {
       renderer.draw(builder.build(world, stepper.contacts(), {true, true, true}), image);
     }

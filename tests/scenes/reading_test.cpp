@@ -112,6 +112,7 @@ radius = 4.5
 tube_radius = 1.25
 stacks = 12
 slices = 10
+rest = "equilibrium"
 k = 400
 n = 11
 temperature = 300.5
@@ -141,6 +142,7 @@ colour_axis = [0.0, 1.0, 0.5]
   expected.tube_radius = 1.25;
   expected.stacks = 12;
   expected.slices = 10;
+  expected.rest = Rest::equilibrium;
   expected.material = {.k = 400.0,
                        .n = 11.0,
                        .temperature = 300.5,

@@ -72,7 +72,7 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   const auto& [name, kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions,
-               size, model, material, mass, rho_g, surface, position, rotation, velocity,
+               size, model, rest, material, mass, rho_g, surface, position, rotation, velocity,
                angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
@@ -85,6 +85,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("divisions", divisions, b.divisions);
   c.member("size", size, b.size);
   compare(c, model, b.model);
+  c.member("rest", rest, b.rest);
   compare(c, material, b.material);
   c.member("mass", mass, b.mass);
   c.member("body rho_g", rho_g, b.rho_g);
