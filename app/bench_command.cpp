@@ -13,6 +13,7 @@
 
 #include "app/bench_report.h"
 #include "app/command.h"
+#include "app/common_options.h"
 #include "app/errors.h"
 #include "app/find_scene.h"
 #include "app/render_request.h"
@@ -95,10 +96,7 @@ void add_bench_command(CLI::App& app, Action& action) {
       ->add_option("scene", options->scenes,
                    "Scene files or names [all that the paper gives a frame rate for]")
       ->type_name("SCENE");
-  command->add_option("--set", options->overrides, "Override a value of the scenes, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_override_option(*command, options->overrides);
   auto* steps =
       command->add_option("--steps", options->measure.steps, "Measure N steps, and as many frames")
           ->type_name("N")
@@ -121,8 +119,7 @@ void add_bench_command(CLI::App& app, Action& action) {
       ->add_option("--size", options->size,
                    fmt::format("Size of the pictures in pixels [{}]", default_size))
       ->type_name("WxH");
-  command->add_option("--threads", options->measure.threads, "Threads of the simulation [1]")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, options->measure.threads);
   command->add_flag("--json", options->json, "JSON in place of tables");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

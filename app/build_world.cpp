@@ -10,8 +10,10 @@
 
 #include "app/find_model.h"
 #include "scenes/load_scene.h"
+#include "sim/hash.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/mesh/rotation.h"
 #include "sim/soft/equilibrium.h"
 
 namespace pneuma::app {
@@ -64,13 +66,6 @@ struct Start {
   Quaternion orientation;
 };
 
-Quaternion turn(const Vec3& degrees) {
-  const Vec3 angles = degrees * (std::numbers::pi / 180.0);
-  return Quaternion(Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
-                    Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
-                    Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
-}
-
 /// All copies of a body, x fastest.
 std::vector<Start> place_copies(const BodyScene& body, Random random) {
   std::vector<Start> starts;
@@ -80,7 +75,7 @@ std::vector<Start> place_copies(const BodyScene& body, Random random) {
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x) {
         Start start{body.name, body.position + body.spacing.cwiseProduct(Vec3(x, y, z)),
-                    turn(body.rotation)};
+                    sim::rotation_of_degrees(body.rotation)};
         if (numbered) start.name += fmt::format(".{}", starts.size() + 1);
         if (body.jitter > 0.0) start.position += body.jitter * random.in_ball();
         if (body.tumble) start.orientation = random.rotation() * start.orientation;
@@ -115,19 +110,13 @@ sim::TriangleMesh make_mesh(const scenes::Scene& scene, const BodyScene& body) {
   throw scenes::SceneError({diagnostic});
 }
 
-/// 64-bit FNV-1a over the rest shape and the triangles.
 std::uint64_t fingerprint(const sim::SoftMesh& mesh) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  const auto include = [&](const void* data, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-    }
-  };
-  const auto& rows = mesh.rest_positions.rows();
-  const auto& triangles = mesh.topology.triangles();
-  include(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(double));
-  include(triangles.data(), triangles.size() * sizeof(sim::Triangle));
-  return hash;
+  sim::Hash hash;
+  hash.add(mesh.rest_positions);
+  for (const sim::Triangle& triangle : mesh.topology.triangles()) {
+    for (const int v : triangle) hash.add(v);
+  }
+  return hash.value();
 }
 
 class Builder {

@@ -11,6 +11,7 @@
 #include "app/check_model.h"
 #include "app/check_report.h"
 #include "app/command.h"
+#include "app/common_options.h"
 #include "app/errors.h"
 #include "app/find_model.h"
 #include "app/find_scene.h"
@@ -77,15 +78,11 @@ void add_check_command(CLI::App& app, Action& action) {
                    "A scene file, or the name of one in scenes/; or a model file (" +
                        assets::model_endings() + ")")
       ->type_name("SCENE|MODEL");
-  command->add_option("--set", options->overrides, "Override a value of the scene, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_override_option(*command, options->overrides);
   command->add_flag("--run", options->run,
                     "Also run it without pictures: penetration, energy, contacts, volumes");
   command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
-  command->add_option("--threads", options->threads, "Threads of the simulation [1]")
-      ->check(CLI::Range(1, 256));
+  add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "JSON in place of text");
   command->callback([options, &action] { action = [options] { return check(*options); }; });
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/check_report.h"
+#include "app/vector_json.h"
 #include "scenes/print_scene.h"
 
 namespace pneuma::app {
@@ -36,8 +37,6 @@ json size_json(const WorldSize& size) {
           {"springs", size.springs},         {"triangles", size.triangles},
           {"state_bytes", size.state_bytes}};
 }
-
-json vector_json(const sim::Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 json momentum_json(const sim::Momentum& momentum) {
   return {{"linear_kg_m_per_s", vector_json(momentum.linear)},

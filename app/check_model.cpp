@@ -6,16 +6,13 @@
 
 #include "app/interrupt.h"
 #include "app/table.h"
+#include "app/vector_json.h"
 #include "assets/load_model.h"
 
 namespace pneuma::app {
 namespace {
 
 using nlohmann::json;
-
-std::string line(std::string_view name, const std::string& text) {
-  return fmt::format("  {:<18} {}\n", name, text);
-}
 
 std::string component_text(const assets::Component& component, std::size_t number, bool kept) {
   return fmt::format("{}{}: {} vertices, {} triangles, {} boundary edges, {} non-manifold edges{}",
@@ -24,8 +21,6 @@ std::string component_text(const assets::Component& component, std::size_t numbe
                      grouped(component.boundary_edges), grouped(component.non_manifold_edges),
                      kept ? "" : "; left out");
 }
-
-json vector_json(const sim::Vec3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 json component_json(const assets::Component& component) {
   return {{"name", component.name},
@@ -47,44 +42,45 @@ ModelCheck check_model(const std::filesystem::path& path) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
     throw;
   }
-  check.report = assets::report_on(check.model);
+  check.report = report_on(check.model);
   return check;
 }
 
 std::string model_check_text(const ModelCheck& check) {
-  const assets::ModelReport& report = check.report;
+  const ModelReport& report = check.report;
   std::string text = fmt::format("{}: fit for a soft body\n", check.path.string());
-  text += line("vertices",
-               fmt::format("{}; {} in the file, {} after welding", grouped(report.vertices),
-                           grouped(report.vertices_before), grouped(report.vertices_welded)));
-  text += line("springs",
-               fmt::format("{}; per vertex {} to {}, {:.3g} in the mean", grouped(report.edges),
-                           report.fewest_springs, report.most_springs, report.springs_per_vertex));
-  text += line("triangles", fmt::format("{}, smallest angle {:.3g} degrees",
-                                        grouped(report.triangles), report.smallest_angle));
-  text += line("boundary edges", grouped(report.boundary_edges));
-  text += line("non-manifold edges", grouped(report.non_manifold_edges));
-  text += line("genus", grouped(report.genus));
-  text +=
-      line("volume", fmt::format("{:.6g} m^3, with one unit of the file a metre", report.volume));
-  text += line("area", fmt::format("{:.6g} m^2", report.area));
-  text += line("extent", fmt::format("{:.6g} x {:.6g} x {:.6g} m", report.size.x(), report.size.y(),
-                                     report.size.z()));
-  text += line("edge lengths", fmt::format("{:.4g} m (5th percentile), {:.4g} m (median), {:.4g} m "
-                                           "(95th)",
-                                           report.edge_5th, report.edge_median, report.edge_95th));
+  text += named_line("vertices",
+                     fmt::format("{}; {} in the file, {} after welding", grouped(report.vertices),
+                                 grouped(report.vertices_before), grouped(report.vertices_welded)));
+  text += named_line("springs", fmt::format("{}; per vertex {} to {}, {:.3g} in the mean",
+                                            grouped(report.edges), report.fewest_springs,
+                                            report.most_springs, report.springs_per_vertex));
+  text += named_line("triangles", fmt::format("{}, smallest angle {:.3g} degrees",
+                                              grouped(report.triangles), report.smallest_angle));
+  text += named_line("boundary edges", grouped(report.boundary_edges));
+  text += named_line("non-manifold edges", grouped(report.non_manifold_edges));
+  text += named_line("genus", grouped(report.genus));
+  text += named_line("volume",
+                     fmt::format("{:.6g} m^3, with one unit of the file a metre", report.volume));
+  text += named_line("area", fmt::format("{:.6g} m^2", report.area));
+  text += named_line("extent", fmt::format("{:.6g} x {:.6g} x {:.6g} m", report.size.x(),
+                                           report.size.y(), report.size.z()));
+  text += named_line("edge lengths",
+                     fmt::format("{:.4g} m (5th percentile), {:.4g} m (median), {:.4g} m "
+                                 "(95th)",
+                                 report.edge_5th, report.edge_median, report.edge_95th));
   for (std::size_t i = 0; i < check.model.components.size(); ++i) {
-    text += line(i == 0 ? "components" : "",
-                 component_text(check.model.components[i], i + 1, sim::at(check.model.kept) == i));
+    text += named_line(i == 0 ? "components" : "", component_text(check.model.components[i], i + 1,
+                                                                  sim::at(check.model.kept) == i));
   }
   for (const std::string& mended : check.model.mended) {
-    text += line(&mended == &check.model.mended.front() ? "mended" : "", mended);
+    text += named_line(&mended == &check.model.mended.front() ? "mended" : "", mended);
   }
   return text;
 }
 
 json model_check_json(const ModelCheck& check) {
-  const assets::ModelReport& report = check.report;
+  const ModelReport& report = check.report;
   json components = json::array();
   for (const auto& component : check.model.components) {
     components.push_back(component_json(component));

@@ -5,14 +5,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "assets/model_report.h"
+#include "app/model_report.h"
 
 namespace pneuma::app {
 
 struct ModelCheck {
   std::filesystem::path path;
   assets::CleanModel model;
-  assets::ModelReport report;
+  ModelReport report;
 };
 
 /// Reads and mends the model as it is: without scale, turn or choice of a component. Throws

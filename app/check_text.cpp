@@ -14,24 +14,21 @@ std::string planned(const sim::Plan::Item& item) {
   return item.runs ? "runs" : "left out: " + item.reason;
 }
 
-std::string line(std::string_view name, const std::string& text) {
-  return fmt::format("  {:<18} {}\n", name, text);
-}
-
 std::string plan_text(const sim::Plan& plan) {
   std::string text = "Stages of a step, in their order\n";
   for (int s = 0; s < sim::stage_count; ++s) {
     const auto stage = static_cast<sim::Stage>(s);
-    text += line(sim::to_string(stage), planned(plan.stages[static_cast<std::size_t>(s)]));
+    text += named_line(sim::to_string(stage), planned(plan.stages[static_cast<std::size_t>(s)]));
   }
   text += "\nKinds of contact that find_contacts looks for\n";
   for (int k = 0; k < sim::contact_kind_count; ++k) {
     const auto kind = static_cast<sim::ContactKind>(k);
-    text += line(sim::to_string(kind), planned(plan.contact_kinds[static_cast<std::size_t>(k)]));
+    text +=
+        named_line(sim::to_string(kind), planned(plan.contact_kinds[static_cast<std::size_t>(k)]));
   }
   text += "\nWithin integrate_soft\n";
-  text += line("valence_weights", planned(plan.valence_weights));
-  text += line("spring_damping", planned(plan.spring_damping));
+  text += named_line("valence_weights", planned(plan.valence_weights));
+  text += named_line("spring_damping", planned(plan.spring_damping));
   return text;
 }
 
@@ -58,58 +55,60 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
           ? fmt::format(", sharing {} mesh{}", size.meshes, size.meshes == 1 ? "" : "es")
           : "";
   std::string text = "Size\n";
-  text += line("soft bodies", grouped(size.soft_bodies) + shared);
-  text += line("rigid boxes", grouped(size.rigid_boxes));
-  text += line("vertices", grouped(size.vertices));
-  text += line("springs", grouped(size.springs));
-  text += line("triangles", grouped(size.triangles));
-  text +=
-      line("state", fmt::format("{}; with meshes and pictures about {}",
-                                bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
-  text += line("run",
-               fmt::format("{:g} s: {} steps, {} pictures", scene.duration,
-                           grouped(scenes::frame_count(scene) * (scene.settings.steps_per_second /
-                                                                 scene.picture.frames_per_second)),
-                           grouped(scenes::frame_count(scene) + 1)));
+  text += named_line("soft bodies", grouped(size.soft_bodies) + shared);
+  text += named_line("rigid boxes", grouped(size.rigid_boxes));
+  text += named_line("vertices", grouped(size.vertices));
+  text += named_line("springs", grouped(size.springs));
+  text += named_line("triangles", grouped(size.triangles));
+  text += named_line("state",
+                     fmt::format("{}; with meshes and pictures about {}",
+                                 bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
+  text += named_line(
+      "run", fmt::format("{:g} s: {} steps, {} pictures", scene.duration,
+                         grouped(scenes::frame_count(scene) * (scene.settings.steps_per_second /
+                                                               scene.picture.frames_per_second)),
+                         grouped(scenes::frame_count(scene) + 1)));
   return text;
 }
 
 std::string penetration_text(const RunStatistics& run, double skin_thickness) {
-  if (run.penetration.value == 0.0) return line("penetration", "none");
-  return line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s", run.penetration.value,
-                                         run.penetration.time)) +
-         line("",
-              fmt::format("in the last half of the run {:.4f} m, {} the skin thickness of {:g} m",
-                          run.settled_penetration,
-                          run.settled_penetration < skin_thickness ? "below" : "NOT below",
-                          skin_thickness));
+  if (run.penetration.value == 0.0) return named_line("penetration", "none");
+  return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
+                                               run.penetration.value, run.penetration.time)) +
+         named_line("", fmt::format(
+                            "in the last half of the run {:.4f} m, {} the skin thickness of {:g} m",
+                            run.settled_penetration,
+                            run.settled_penetration < skin_thickness ? "below" : "NOT below",
+                            skin_thickness));
 }
 
 std::string energy_text(const RunStatistics& run) {
   const double start = run.energy_start.total(), end = run.energy_end.total();
-  if (!std::isfinite(start) || !std::isfinite(end)) return line("energy", "not a finite number");
-  std::string text = line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, drift "
-                                                "{:+.4g} J",
-                                                start, end, end - start));
+  if (!std::isfinite(start) || !std::isfinite(end))
+    return named_line("energy", "not a finite number");
+  std::string text =
+      named_line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, drift "
+                                       "{:+.4g} J",
+                                       start, end, end - start));
   const double part = run.energy_span > 0.0 ? run.energy_rise.value / run.energy_span : 0.0;
   const std::string rise =
       run.energy_rise.value > 0.0
           ? fmt::format("{:.4g} J at {:.2f} s, {:.2g} % of the {:.4g} J it varies by",
                         run.energy_rise.value, run.energy_rise.time, 100.0 * part, run.energy_span)
           : "none";
-  return text + line("", "greatest rise from one frame to the next: " + rise);
+  return text + named_line("", "greatest rise from one frame to the next: " + rise);
 }
 
 std::string contacts_text(const ContactTally& contacts) {
-  std::string text = line(
+  std::string text = named_line(
       "contacts", fmt::format("{} per step in the mean, {} at most",
                               readable(contacts.mean(contacts.all)), grouped(contacts.all.most)));
   for (int k = 0; k < sim::contact_kind_count; ++k) {
     const auto kind = static_cast<sim::ContactKind>(k);
     const ContactTally::Count& count = contacts.of(kind);
     if (count.most == 0) continue;
-    text += line("", fmt::format("{} {} in the mean, {} at most", sim::to_string(kind),
-                                 readable(contacts.mean(count)), grouped(count.most)));
+    text += named_line("", fmt::format("{} {} in the mean, {} at most", sim::to_string(kind),
+                                       readable(contacts.mean(count)), grouped(count.most)));
   }
   return text;
 }
@@ -117,23 +116,24 @@ std::string contacts_text(const ContactTally& contacts) {
 std::string volumes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
-    text += line(text.empty() ? "volume" : "",
-                 fmt::format("{}: {} to {} m^3, {} at the start", range.body, readable(range.least),
-                             readable(range.greatest), readable(range.start)));
+    text += named_line(
+        text.empty() ? "volume" : "",
+        fmt::format("{}: {} to {} m^3, {} at the start", range.body, readable(range.least),
+                    readable(range.greatest), readable(range.start)));
   }
   return text;
 }
 
 std::string momentum_text(const RunStatistics& run) {
-  if (!run.free) return line("momentum", "changes by gravity and ground");
+  if (!run.free) return named_line("momentum", "changes by gravity and ground");
   const auto drift = [](const sim::Vec3& start, const sim::Vec3& end, const char* unit) {
     return fmt::format("{:.6g} {} at the start, changed by {:.2g}", start.norm(), unit,
                        (end - start).norm());
   };
-  return line("momentum",
-              "linear " + drift(run.momentum_start.linear, run.momentum_end.linear, "kg m/s")) +
-         line("",
-              "angular " + drift(run.momentum_start.angular, run.momentum_end.angular, "kg m^2/s"));
+  return named_line("momentum", "linear " + drift(run.momentum_start.linear,
+                                                  run.momentum_end.linear, "kg m/s")) +
+         named_line("", "angular " + drift(run.momentum_start.angular, run.momentum_end.angular,
+                                           "kg m^2/s"));
 }
 
 /// Lines that TOML skips.
@@ -150,14 +150,14 @@ std::string as_comments(const std::string& text) {
 
 std::string run_statistics_text(const RunStatistics& run, double skin_thickness) {
   std::string text = fmt::format("Run of {} steps, {:g} s\n", grouped(run.steps), run.seconds);
-  if (run.divergence) text += line("DIVERGED", *run.divergence);
+  if (run.divergence) text += named_line("DIVERGED", *run.divergence);
   text += penetration_text(run, skin_thickness);
   text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + momentum_text(run);
   const bool rests = run.end_speed < rest_speed && !run.divergence;
-  text += line("speed at the end",
-               fmt::format("{:.3g} m/s at most: {} (that is below {:g} m/s)", run.end_speed,
-                           rests ? "at rest" : "not at rest", rest_speed));
-  return text + line("state hash", fmt::format("{:016x}", run.state_hash));
+  text += named_line("speed at the end",
+                     fmt::format("{:.3g} m/s at most: {} (that is below {:g} m/s)", run.end_speed,
+                                 rests ? "at rest" : "not at rest", rest_speed));
+  return text + named_line("state hash", fmt::format("{:016x}", run.state_hash));
 }
 
 std::string check_text(const CheckReport& report) {

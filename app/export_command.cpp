@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/common_options.h"
 #include "app/export_scene.h"
 
 namespace pneuma::app {
@@ -16,30 +17,26 @@ void add_export_command(CLI::App& app, Action& action) {
     std::string frames;
     std::string format = "ply";
   };
-  static const std::map<std::string, MeshFormat> formats = {
-      {"ply", MeshFormat::ply}, {"obj", MeshFormat::obj}, {"glb", MeshFormat::glb}};
+  static const std::map<std::string, MeshFormat> formats = [] {
+    std::map<std::string, MeshFormat> by_name;
+    for (const MeshFormat& format : mesh_formats) by_name.emplace(format.name, format);
+    return by_name;
+  }();
   CLI::App* command =
       app.add_subcommand("export", "Write the bodies of each frame as mesh files, no pictures");
   const auto typed = std::make_shared<Typed>();
   ExportRequest& request = typed->request;
 
-  command->add_option("scene", request.scene, "A scene file, or the name of one in scenes/")
-      ->required()
-      ->type_name("SCENE");
+  add_scene_option(*command, request.scene);
   command->add_option("--format", typed->format, "ply (double precision), obj or glb [ply]")
       ->check(CLI::IsMember(formats))
       ->type_name("FORMAT");
   command->add_option("--out", request.out, "Folder for the files [out/NAME]")->type_name("DIR");
-  command->add_option("--set", request.overrides, "Override a value of the scene, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--frames", typed->frames, "The first N frames, or a part as 10-20, or 10-")
-      ->type_name("N");
+  add_override_option(*command, request.overrides);
+  add_frames_option(*command, typed->frames);
   command->add_flag("--overwrite", request.overwrite, "Replace the mesh files in the folder");
-  command->add_option("--threads", request.threads, "Threads of the simulation [1]")
-      ->check(CLI::Range(1, 256));
-  command->add_flag("--quiet", request.quiet, "No progress, only errors");
+  add_threads_option(*command, request.threads);
+  add_quiet_option(*command, request.quiet);
   command->callback([typed, &action] {
     action = [typed] {
       typed->request.format = formats.at(typed->format);

@@ -5,13 +5,11 @@
 #include <chrono>
 #include <filesystem>
 #include <regex>
-#include <string_view>
 
 #include "app/build_world.h"
 #include "app/exported_mesh.h"
 #include "app/find_scene.h"
 #include "app/interrupt.h"
-#include "app/mesh_formats.h"
 #include "app/progress.h"
 #include "app/run_folder.h"
 #include "app/simulation.h"
@@ -25,34 +23,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string_view ending(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::ply:
-      return "ply";
-    case MeshFormat::obj:
-      return "obj";
-    case MeshFormat::glb:
-      return "glb";
-  }
-  return "";
-}
-
-Bytes encode(MeshFormat format, std::span<const ExportedMesh> meshes, const std::string& comment) {
-  switch (format) {
-    case MeshFormat::ply:
-      return encode_ply(meshes, comment);
-    case MeshFormat::obj:
-      return encode_obj(meshes, comment);
-    case MeshFormat::glb:
-      return encode_glb(meshes, comment);
-  }
-  return {};
-}
-
 /// Mesh files of the same scene and format, which a new sequence would be mixed with.
 std::vector<fs::path> old_sequence(const fs::path& folder, const std::string& scene,
-                                   MeshFormat format) {
-  const std::regex numbered(fmt::format(R"(_[0-9]{{5,}}\.{})", ending(format)));
+                                   const MeshFormat& format) {
+  const std::regex numbered(fmt::format(R"(_[0-9]{{5,}}\.{})", format.name));
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -91,9 +65,9 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
       const std::string comment =
           fmt::format("{} t = {:.6g} s, pneuma {}", scene.name, state.time, version().program);
       const fs::path file =
-          folder / fmt::format("{}_{:05}.{}", scene.name, state.frame, ending(request.format));
+          folder / fmt::format("{}_{:05}.{}", scene.name, state.frame, request.format.name);
       render::write_file_atomically(
-          file.string(), encode(request.format, exporter.meshes(simulation.world()), comment));
+          file.string(), request.format.encode(exporter.meshes(simulation.world()), comment));
       ++state.drawn;
     }
     state.elapsed = std::chrono::duration<double>(Clock::now() - start).count();

@@ -6,14 +6,13 @@
 
 #include "app/exit_code.h"
 #include "app/frame_range.h"
+#include "app/mesh_formats.h"
 
 namespace pneuma::app {
 
-enum class MeshFormat { ply, obj, glb };
-
 struct ExportRequest {
   std::string scene;  // a path or a name
-  MeshFormat format = MeshFormat::ply;
+  MeshFormat format = mesh_formats[0];
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
   FrameRange frames;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/common_options.h"
 #include "app/render_request.h"
 #include "app/render_scene.h"
 
@@ -57,16 +58,10 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   RenderRequest& request = typed->request;
   request.command_line.assign(command_line.begin(), command_line.end());
 
-  command->add_option("scene", request.scene, "A scene file, or the name of one in scenes/")
-      ->required()
-      ->type_name("SCENE");
+  add_scene_option(*command, request.scene);
   command->add_option("--out", request.out, "Folder for the frames [out/NAME]")->type_name("DIR");
-  command->add_option("--set", request.overrides, "Override a value of the scene, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--frames", typed->frames, "The first N frames, or a part as 10-20, or 10-")
-      ->type_name("N");
+  add_override_option(*command, request.overrides);
+  add_frames_option(*command, typed->frames);
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
       ->type_name("WxH");
   command->add_option("--show", typed->show, "What else to draw: wireframe, particles, contacts")
@@ -82,9 +77,8 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       ->excludes(overwrite);
   command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");
   command->add_option("--video", request.video, "Also a video, by ffmpeg")->type_name("FILE");
-  command->add_option("--threads", request.threads, "Threads of the simulation [1]")
-      ->check(CLI::Range(1, 256));
-  command->add_flag("--quiet", request.quiet, "No progress, only errors");
+  add_threads_option(*command, request.threads);
+  add_quiet_option(*command, request.quiet);
   command->callback([typed, &action] { action = [typed] { return render_scene(read(*typed)); }; });
 }
 

@@ -12,6 +12,7 @@
 #include "app/command_line.h"
 #include "app/contact_tally.h"
 #include "app/machine.h"
+#include "app/vector_json.h"
 #include "app/version.h"
 #include "render/image/file.h"
 #include "scenes/print_scene.h"
@@ -20,32 +21,25 @@
 namespace pneuma::app {
 namespace {
 
-/// JSON has no NaN and no infinity; null says that there is no such number.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-template <class Vector>
-Json vector(const Vector& values) {
-  return Json::array({number(values[0]), number(values[1]), number(values[2])});
-}
-
 Json energy_json(const sim::World& world) {
   const sim::Energy energy = sim::energy(world);
-  return {{"kinetic", number(energy.kinetic)},
-          {"spring", number(energy.spring)},
-          {"gas", number(energy.gas)},
-          {"gravity", number(energy.gravity)},
-          {"total", number(energy.total())}};
+  return {{"kinetic", number_json<Json>(energy.kinetic)},
+          {"spring", number_json<Json>(energy.spring)},
+          {"gas", number_json<Json>(energy.gas)},
+          {"gravity", number_json<Json>(energy.gravity)},
+          {"total", number_json<Json>(energy.total())}};
 }
 
 Json momentum_json(const sim::World& world) {
   const sim::Momentum momentum = sim::momentum(world);
-  return {{"linear", vector(momentum.linear)}, {"angular", vector(momentum.angular)}};
+  return {{"linear", vector_json<Json>(momentum.linear)},
+          {"angular", vector_json<Json>(momentum.angular)}};
 }
 
 Json volumes_json(const sim::World& world) {
   Json volumes = Json::object();
   for (const sim::SoftBody& body : world.soft) {
-    volumes[body.name] = number(sim::volume(body.mesh->topology, body.positions));
+    volumes[body.name] = number_json<Json>(sim::volume(body.mesh->topology, body.positions));
   }
   return volumes;
 }
@@ -109,8 +103,8 @@ Json run_header(const Json& identity, const scenes::Scene& scene, const render::
           {"frames_per_second", scene.picture.frames_per_second},
           {"units", units},
           {"camera",
-           {{"eye", vector(camera.eye)},
-            {"target", vector(camera.target)},
+           {{"eye", vector_json<Json>(camera.eye)},
+            {"target", vector_json<Json>(camera.target)},
             {"field_of_view", camera.field_of_view}}},
           {"scene_toml", scenes::print_scene(scene)},
           {"program", program_json()}};
@@ -168,7 +162,7 @@ Json FrameRecorder::line(const Simulation& simulation, const PictureBytes& bytes
                {"momentum", momentum_json(world)},
                {"volumes", volumes_json(world)},
                {"contacts", contacts_json(simulation.stepper().contacts())},
-               {"greatest_penetration", number(sim::greatest_penetration(world))},
+               {"greatest_penetration", number_json<Json>(sim::greatest_penetration(world))},
                {"png_bytes", bytes.frame},
                {"seconds", times}};
   if (bytes.overlay) line["overlay_png_bytes"] = *bytes.overlay;

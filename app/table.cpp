@@ -154,6 +154,10 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return result + line;
 }
 
+std::string named_line(std::string_view name, const std::string& text) {
+  return fmt::format("  {:<18} {}\n", name, text);
+}
+
 std::string grouped(long long value) {
   std::string digits = std::to_string(value);
   const std::size_t first = value < 0 ? 1 : 0;

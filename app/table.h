@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pneuma::app {
@@ -36,6 +37,9 @@ std::string wrapped(const std::string& text, std::size_t width);
 /// "12,345".
 /// "-" when not finite.
 std::string readable(double value);
+
+/// An indented name, and what there is to say of it: a line of a list.
+std::string named_line(std::string_view name, const std::string& text);
 
 /// "1,234,567".
 std::string grouped(long long value);

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "assets/check_surface.h"
 #include "assets/choose_component.h"
 #include "assets/weld.h"
+#include "sim/mesh/rotation.h"
 
 namespace pneuma::assets {
 namespace {
@@ -264,11 +264,7 @@ class Cleaner {
           "scene model.scale), such as {:.3g}",
           extent, smallest_model, largest_model, options_.scale * 2.0 / extent));
     }
-    const Vec3 angles = options_.rotation * (std::numbers::pi / 180.0);
-    const sim::Mat3 rotation = (Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
-                                Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
-                                Eigen::AngleAxisd(angles.x(), Vec3::UnitX()))
-                                   .toRotationMatrix();
+    const sim::Mat3 rotation = sim::rotation_of_degrees(options_.rotation).toRotationMatrix();
     const bool turned = options_.rotation != Vec3::Zero();
     sim::Bounds box;
     for (Vec3& vertex : work_.mesh.vertices) {

@@ -5,6 +5,7 @@
 
 #include "scenes/nearest.h"
 #include "scenes/sections.h"
+#include "sim/hash.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -95,11 +96,9 @@ std::string print_scene(const Scene& scene) {
 }
 
 std::uint64_t scene_fingerprint(const Scene& scene) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : scene_text(scene, false)) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  return hash;
+  sim::Hash hash;
+  hash.add(scene_text(scene, false));
+  return hash.value();
 }
 
 std::string scene_reference() {

@@ -1,8 +1,8 @@
 #include "sim/inspect/inspect.h"
 
 #include <algorithm>
-#include <bit>
 
+#include "sim/hash.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
@@ -10,31 +10,10 @@
 namespace pneuma::sim {
 namespace {
 
-/// FNV-1a on 64-bit words (the state is doubles and integers), with the high bits folded back after
-/// each word: a product alone never carries a change of a high bit, such as a sign, into the lower
-/// ones.
-class Hash {
- public:
-  void add(std::uint64_t word) {
-    value_ = (value_ ^ word) * 0x100000001b3ULL;
-    value_ ^= value_ >> 29;
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(const Vec3& vector) {
-    for (const double value : vector) add(value);
-  }
-  void add(const VertexArray& values) {
-    for (int i = 0; i < values.size(); ++i) add(Vec3(values[i]));
-  }
-  void add(const std::vector<int>& values) {
-    add(static_cast<std::uint64_t>(values.size()));
-    for (const int value : values) add(static_cast<std::uint64_t>(value));
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
+void add(Hash& hash, const std::vector<int>& values) {
+  hash.add(static_cast<std::uint64_t>(values.size()));
+  for (const int value : values) hash.add(value);
+}
 
 Energy energy(const RigidBox& box, const Vec3& gravity) {
   Energy result;
@@ -123,13 +102,13 @@ std::uint64_t state_hash(const World& world) {
     for (const double q : box.orientation.coeffs()) hash.add(q);
   }
   for (const ParticlePair& pair : world.particles) {
-    hash.add(std::vector<int>{pair.first, pair.second});
-    hash.add(pair.first_features);
-    hash.add(pair.second_features);
+    add(hash, {pair.first, pair.second});
+    add(hash, pair.first_features);
+    add(hash, pair.second_features);
     hash.add(static_cast<std::uint64_t>(pair.near));
   }
   for (const RestingImpulse& impulse : world.resting_impulses) {
-    hash.add(std::vector<int>{impulse.first, impulse.second});
+    add(hash, {impulse.first, impulse.second});
     hash.add(impulse.place);
     hash.add(impulse.impulse);
   }

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "assets/cat/cat_mesh.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/topology.h"
+#include "tests/support/plain_ply.h"
 
 namespace pneuma::assets {
 namespace {
@@ -24,34 +22,11 @@ using sim::Triangle;
 using sim::TriangleMesh;
 using sim::Vec3;
 
-std::string read_text(const std::string& name) {
-  std::ifstream file(std::string(PNEUMA_ASSETS_FOLDER) + "/" + name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// Header lines up to end_header, then rows of numbers.
-TriangleMesh parse(const std::string& text) {
-  std::istringstream file(text);
-  std::size_t vertices = 0, triangles = 0;
-  for (std::string line; std::getline(file, line) && line != "end_header";) {
-    std::istringstream words(line);
-    std::string word, kind;
-    words >> word >> kind;
-    if (word == "element") words >> (kind == "vertex" ? vertices : triangles);
-  }
-  TriangleMesh mesh{std::vector<Vec3>(vertices), std::vector<Triangle>(triangles)};
-  for (Vec3& v : mesh.vertices) file >> v.x() >> v.y() >> v.z();
-  int corners = 3;
-  for (auto& [a, b, c] : mesh.triangles) file >> corners >> a >> b >> c;
-  EXPECT_TRUE(file) << "the file ends early";
-  return mesh;
-}
-
 class Cat : public testing::TestWithParam<CatSize> {
  protected:
   // MeshTopology refuses what is open, not manifold or not consistently oriented.
   Cat()
-      : mesh_(parse(read_text(GetParam().file))),
+      : mesh_(parse_plain_ply(read_asset(GetParam().file))),
         topology_(static_cast<int>(mesh_.vertices.size()), mesh_.triangles),
         positions_(sim::to_vertex_array(mesh_.vertices)) {}
 
@@ -91,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Cat, testing::ValuesIn(cat_sizes), [](const auto
 });
 
 TEST_P(Cat, IsWhatTheGeneratorWrites) {
-  EXPECT_TRUE(write_ply(make_cat(GetParam().edge_length)) == read_text(GetParam().file))
+  EXPECT_TRUE(write_ply(make_cat(GetParam().edge_length)) == read_asset(GetParam().file))
       << "make it anew as assets/cat/README.md says";
 }
 

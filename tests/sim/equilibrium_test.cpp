@@ -4,34 +4,17 @@
 
 #include <Eigen/SVD>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "sim/inspect/inspect.h"
 #include "sim/soft/acceleration.h"
+#include "tests/support/plain_ply.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// The project's own meshes: header lines up to end_header, then rows of numbers.
-TriangleMesh read_cat(const std::string& name) {
-  std::ifstream file(std::string(PNEUMA_ASSETS_FOLDER) + "/" + name);
-  std::size_t vertices = 0, triangles = 0;
-  for (std::string line; std::getline(file, line) && line != "end_header";) {
-    std::istringstream words(line);
-    std::string word, kind;
-    words >> word >> kind;
-    if (word == "element") words >> (kind == "vertex" ? vertices : triangles);
-  }
-  TriangleMesh mesh{std::vector<Vec3>(vertices), std::vector<Triangle>(triangles)};
-  for (Vec3& v : mesh.vertices) file >> v.x() >> v.y() >> v.z();
-  int corners = 3;
-  for (auto& [a, b, c] : mesh.triangles) file >> corners >> a >> b >> c;
-  if (!file) throw std::runtime_error("cannot read " + name);
-  return mesh;
-}
+TriangleMesh read_cat(const std::string& name) { return parse_plain_ply(read_asset(name)); }
 
 /// A body in the shape of its mesh, with rest lengths for it.
 SoftBody balanced_body(const TriangleMesh& mesh, const SoftMaterial& material,

@@ -26,17 +26,6 @@ World many_spheres(int count) {
   return world;
 }
 
-std::vector<std::string> left_out(const Plan& plan) {
-  std::vector<std::string> names;
-  for (int i = 0; i < stage_count; ++i) {
-    if (!plan.runs(Stage{i})) names.emplace_back(to_string(Stage{i}));
-  }
-  for (int i = 0; i < contact_kind_count; ++i) {
-    if (!plan.runs(ContactKind{i})) names.emplace_back(to_string(ContactKind{i}));
-  }
-  return names;
-}
-
 TEST(Plan, OneSoftBodyOnTheGroundNeedsNoPairsAndNoRigidStage) {
   const Plan plan = make_plan(one_sphere());
   EXPECT_EQ(left_out(plan),

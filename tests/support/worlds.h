@@ -95,4 +95,16 @@ inline RigidBox step_until_contact(World& world, std::size_t box) {
   throw std::runtime_error("nothing touched");
 }
 
+/// Names of the stages and kinds of contact that a plan leaves out.
+inline std::vector<std::string> left_out(const Plan& plan) {
+  std::vector<std::string> names;
+  for (int i = 0; i < stage_count; ++i) {
+    if (!plan.runs(Stage{i})) names.emplace_back(to_string(Stage{i}));
+  }
+  for (int i = 0; i < contact_kind_count; ++i) {
+    if (!plan.runs(ContactKind{i})) names.emplace_back(to_string(ContactKind{i}));
+  }
+  return names;
+}
+
 }  // namespace pneuma::sim

@@ -7,26 +7,13 @@
 #include <random>
 #include <set>
 
-#include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "tests/sim/collision/surface_body.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// A mesh with positions of its own.
-struct Body {
-  MeshTopology topology;
-  VertexArray positions;
-
-  explicit Body(const TriangleMesh& mesh)
-      : topology(static_cast<int>(mesh.vertices.size()), mesh.triangles),
-        positions(to_vertex_array(mesh.vertices)) {}
-
-  SurfaceView surface() const { return {topology, positions}; }
-  Vec3 point(int vertex) const { return positions[vertex]; }
-};
-
-void move(Body& body, const Vec3& by) {
+void move(SurfaceBody& body, const Vec3& by) {
   for (int i = 0; i < body.positions.size(); ++i) body.positions[i] += by;
 }
 
@@ -60,7 +47,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-std::set<int> vertices_of(const Body& body, Feature feature) {
+std::set<int> vertices_of(const SurfaceBody& body, Feature feature) {
   const auto span = body.topology.feature_vertices(feature);
   return {span.begin(), span.end()};
 }
@@ -70,7 +57,7 @@ bool contains(const Triangle& triangle, const std::set<int>& vertices) {
 }
 
 /// From the triangles alone, without edges and rings: all that have the feature's vertices.
-Vec3 reference_normal(const Body& body, Feature feature) {
+Vec3 reference_normal(const SurfaceBody& body, Feature feature) {
   const std::set<int> vertices = vertices_of(body, feature);
   Vec3 sum = Vec3::Zero();
   for (const Triangle& t : body.topology.triangles()) {
@@ -84,11 +71,11 @@ Vec3 reference_normal(const Body& body, Feature feature) {
 
 /// A torus and a sphere, both bent out of shape and overlapping, and features of theirs that touch.
 struct Sample {
-  Body torus{make_torus(4.0, 1.5, 16, 16)};
-  Body sphere{make_sphere(3.0, 8, 8)};
+  SurfaceBody torus{make_torus(4.0, 1.5, 16, 16)};
+  SurfaceBody sphere{make_sphere(3.0, 8, 8)};
 
   explicit Sample(Random& random) {
-    for (Body* body : {&torus, &sphere}) {
+    for (SurfaceBody* body : {&torus, &sphere}) {
       for (int i = 0; i < body->positions.size(); ++i) body->positions[i] += 0.3 * random.point();
     }
     move(sphere, 4.0 * random.point());
@@ -142,7 +129,7 @@ TEST(FeatureContact, NamesAPartOfEachFeatureThatHoldsThePoint) {
         // A vertex is its point; of an edge or a triangle the vertices span the plane or line the
         // point is on, so that it has no component across them. Coordinates below 10, tens
         // of roundings.
-        const auto off_feature = [](const Body& body, Feature feature, const Vec3& point) {
+        const auto off_feature = [](const SurfaceBody& body, Feature feature, const Vec3& point) {
           const auto v = body.topology.feature_vertices(feature);
           const Vec3 offset = point - body.point(v[0]);
           if (v.size() == 1) return offset.norm();
@@ -182,8 +169,8 @@ TEST(FeatureContact, ExchangedBodiesGetTheOppositeImpulse) {
 // A vertex that has already passed through a face is still pushed out of it, not further in, which
 // the direction between the nearest points would do.
 TEST(FeatureContact, NormalPointsOutOfTheSurfaceOnBothSidesOfIt) {
-  const Body box(make_box({2.0, 2.0, 2.0}, 1));
-  Body probe(make_box({1.0, 1.0, 1.0}, 1));
+  const SurfaceBody box(make_box({2.0, 2.0, 2.0}, 1));
+  SurfaceBody probe(make_box({1.0, 1.0, 1.0}, 1));
   const int top = [&] {
     for (int i = 0;; ++i) {
       const Triangle& t = box.topology.triangles()[at(i)];
@@ -208,8 +195,8 @@ TEST(FeatureContact, NormalPointsOutOfTheSurfaceOnBothSidesOfIt) {
 
 // Section 5.3.1's reason for the rule: on the inside of a torus the impulse points to the hole.
 TEST(FeatureContact, InsideATorusTheBallIsPushedToTheMiddle) {
-  const Body torus(make_torus(4.0, 1.5, 16, 16));
-  Body ball(make_icosphere(1.0, 1));
+  const SurfaceBody torus(make_torus(4.0, 1.5, 16, 16));
+  SurfaceBody ball(make_icosphere(1.0, 1));
   int contacts = 0;
   for (int t = 0; t < torus.topology.triangle_count(); ++t) {
     const Corners corners = triangle_corners(torus.surface(), t);
@@ -233,9 +220,9 @@ TEST(FeatureContact, CrumpledBodiesStillHaveUnitNormals) {
   Random random(3);
   int contacts = 0;
   for (int s = 0; s < 300; ++s) {
-    Body a(make_icosphere(1.0, 1));
-    Body b(make_box({1.0, 1.0, 1.0}, 1));
-    for (Body* body : {&a, &b}) {
+    SurfaceBody a(make_icosphere(1.0, 1));
+    SurfaceBody b(make_box({1.0, 1.0, 1.0}, 1));
+    for (SurfaceBody* body : {&a, &b}) {
       const int kind = random.below(4);
       const Vec3 line = random.point();
       for (int i = 0; i < body->positions.size(); ++i) {

@@ -8,24 +8,14 @@
 
 #include "sim/mesh/primitives.h"
 #include "tests/sim/collision/feature_samples.h"
+#include "tests/sim/collision/surface_body.h"
 
 namespace pneuma::sim {
 namespace {
 
-struct Body {
-  MeshTopology topology;
-  VertexArray positions;
-
-  explicit Body(const TriangleMesh& mesh)
-      : topology(static_cast<int>(mesh.vertices.size()), mesh.triangles),
-        positions(to_vertex_array(mesh.vertices)) {}
-
-  SurfaceView surface() const { return {topology, positions}; }
-};
-
 /// How often the surface winds around the point: the solid angles of its triangles over 4 pi, by
 /// Van Oosterom and Strackee's formula. 1 inside, 0 outside, and neither on the surface.
-double winding_number(const Body& body, const Vec3& point) {
+double winding_number(const SurfaceBody& body, const Vec3& point) {
   double half_angles = 0.0;
   for (const Triangle& t : body.topology.triangles()) {
     const Vec3 a = body.positions[t[0]] - point;
@@ -52,8 +42,8 @@ class Uniform {
 };
 
 /// The paper's torus, dented and wrung: z over x, y is many-valued and no face is vertical or flat.
-Body deformed_torus() {
-  Body body(make_torus(4.0, 1.5, 16, 16));
+SurfaceBody deformed_torus() {
+  SurfaceBody body(make_torus(4.0, 1.5, 16, 16));
   Uniform uniform(2);
   for (int i = 0; i < body.positions.size(); ++i) {
     const Vec3 p = body.positions[i];
@@ -63,7 +53,7 @@ Body deformed_torus() {
   return body;
 }
 
-double distance_to_surface(const Body& body, const Vec3& point) {
+double distance_to_surface(const SurfaceBody& body, const Vec3& point) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int t = 0; t < body.topology.triangle_count(); ++t) {
     nearest =
@@ -82,7 +72,7 @@ struct Tally {
 };
 
 /// Compares is_inside with the winding number at one point. On the surface both may say anything.
-void compare(const Body& body, const Vec3& point, Tally& tally) {
+void compare(const SurfaceBody& body, const Vec3& point, Tally& tally) {
   const bool inside = winding_number(body, point) > 0.5;
   if (is_inside(body.surface(), point) == inside) {
     ++(inside ? tally.inside : tally.outside);
@@ -93,7 +83,7 @@ void compare(const Body& body, const Vec3& point, Tally& tally) {
 }
 
 TEST(PointInBody, AgreesWithTheWindingNumberInAndAroundATorus) {
-  const Body torus = deformed_torus();
+  const SurfaceBody torus = deformed_torus();
   const Bounds around = bounds(torus.positions);
   Uniform uniform(3);
   Tally tally;
@@ -109,7 +99,7 @@ TEST(PointInBody, AgreesWithTheWindingNumberInAndAroundATorus) {
 
 /// Coordinates rounded to 1/64: sums and midpoints of them are exact, so that points can be put
 /// exactly below a vertex or an edge, and many vertices share an x or a y.
-void snap(Body& body) {
+void snap(SurfaceBody& body) {
   for (int i = 0; i < body.positions.size(); ++i) {
     for (int k = 0; k < 3; ++k)
       body.positions[i][k] = std::round(body.positions[i][k] * 64.0) / 64.0;
@@ -118,7 +108,7 @@ void snap(Body& body) {
 
 // Rays that pass exactly through vertices and edges (ERRATA row 17).
 TEST(PointInBody, AgreesStraightBelowAndAboveVerticesAndEdges) {
-  Body torus = deformed_torus();
+  SurfaceBody torus = deformed_torus();
   snap(torus);
   const Bounds around = bounds(torus.positions);
   Uniform uniform(4);
@@ -139,7 +129,7 @@ TEST(PointInBody, AgreesStraightBelowAndAboveVerticesAndEdges) {
 // Rays that pass an edge within rounding: wherever such a point is put beside the edge, the two
 // triangles there must agree on it.
 TEST(PointInBody, AgreesWithinRoundingOfVerticesAndEdgesSeenFromBelow) {
-  const Body torus = deformed_torus();
+  const SurfaceBody torus = deformed_torus();
   const Bounds around = bounds(torus.positions);
   Uniform uniform(8);
   Tally tally;
@@ -161,7 +151,7 @@ TEST(PointInBody, AgreesWithinRoundingOfVerticesAndEdgesSeenFromBelow) {
 // Vertical and horizontal faces, with rays that run along them. Where the truth is plain: inside up
 // to 1 in every coordinate.
 TEST(PointInBody, IsRightOnAGridThroughABox) {
-  const Body box(make_box({2.0, 2.0, 2.0}, 4));  // vertices at multiples of 1/2
+  const SurfaceBody box(make_box({2.0, 2.0, 2.0}, 4));  // vertices at multiples of 1/2
   for (int x = -10; x <= 10; ++x) {
     for (int y = -10; y <= 10; ++y) {
       for (int z = -10; z <= 10; ++z) {
@@ -176,7 +166,7 @@ TEST(PointInBody, IsRightOnAGridThroughABox) {
 
 // Just beside a face the side is known without any reference.
 TEST(PointInBody, IsRightDownToRoundingOfTheSurface) {
-  const Body torus = deformed_torus();
+  const SurfaceBody torus = deformed_torus();
   Uniform uniform(5);
   for (int i = 0; i < 100'000; ++i) {
     const int t = uniform.below(torus.topology.triangle_count());
@@ -192,7 +182,7 @@ TEST(PointInBody, IsRightDownToRoundingOfTheSurface) {
 }
 
 TEST(SurfaceExit, IsTheNearestPointOfTheSurface) {
-  const Body torus = deformed_torus();
+  const SurfaceBody torus = deformed_torus();
   const Bounds around = bounds(torus.positions);
   Uniform uniform(6);
   int exits = 0;
@@ -236,7 +226,7 @@ TEST(SurfaceExit, IsTheNearestPointOfTheSurface) {
 
 // All vertices in one plane, or in one point: nothing is inside, and nothing breaks.
 TEST(SurfaceExit, IsNoneInABodyWithoutVolume) {
-  Body box(make_box({2.0, 2.0, 2.0}, 2));
+  SurfaceBody box(make_box({2.0, 2.0, 2.0}, 2));
   for (int i = 0; i < box.positions.size(); ++i) box.positions[i].z() = 0.0;
   EXPECT_FALSE(find_surface_exit(box.surface(), bounds(box.positions), Vec3(0.1, 0.2, 0.0)));
   for (int i = 0; i < box.positions.size(); ++i) box.positions[i].setZero();

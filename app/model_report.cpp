@@ -1,16 +1,19 @@
-#include "assets/model_report.h"
+#include "app/model_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "app/statistics.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/topology.h"
 
-namespace pneuma::assets {
+namespace pneuma::app {
 namespace {
 
 using sim::at;
+using sim::Triangle;
+using sim::Vec3;
 
 double angle(const Vec3& corner, const Vec3& a, const Vec3& b) {
   const Vec3 first = a - corner, second = b - corner;
@@ -31,18 +34,11 @@ double smallest_angle(const sim::TriangleMesh& mesh) {
 
 }  // namespace
 
-double percentile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto low = static_cast<std::size_t>(place);
-  const std::size_t high = std::min(low + 1, sorted.size() - 1);
-  return std::lerp(sorted[low], sorted[high], place - std::floor(place));
-}
-
-ModelReport report_on(const CleanModel& model) {
+ModelReport report_on(const assets::CleanModel& model) {
   const sim::MeshTopology topology(static_cast<int>(model.mesh.vertices.size()),
                                    model.mesh.triangles);
   const sim::VertexArray positions = sim::to_vertex_array(model.mesh.vertices);
-  const Component& kept = model.components[at(model.kept)];
+  const assets::Component& kept = model.components[at(model.kept)];
   ModelReport report;
   report.vertices_before = model.vertices_before;
   report.vertices_welded = model.vertices_welded;
@@ -60,10 +56,10 @@ ModelReport report_on(const CleanModel& model) {
   for (const auto& [a, b] : topology.edges()) {
     lengths.push_back((model.mesh.vertices[at(a)] - model.mesh.vertices[at(b)]).norm());
   }
-  std::sort(lengths.begin(), lengths.end());
-  report.edge_5th = percentile(lengths, 0.05);
-  report.edge_median = percentile(lengths, 0.5);
-  report.edge_95th = percentile(lengths, 0.95);
+  const Spread edges = spread(std::move(lengths));
+  report.edge_5th = edges.low;
+  report.edge_median = edges.median;
+  report.edge_95th = edges.high;
   report.smallest_angle = smallest_angle(model.mesh);
   report.springs_per_vertex = 2.0 * report.edges / report.vertices;
   report.fewest_springs = report.vertices;
@@ -75,4 +71,4 @@ ModelReport report_on(const CleanModel& model) {
   return report;
 }
 
-}  // namespace pneuma::assets
+}  // namespace pneuma::app

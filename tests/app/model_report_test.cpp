@@ -1,4 +1,4 @@
-#include "assets/model_report.h"
+#include "app/model_report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,15 +7,15 @@
 #include "sim/mesh/primitives.h"
 #include "tests/assets/model_writers.h"
 
-namespace pneuma::assets {
+namespace pneuma::app {
 namespace {
 
 ModelReport report_of(const sim::TriangleMesh& mesh) {
-  return report_on(clean_mesh({mesh, {}, {}}));
+  return report_on(assets::clean_mesh({mesh, {}, {}}));
 }
 
 TEST(ModelReport, OfACube) {
-  const ModelReport report = report_of(cube_of_24());
+  const ModelReport report = report_of(assets::cube_of_24());
   EXPECT_EQ(report.vertices_before, 24);
   EXPECT_EQ(report.vertices_welded, 8);
   EXPECT_EQ(report.vertices, 8);
@@ -26,7 +26,7 @@ TEST(ModelReport, OfACube) {
   EXPECT_EQ(report.genus, 0);
   EXPECT_DOUBLE_EQ(report.volume, 8.0);
   EXPECT_DOUBLE_EQ(report.area, 24.0);
-  EXPECT_EQ(report.size, Vec3(2.0, 2.0, 2.0));
+  EXPECT_EQ(report.size, sim::Vec3(2.0, 2.0, 2.0));
   EXPECT_DOUBLE_EQ(report.edge_5th, 2.0);
   EXPECT_DOUBLE_EQ(report.edge_median, 2.0);  // 12 of 18
   EXPECT_DOUBLE_EQ(report.edge_95th, 2.0 * std::numbers::sqrt2);
@@ -45,12 +45,5 @@ TEST(ModelReport, OfATorus) {
   EXPECT_LT(report.volume, 2.0 * std::numbers::pi * std::numbers::pi * 5.0 * 4.0);
 }
 
-TEST(ModelReport, Percentiles) {
-  EXPECT_DOUBLE_EQ(percentile({7.0}, 0.95), 7.0);
-  EXPECT_DOUBLE_EQ(percentile({0.0, 10.0}, 0.05), 0.5);
-  EXPECT_DOUBLE_EQ(percentile({1.0, 2.0, 4.0}, 0.5), 2.0);
-  EXPECT_DOUBLE_EQ(percentile({1.0, 2.0, 4.0}, 1.0), 4.0);
-}
-
 }  // namespace
-}  // namespace pneuma::assets
+}  // namespace pneuma::app
