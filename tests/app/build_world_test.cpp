@@ -219,7 +219,7 @@ present = false
 [[body]]
 shape = "icosphere"
 k = 100.0
-n = 1.0
+n = 3.0
 )";
   const auto volume_after = [&](const std::string& rest) {
     sim::World world = build_world(scene_of(ball, {"body.rest=" + rest}));
