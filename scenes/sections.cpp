@@ -32,6 +32,10 @@ constexpr std::array integrators = {
     Named<sim::Integrator>{sim::Integrator::velocity_verlet, "velocity_verlet"},
     Named<sim::Integrator>{sim::Integrator::rk4, "rk4"},
 };
+constexpr std::array soft_searches = {
+    Named<sim::SoftSearch>{sim::SoftSearch::particles, "particles"},
+    Named<sim::SoftSearch>{sim::SoftSearch::exact, "exact"},
+};
 constexpr std::array pressures = {
     Named<sim::PressureWeighting>{sim::PressureWeighting::uniform, "uniform"},
     Named<sim::PressureWeighting>{sim::PressureWeighting::valence, "valence"},
@@ -119,6 +123,8 @@ Section simulation_section(sim::Settings& settings) {
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
           {"skin_thickness", &settings.skin_thickness, length(), "m",
            "features nearer than twice this are in contact"},
+          {"soft_search", word(settings.soft_search, soft_searches), any(), "",
+           "how contacts of soft bodies are found: the paper's particles, or all within reach"},
           {"separation_time", &settings.separation_time, at_least(0), "s",
            "in which soft features that overlap part by a factor e; 0: at once, as in the paper"},
           {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",

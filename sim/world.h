@@ -70,6 +70,12 @@ struct RigidBox {
   Vec3 angular_velocity = Vec3::Zero();                             // rad/s, world axes
 };
 
+/// How contacts of two soft bodies are searched for.
+enum class SoftSearch {
+  particles,  // the paper's: collision particles that walk over the surfaces (5.2.1)
+  exact,      // everything within reach, over a spatial subdivision (sim/collision/find_exact.h)
+};
+
 /// Section 5.2.1's numbers, with the paper's values as defaults.
 struct ParticleSettings {
   double per_vertex = 1.0 / 8.0;  // particles per vertex of a body, at least one per body
@@ -84,6 +90,7 @@ struct Settings {
   Vec3 gravity = {0.0, 0.0, -9.81};           // m/s^2
   std::optional<Surface> ground = Surface{};  // the plane z = 0; none: bodies fall for ever
   double skin_thickness = 0.5;  // m; features nearer than twice this are in contact (5.2.1.1)
+  SoftSearch soft_search = SoftSearch::particles;
   ParticleSettings particles;
   double separation_time = 0.1;  // s in which soft features that overlap part by a factor e;
                                  // 0: at once, as in the paper (5.3.1)

@@ -8,20 +8,6 @@
 namespace pneuma::sim {
 namespace {
 
-/// How boxes rest. Points this near are contacts already, so that boxes at rest do not lose each
-/// other to rounding; impulses let them close the gap. And boxes are left a little in each other:
-/// pushing the deepest point out altogether would lift the other points off, and they would rattle.
-struct RestingLengths {
-  double gap;      // m
-  double overlap;  // m
-};
-
-/// 5 mm and 2.5 mm, less for boxes smaller than 10 cm.
-RestingLengths resting_lengths(double shortest_side) {
-  const double gap = std::min(0.005, 0.05 * shortest_side);
-  return {gap, 0.5 * gap};
-}
-
 OrientedBox oriented_box(const RigidBox& box) {
   return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
 }
@@ -33,6 +19,11 @@ ContactSide vertex_side(int soft, int vertex) {
 ContactSide box_side(int rigid) { return {BodyKind::rigid, rigid, {}}; }
 
 }  // namespace
+
+RestingLengths resting_lengths(double shortest_side) {
+  const double gap = std::min(0.005, 0.05 * shortest_side);
+  return {gap, 0.5 * gap};
+}
 
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts) {
   const VertexArray& positions = world.soft[at(soft)].positions;

@@ -8,6 +8,17 @@
 
 namespace pneuma::sim {
 
+/// How boxes rest. Points this near are contacts already, so that boxes at rest do not lose each
+/// other to rounding; impulses let them close the gap. And boxes are left a little in each other:
+/// pushing the deepest point out altogether would lift the other points off, and they would rattle.
+struct RestingLengths {
+  double gap;      // m
+  double overlap;  // m
+};
+
+/// 5 mm and 2.5 mm, less when the shortest side of the boxes (m) is below 10 cm.
+RestingLengths resting_lengths(double shortest_side);
+
 // Each appends to `contacts`. Indices are those of World::soft and World::rigid.
 
 /// Vertices below the plane z = 0 (3.1.4).

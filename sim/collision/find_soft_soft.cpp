@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/collision/feature_contact.h"
 #include "sim/collision/particles.h"
 
 namespace pneuma::sim {
@@ -50,6 +49,15 @@ bool same_features(const Contact& contact, const FeatureContact& found) {
 
 }  // namespace
 
+Contact soft_soft_contact(int first, int second, const FeatureContact& found,
+                          double skin_thickness) {
+  return {{BodyKind::soft, first, found.first},
+          {BodyKind::soft, second, found.second},
+          0.5 * (found.first_point + found.second_point),
+          found.normal,
+          separation_depth(found, skin_thickness)};
+}
+
 void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratch& scratch,
                     std::vector<Contact>& contacts) {
   const SoftBody& first_body = world.soft[at(pair.first)];
@@ -72,11 +80,7 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
           std::find_if(contacts.begin() + start, contacts.end(),
                        [&](const Contact& contact) { return same_features(contact, *found); });
       if (known != contacts.end()) continue;
-      contacts.push_back({{BodyKind::soft, pair.first, found->first},
-                          {BodyKind::soft, pair.second, found->second},
-                          0.5 * (found->first_point + found->second_point),
-                          found->normal,
-                          separation_depth(*found, skin)});
+      contacts.push_back(soft_soft_contact(pair.first, pair.second, *found, skin));
     }
   }
 }

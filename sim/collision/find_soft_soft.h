@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/collision/contact.h"
+#include "sim/collision/feature_contact.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
@@ -19,9 +20,14 @@ struct SoftSoftScratch {
   std::vector<Ball> second;
 };
 
+/// Two features of soft bodies, given by their indices in World::soft, as the response takes them:
+/// they are to be moved apart (depth > 0) when a vertex is nearer to a triangle than the skin
+/// thickness (5.3.1).
+Contact soft_soft_contact(int first, int second, const FeatureContact& found,
+                          double skin_thickness);
+
 /// Appends the contacts of one pair. Features are in contact when nearer than twice the skin
-/// thickness, and are to be moved apart (depth > 0) when a vertex is nearer to a triangle than the
-/// skin thickness (5.3.1). A contact that several particles find is reported once.
+/// thickness. A contact that several particles find is reported once.
 void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratch& scratch,
                     std::vector<Contact>& contacts);
 

@@ -102,6 +102,10 @@ int particle_count(int vertices, double per_vertex) {
   return std::max(1, static_cast<int>(std::lround(vertices * per_vertex)));
 }
 
+double least_particle_distance(double skin_thickness) {
+  return std::max(0.1 * skin_thickness, 1e-6);
+}
+
 ParticlePair make_particles(int first, const MeshTopology& first_mesh, int second,
                             const MeshTopology& second_mesh, const ParticleSettings& settings,
                             std::uint64_t seed) {

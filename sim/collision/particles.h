@@ -24,6 +24,10 @@ ParticlePair make_particles(int first, const MeshTopology& first_mesh, int secon
                             const MeshTopology& second_mesh, const ParticleSettings& settings,
                             std::uint64_t seed);
 
+/// m. Particles nearer than a tenth of the skin cost no more than at that distance (ERRATA row 11);
+/// without a skin, a micrometre bounds the cost of particles in one place.
+double least_particle_distance(double skin_thickness);
+
 /// Memory of settle_particles: where the particles are. Contents mean nothing between calls.
 struct ParticleScratch {
   std::vector<Vec3> first;

@@ -4,6 +4,25 @@
 
 namespace pneuma::sim {
 
+namespace {
+
+void find_between_soft(const World& world, StepWorkspace& workspace) {
+  switch (world.settings.soft_search) {
+    case SoftSearch::particles:
+      for (const ParticlePair& pair : world.particles) {
+        if (pair.near) find_soft_soft(world, pair, workspace.soft_soft, workspace.contacts);
+      }
+      break;
+    case SoftSearch::exact:
+      for (const auto& [first, second] : workspace.soft_pairs) {
+        find_exact(world, first, second, workspace.exact, workspace.contacts);
+      }
+      break;
+  }
+}
+
+}  // namespace
+
 void find_contacts(const World& world, StepWorkspace& workspace) {
   const Plan& plan = workspace.plan;
   const bool ground = world.settings.ground.has_value();
@@ -16,9 +35,7 @@ void find_contacts(const World& world, StepWorkspace& workspace) {
     for (int i = 0; i < std::ssize(world.rigid); ++i) find_rigid_ground(world, i, contacts);
   }
   if (plan.runs(ContactKind::soft_soft)) {
-    for (const ParticlePair& pair : world.particles) {
-      if (pair.near) find_soft_soft(world, pair, workspace.soft_soft, contacts);
-    }
+    find_between_soft(world, workspace);
   }
   if (plan.runs(ContactKind::soft_rigid)) {
     for (const BodyPair& pair : workspace.soft_rigid_pairs) {

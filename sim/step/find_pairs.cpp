@@ -1,24 +1,24 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/collision/find_body_contacts.h"
 #include "sim/collision/particles.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
 namespace {
 
-constexpr double box_margin = 0.005;  // m
-
 /// Of soft bodies first, then of boxes. Soft bodies are in contact at a distance of twice the skin,
-/// half of it each (ERRATA row 10). Boxes are in contact when something is inside them, or a few
-/// millimetres before (find_body_contacts.cpp): a margin for that.
+/// half of it each (ERRATA row 10). Boxes are in contact when something is inside them, or a
+/// resting gap before.
 void make_spheres(const World& world, std::vector<BoundingSphere>& spheres) {
   spheres.clear();
   for (const SoftBody& body : world.soft) {
     spheres.push_back(bounding_sphere(body.positions, world.settings.skin_thickness));
   }
   for (const RigidBox& box : world.rigid) {
-    spheres.push_back({box.position, 0.5 * box.size.norm() + box_margin});
+    const double gap = resting_lengths(box.size.minCoeff()).gap;
+    spheres.push_back({box.position, 0.5 * box.size.norm() + gap});
   }
 }
 
@@ -38,24 +38,32 @@ ParticlePair& particles_of(World& world, const BodyPair& pair) {
   return *place;
 }
 
+/// Pairs that are near now, and no others, have particles that walk.
+void mark_near(World& world, const std::vector<BodyPair>& soft_pairs) {
+  for (ParticlePair& pair : world.particles) pair.near = false;
+  for (const BodyPair& pair : soft_pairs) particles_of(world, pair).near = true;
+}
+
 }  // namespace
 
 void find_pairs(World& world, StepWorkspace& workspace) {
+  workspace.particles_start = world.particles;
   make_spheres(world, workspace.spheres);
   workspace.pair_finder.find(workspace.spheres, workspace.pairs);
+  workspace.soft_pairs.clear();
   workspace.soft_rigid_pairs.clear();
   workspace.rigid_pairs.clear();
-  for (ParticlePair& pair : world.particles) pair.near = false;
   const int soft = static_cast<int>(world.soft.size());
   for (const auto& [first, second] : workspace.pairs) {
     if (second < soft) {
-      particles_of(world, {first, second}).near = true;
+      workspace.soft_pairs.push_back({first, second});
     } else if (first < soft) {
       workspace.soft_rigid_pairs.push_back({first, second - soft});
     } else {
       workspace.rigid_pairs.push_back({first - soft, second - soft});
     }
   }
+  if (world.settings.soft_search == SoftSearch::particles) mark_near(world, workspace.soft_pairs);
 }
 
 }  // namespace pneuma::sim

@@ -10,9 +10,11 @@ std::optional<Divergence> integrate_rigid(World& world, StepWorkspace& workspace
   }
   for (RigidBox& box : world.rigid) {
     move_freely(box, world.settings.gravity, time_step(world.settings));
-    if (!box.position.allFinite() || !box.orientation.coeffs().allFinite()) {
+    if (!box.position.allFinite() || !box.orientation.coeffs().allFinite() ||
+        !box.velocity.allFinite() || !box.angular_velocity.allFinite()) {
       return Divergence{Stage::integrate_rigid, world.steps + 1, box.name,
-                        "its position or orientation is not a finite number: it was hit too hard"};
+                        "its position, orientation or velocity is not a finite number: it was hit "
+                        "too hard"};
     }
   }
   return std::nullopt;

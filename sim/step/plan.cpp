@@ -61,6 +61,9 @@ Plan make_plan(const World& world) {
   item(plan, Stage::integrate_rigid) = needs(rigid > 0, "no rigid box");
   item(plan, Stage::find_pairs) = needs(soft + rigid > 1, "a single body has no pair");
   item(plan, Stage::move_particles) = needs(soft > 1, "particles need two soft bodies");
+  if (soft > 1 && world.settings.soft_search == SoftSearch::exact) {
+    item(plan, Stage::move_particles) = {false, "the search for soft contacts is exact"};
+  }
   const bool contacts = ground || soft + rigid > 1;
   item(plan, Stage::find_contacts) =
       needs(contacts, "a single body without a ground touches nothing");

@@ -198,6 +198,25 @@ void separate(World& world, const StepWorkspace& workspace) {
   }
 }
 
+/// The last look at a step: what its contacts made is finite.
+std::optional<Divergence> find_not_finite(const World& world) {
+  const auto divergence = [&](const std::string& body) {
+    return Divergence{Stage::resolve_contacts, world.steps + 1, body,
+                      "its contacts gave it a position or velocity that is not a finite number"};
+  };
+  for (const SoftBody& body : world.soft) {
+    // A sum is finite only if all its terms are, and far quicker to look at.
+    const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
+    if (!std::isfinite(sum)) return divergence(body.name);
+  }
+  for (const RigidBox& box : world.rigid) {
+    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
+                       box.orientation.coeffs().sum();
+    if (!std::isfinite(sum)) return divergence(box.name);
+  }
+  return std::nullopt;
+}
+
 void remember(World& world, const StepWorkspace& workspace) {
   world.resting_impulses.clear();
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
@@ -215,12 +234,18 @@ void remember(World& world, const StepWorkspace& workspace) {
 
 }  // namespace
 
-void resolve_contacts(World& world, StepWorkspace& workspace) {
+std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspace) {
+  if (workspace.contacts.empty()) {
+    world.resting_impulses.clear();
+    return std::nullopt;
+  }
   prepare(world, workspace);
   start_from_last_step(world, workspace);
   apply_impulses(world.settings, workspace);
   separate(world, workspace);
+  if (auto divergence = find_not_finite(world)) return divergence;
   remember(world, workspace);
+  return std::nullopt;
 }
 
 }  // namespace pneuma::sim

@@ -1,7 +1,6 @@
 #include "sim/step/stepper.h"
 
 #include <chrono>
-#include <cmath>
 #include <map>
 
 #include "sim/step/stages.h"
@@ -43,12 +42,12 @@ SoftScratch make_soft_scratch(const World& world, int threads) {
 }
 
 /// Takes back what the stages up to the one that failed have done.
-void restore(World& world, const StepWorkspace& workspace, Stage failed) {
+void restore(World& world, StepWorkspace& workspace, Stage failed) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     world.soft[i].positions = workspace.soft_start[i].positions;
     world.soft[i].velocities = workspace.soft_start[i].velocities;
   }
-  if (failed != Stage::integrate_rigid) return;
+  if (failed == Stage::integrate_soft) return;
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     RigidBox& box = world.rigid[i];
     const RigidStart& start = workspace.rigid_start[i];
@@ -57,25 +56,8 @@ void restore(World& world, const StepWorkspace& workspace, Stage failed) {
     box.velocity = start.velocity;
     box.angular_velocity = start.angular_velocity;
   }
-}
-
-/// The last look at a step: what it made is finite.
-std::optional<Divergence> find_not_finite(const World& world, Stage stage) {
-  const auto divergence = [&](const std::string& body) {
-    return Divergence{stage, world.steps + 1, body,
-                      "its contacts gave it a position or velocity that is not a finite number"};
-  };
-  for (const SoftBody& body : world.soft) {
-    // A sum is finite only if all its terms are, and far quicker to look at.
-    const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
-    if (!std::isfinite(sum)) return divergence(body.name);
-  }
-  for (const RigidBox& box : world.rigid) {
-    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
-                       box.orientation.coeffs().sum();
-    if (!std::isfinite(sum)) return divergence(box.name);
-  }
-  return std::nullopt;
+  if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::find_pairs)) return;
+  world.particles = workspace.particles_start;
 }
 
 }  // namespace
@@ -104,17 +86,14 @@ std::optional<Divergence> Stepper::step(World& world) {
   if (!divergence) {
     run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, workspace); });
   }
+  if (!divergence) {
+    run(Stage::find_pairs, [&] { find_pairs(world, workspace); });
+    run(Stage::move_particles, [&] { move_particles(world, workspace); });
+    run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
+    run(Stage::resolve_contacts, [&] { divergence = resolve_contacts(world, workspace); });
+  }
   if (divergence) {
     restore(world, workspace, divergence->stage);
-    return divergence;
-  }
-  run(Stage::find_pairs, [&] { find_pairs(world, workspace); });
-  run(Stage::move_particles, [&] { move_particles(world, workspace); });
-  run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
-  run(Stage::resolve_contacts, [&] { resolve_contacts(world, workspace); });
-  divergence = find_not_finite(world, Stage::resolve_contacts);
-  if (divergence) {
-    restore(world, workspace, Stage::integrate_rigid);
     return divergence;
   }
 

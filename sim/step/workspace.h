@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/collision/bounding_sphere.h"
+#include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
 #include "sim/collision/particles.h"
 #include "sim/response/contact_impulse.h"
@@ -39,14 +40,17 @@ struct StepWorkspace {
   SoftScratch soft;
   std::vector<SoftState> soft_start;                    // per body, as the step found it
   std::vector<RigidStart> rigid_start;                  // per box
+  std::vector<ParticlePair> particles_start;            // of the world
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
   std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
   PairFinder pair_finder;
   std::vector<BodyPair> pairs;             // of spheres
+  std::vector<BodyPair> soft_pairs;        // of soft bodies
   std::vector<BodyPair> soft_rigid_pairs;  // first: soft body, second: box
   std::vector<BodyPair> rigid_pairs;       // of boxes
   ParticleScratch particles;
   SoftSoftScratch soft_soft;
+  ExactScratch exact;
   std::vector<Contact> contacts;
   std::vector<BoxMass> box_masses;
   std::vector<double> pair_work;         // J, by the contacts of each pair of bodies

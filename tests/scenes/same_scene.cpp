@@ -103,8 +103,8 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
 }
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
-  const auto& [steps_per_second, integrator, gravity, ground, skin_thickness, particles,
-               separation_time, impulse_sweeps, seed] = a;
+  const auto& [steps_per_second, integrator, gravity, ground, skin_thickness, soft_search,
+               particles, separation_time, impulse_sweeps, seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
   c.member("steps_per_second", steps_per_second, b.steps_per_second);
   c.member("integrator", integrator, b.integrator);
@@ -112,6 +112,7 @@ void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   c.member("ground.present", ground.has_value(), b.ground.has_value());
   if (ground && b.ground) compare(c, *ground, *b.ground);
   c.member("skin_thickness", skin_thickness, b.skin_thickness);
+  c.member("soft_search", soft_search, b.soft_search);
   c.member("per_vertex", per_vertex, b.particles.per_vertex);
   c.member("attraction", attraction, b.particles.attraction);
   c.member("max_sweeps", max_sweeps, b.particles.max_sweeps);

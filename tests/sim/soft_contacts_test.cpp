@@ -52,6 +52,20 @@ Encounter expect_isolated(World& world, double seconds) {
   return encounter;
 }
 
+TEST(SoftSoft, TheExactSearchKeepsMomentumAndHoldsSpheresApartWithoutParticles) {
+  for (const double speed : {1.0, 2.0, 4.0}) {
+    World world = meeting_spheres(speed, 1);
+    world.settings.soft_search = SoftSearch::exact;
+    const Encounter encounter = expect_isolated(world, 6.0);
+    EXPECT_GT(encounter.contacts, 0U);
+    // Never nearer than touching: all that is within the skin is found, however fast it comes.
+    EXPECT_EQ(encounter.penetration, 0.0) << speed;
+    EXPECT_LT(mean(world.soft[0].velocities).x(), 0.0);
+    EXPECT_GT(mean(world.soft[1].velocities).x(), 0.0);
+    EXPECT_TRUE(world.particles.empty());
+  }
+}
+
 TEST(SoftSoft, SpheresThatMeetBounceApartAndKeepTheirMomentum) {
   for (const double speed : {1.0, 2.0, 4.0}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {

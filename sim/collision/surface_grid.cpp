@@ -1,0 +1,75 @@
+#include "sim/collision/surface_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pneuma::sim {
+namespace {
+
+/// Along a side, so that a body with a few very small triangles does not fill the memory.
+constexpr int most_cells = 64;
+
+bool meet(const Bounds& a, const Bounds& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+}  // namespace
+
+void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
+  region_ = region;
+  taken_.clear();
+  boxes_.clear();
+  last_query_.resize(at(surface.topology.triangle_count()), 0);
+  double extent = 0.0;
+  for (int t = 0; t < surface.topology.triangle_count(); ++t) {
+    Bounds box;
+    for (const Vec3& corner : triangle_corners(surface, t)) box.include(corner);
+    if (!meet(box, region)) continue;
+    taken_.push_back(t);
+    boxes_.push_back(box);
+    extent += box.size().maxCoeff();
+  }
+  if (taken_.empty()) {
+    cell_start_.clear();
+    return;
+  }
+  choose_cells(extent / static_cast<double>(taken_.size()));
+
+  // Counting sort: how many entries each cell has, where they start, and the entries.
+  const std::size_t cells = at(counts_.prod());
+  cell_start_.assign(cells + 1, 0);
+  const auto for_each_entry = [&](const auto& visit) {
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      const auto [low, high] = cells_of(boxes_[i]);
+      for (int z = low[2]; z <= high[2]; ++z) {
+        for (int y = low[1]; y <= high[1]; ++y) {
+          for (int x = low[0]; x <= high[0]; ++x) visit(index_of(x, y, z), taken_[i]);
+        }
+      }
+    }
+  };
+  for_each_entry([&](std::size_t cell, int) { ++cell_start_[cell]; });
+  int end = 0;
+  for (int& start : cell_start_) start = (end += start);  // now where each cell ends
+  entries_.resize(at(end));
+  for_each_entry([&](std::size_t cell, int t) { entries_[at(--cell_start_[cell])] = t; });
+}
+
+void SurfaceGrid::choose_cells(double mean_extent) {
+  const Vec3 size = region_.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double wanted = mean_extent > 0.0 ? size[axis] / mean_extent : 1.0;
+    counts_[axis] = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, double{most_cells}));
+    inverse_cell_[axis] = size[axis] > 0.0 ? counts_[axis] / size[axis] : 0.0;
+  }
+}
+
+SurfaceGrid::CellRange SurfaceGrid::cells_of(const Bounds& box) const {
+  const auto cell_of = [&](const Vec3& point) -> Cell {
+    const Eigen::Array3d place = ((point - region_.low).array() * inverse_cell_).floor();
+    return place.max(0.0).min((counts_ - 1).cast<double>()).cast<int>();
+  };
+  return {cell_of(box.low), cell_of(box.high)};
+}
+
+}  // namespace pneuma::sim
