@@ -1,5 +1,4 @@
 // pneuma bench: the paper's table of frame rates, measured here.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -7,7 +6,6 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +14,7 @@
 #include "app/common_options.h"
 #include "app/errors.h"
 #include "app/find_scene.h"
+#include "app/provenance.h"
 #include "app/render_request.h"
 #include "app/scene_catalogue.h"
 #include "app/timing_conditions.h"
@@ -67,7 +66,7 @@ std::vector<scenes::Scene> load_scenes(const BenchOptions& options) {
 ExitCode bench(const BenchOptions& options) {
   BenchReport report;
   report.options = options.measure;
-  report.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  report.date = utc_date();
   report.warnings = timing_warnings(timing_conditions());
 
   ExitCode code = ExitCode::done;

@@ -1,8 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench_report.h"
-#include "app/machine.h"
-#include "app/version.h"
+#include "app/provenance.h"
 
 namespace pneuma::app {
 namespace {
@@ -79,23 +78,16 @@ json scene_json(const SceneTimes& scene) {
 }  // namespace
 
 json bench_json(const BenchReport& report) {
-  const Machine here = machine();
-  const Version built = version();
   json scenes = json::array();
   for (const SceneTimes& scene : report.scenes) scenes.push_back(scene_json(scene));
 
-  return {{"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}},
-          {"program",
-           {{"version", built.program},
-            {"commit", built.commit},
-            {"compiler", built.compiler},
-            {"build_type", built.build_type},
-            {"flags", built.flags}}},
-          {"date", report.date},
-          {"threads", report.options.threads},
-          {"clock_resolution_s", clock_resolution()},
-          {"warnings", report.warnings},
-          {"scenes", std::move(scenes)}};
+  json result = provenance_json();
+  result.update({{"date", report.date},
+                 {"threads", report.options.threads},
+                 {"clock_resolution_s", clock_resolution()},
+                 {"warnings", report.warnings},
+                 {"scenes", std::move(scenes)}});
+  return result;
 }
 
 }  // namespace pneuma::app

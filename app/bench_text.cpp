@@ -4,9 +4,8 @@
 #include <set>
 
 #include "app/bench_report.h"
-#include "app/machine.h"
+#include "app/provenance.h"
 #include "app/table.h"
-#include "app/version.h"
 
 namespace pneuma::app {
 namespace {
@@ -153,8 +152,6 @@ std::string legend(const BenchReport& report) {
 }
 
 std::string notes(const BenchReport& report) {
-  const Machine here = machine();
-  const Version built = version();
   std::string text = fmt::format(
       "Measured: {} of each scene, over and over, the steps before not counted; {} thread{}.\n"
       "Steps and shares of the stages come from separate runs, as reading the clock costs time.\n"
@@ -168,12 +165,7 @@ std::string notes(const BenchReport& report) {
                           scene.name, scene.steps_per_reading, 1e9 * clock_resolution());
     }
   }
-  text += fmt::format("Machine: {}, {} core{}, {}.\n", here.cpu, here.cores,
-                      here.cores == 1 ? "" : "s", here.os);
-  text += fmt::format("Program: pneuma {}{}, {} {}, {}. {}.\n", built.program,
-                      built.commit.empty() ? "" : " (" + built.commit + ")", built.compiler,
-                      built.build_type, built.flags, report.date);
-  return text;
+  return text + provenance_text(report.date);
 }
 
 }  // namespace

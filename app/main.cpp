@@ -14,6 +14,7 @@
 #include "app/command.h"
 #include "app/errors.h"
 #include "app/interrupt.h"
+#include "app/study/study_command.h"
 #include "app/version.h"
 #include "assets/model.h"
 #include "render/context/context.h"
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
   app::add_render_command(cli, action, command_line);
   app::add_export_command(cli, action);
   app::add_bench_command(cli, action);
+  app::add_study_command(cli, action, command_line);
   app::add_check_command(cli, action);
   app::add_list_command(cli, action);
   app::add_doctor_command(cli, action);

@@ -15,6 +15,7 @@
 #include "app/interrupt.h"
 #include "app/place_camera.h"
 #include "app/resume.h"
+#include "app/run_command.h"
 #include "app/run_record.h"
 #include "app/video.h"
 #include "render/image/file.h"

@@ -1,10 +1,8 @@
 #include "app/run_record.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <string_view>
 
@@ -12,6 +10,7 @@
 #include "app/command_line.h"
 #include "app/contact_tally.h"
 #include "app/machine.h"
+#include "app/provenance.h"
 #include "app/vector_json.h"
 #include "app/version.h"
 #include "render/image/file.h"
@@ -60,11 +59,6 @@ Json program_json() {
   for (const auto& [name, number] : library_versions()) libraries[name] = number;
   return {{"version", built.program},       {"commit", built.commit}, {"compiler", built.compiler},
           {"build_type", built.build_type}, {"flags", built.flags},   {"libraries", libraries}};
-}
-
-std::string utc_now() {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
 }
 
 constexpr std::string_view units =
@@ -131,7 +125,7 @@ render::Camera camera_of(const Json& header) {
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
   const Machine here = machine();
   return {{"launch",
-           {{"date", utc_now()},
+           {{"date", utc_date()},
             {"command_line", shell_line(command_line)},
             {"first_frame", from},
             {"threads", threads},
