@@ -4,12 +4,14 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "app/study/collision/collision_command.h"
+
 namespace pneuma::app {
 
-void add_study_command(CLI::App& app, [[maybe_unused]] Action& action,
-                       [[maybe_unused]] std::span<const std::string> command_line) {
+void add_study_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
   CLI::App* study = app.add_subcommand("study", "Measure what choices cost and what they gain");
   study->require_subcommand(1);
+  add_collision_study(*study, action, command_line);
 }
 
 }  // namespace pneuma::app

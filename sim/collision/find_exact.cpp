@@ -30,20 +30,39 @@ Bounds common_region(const SurfaceView& first, const SurfaceView& second, double
   return common(grown(bounds(first.positions), reach), grown(bounds(second.positions), reach));
 }
 
+double squared_distance(const Bounds& a, const Bounds& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).squaredNorm();
+}
+
+/// Of a vertex or an edge from a triangle, m, if that is below `reach`.
+std::optional<double> distance(const SurfaceView& own, Feature feature, const SurfaceView& other,
+                               int triangle, double reach) {
+  const Corners corners = triangle_corners(other, triangle);
+  const auto near = feature.kind == FeatureKind::vertex
+                        ? test_vertex_triangle(own.positions[feature.index], corners, reach)
+                        : test_edge_triangle(edge_segment(own, feature.index), corners, reach);
+  return near ? std::optional(near->distance) : std::nullopt;
+}
+
 /// The contact of a feature with the nearest of the other surface's triangles, if what touches is
 /// the feature itself.
 std::optional<FeatureContact> nearest_contact(const SurfaceView& own, Feature feature,
                                               const SurfaceView& other, SurfaceGrid& grid,
                                               double reach) {
-  std::optional<FeatureContact> best;
-  grid.for_each_near(grown(feature_bounds(own, feature), reach), [&](int triangle) {
-    const double nearer_than = best ? best->distance : reach;
-    const auto found =
-        find_feature_contact(own, feature, other, {FeatureKind::triangle, triangle}, nearer_than);
-    if (found) best = found;
+  int nearest = -1;
+  double nearer_than = reach;
+  const Bounds box = feature_bounds(own, feature);
+  grid.for_each_near(grown(box, reach), [&](int triangle, const Bounds& triangle_box) {
+    if (squared_distance(box, triangle_box) >= nearer_than * nearer_than) return;
+    if (const auto found = distance(own, feature, other, triangle, nearer_than)) {
+      nearer_than = *found;
+      nearest = triangle;
+    }
   });
-  if (best && best->first == feature) return best;
-  return {};
+  if (nearest < 0) return {};
+  auto contact = find_feature_contact(own, feature, other, {FeatureKind::triangle, nearest}, reach);
+  if (contact && !(contact->first == feature)) contact.reset();
+  return contact;
 }
 
 /// Contacts of the vertices and edges of `own`, which are the first of each contact.
@@ -111,7 +130,7 @@ std::vector<CloseTriangles> find_close_triangles(const SurfaceView& first,
   for (int t = 0; t < first.topology.triangle_count(); ++t) {
     const Feature feature{FeatureKind::triangle, t};
     const auto start = static_cast<std::ptrdiff_t>(pairs.size());
-    grid.for_each_near(grown(feature_bounds(first, feature), reach), [&](int other) {
+    grid.for_each_near(grown(feature_bounds(first, feature), reach), [&](int other, const Bounds&) {
       const auto near = test_triangle_triangle(triangle_corners(first, t),
                                                triangle_corners(second, other), reach);
       if (near) pairs.push_back({t, other, near->distance});

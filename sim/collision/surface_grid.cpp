@@ -19,7 +19,6 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
   region_ = region;
   taken_.clear();
   boxes_.clear();
-  last_query_.resize(at(surface.topology.triangle_count()), 0);
   double extent = 0.0;
   for (int t = 0; t < surface.topology.triangle_count(); ++t) {
     Bounds box;
@@ -33,6 +32,7 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
     cell_start_.clear();
     return;
   }
+  last_query_.resize(std::max(last_query_.size(), taken_.size()), 0);
   choose_cells(extent / static_cast<double>(taken_.size()));
 
   // Counting sort: how many entries each cell has, where they start, and the entries.
@@ -43,7 +43,7 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
       const auto [low, high] = cells_of(boxes_[i]);
       for (int z = low[2]; z <= high[2]; ++z) {
         for (int y = low[1]; y <= high[1]; ++y) {
-          for (int x = low[0]; x <= high[0]; ++x) visit(index_of(x, y, z), taken_[i]);
+          for (int x = low[0]; x <= high[0]; ++x) visit(index_of(x, y, z), static_cast<int>(i));
         }
       }
     }
@@ -52,7 +52,7 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
   int end = 0;
   for (int& start : cell_start_) start = (end += start);  // now where each cell ends
   entries_.resize(at(end));
-  for_each_entry([&](std::size_t cell, int t) { entries_[at(--cell_start_[cell])] = t; });
+  for_each_entry([&](std::size_t cell, int taken) { entries_[at(--cell_start_[cell])] = taken; });
 }
 
 void SurfaceGrid::choose_cells(double mean_extent) {

@@ -2,6 +2,7 @@
 // near a place are found without looking at all (the paper's section 7 asks for it).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/collision/surface_view.h"
@@ -16,8 +17,8 @@ class SurfaceGrid {
   /// must outlive the queries.
   void fill(const SurfaceView& surface, const Bounds& region);
 
-  /// Calls visit(triangle) once for every triangle taken whose box may meet `box`, among them all
-  /// whose box does, in an order that depends on the surface, the region and `box` only.
+  /// Calls visit(triangle, its box) once for every triangle taken whose box may meet `box`, among
+  /// them all whose box does, in an order that depends on the surface, the region and `box` only.
   template <class Visit>
   void for_each_near(const Bounds& box, const Visit& visit) {
     if (cell_start_.empty()) return;
@@ -28,10 +29,10 @@ class SurfaceGrid {
         for (int x = low[0]; x <= high[0]; ++x) {
           const std::size_t cell = index_of(x, y, z);
           for (int i = cell_start_[cell]; i < cell_start_[cell + 1]; ++i) {
-            const int triangle = entries_[at(i)];
-            if (last_query_[at(triangle)] == query_) continue;
-            last_query_[at(triangle)] = query_;
-            visit(triangle);
+            const std::size_t taken = at(entries_[at(i)]);
+            if (last_query_[taken] == query_) continue;
+            last_query_[taken] = query_;
+            visit(taken_[taken], boxes_[taken]);
           }
         }
       }
@@ -58,8 +59,8 @@ class SurfaceGrid {
   std::vector<int> taken_;                 // triangles that meet the region
   std::vector<Bounds> boxes_;              // of those
   std::vector<int> cell_start_;            // into entries_; one more than cells
-  std::vector<int> entries_;               // triangles, cell by cell
-  std::vector<std::uint64_t> last_query_;  // per triangle of the mesh
+  std::vector<int> entries_;               // indices into taken_, cell by cell
+  std::vector<std::uint64_t> last_query_;  // that visited it, per triangle taken
   std::uint64_t query_ = 0;
 };
 

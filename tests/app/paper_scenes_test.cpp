@@ -50,7 +50,7 @@ struct PaperScene {
 };
 
 const PaperScene paper_scenes[] = {
-    {"cat_on_sphere", soft_bodies, 0.03, 1e-4, 0.6, false},
+    {"cat_on_sphere", soft_bodies, 0.0, 1e-4, 0.6, false},
     // Edges of the cubes press between the torus' vertices; some cubes still roll.
     {"cubes_on_torus", soft_body_and_boxes, 0.4, 1e-5, 10.0, true},
     {"model", one_body, 0.0, 1e-5, 0.2, false},

@@ -50,7 +50,7 @@ TEST(SurfaceGrid, VisitsEveryTriangleWhoseBoxMeetsOnceAtMost) {
     for (int query = 0; query < 20; ++query) {
       const Bounds box = random_box();
       std::multiset<int> visited;
-      grid.for_each_near(box, [&](int triangle) { visited.insert(triangle); });
+      grid.for_each_near(box, [&](int triangle, const Bounds&) { visited.insert(triangle); });
       visits += static_cast<int>(visited.size());
       for (int t = 0; t < surface.topology.triangle_count(); ++t) {
         Bounds triangle;
@@ -72,7 +72,8 @@ TEST(SurfaceGrid, OfARegionWithoutTrianglesIsEmpty) {
   const SoftBody ball = make_body(make_icosphere(1.0, 1));
   SurfaceGrid grid;
   grid.fill(view(ball), {Vec3::Constant(5.0), Vec3::Constant(6.0)});
-  grid.for_each_near({Vec3::Constant(-9.0), Vec3::Constant(9.0)}, [](int) { FAIL(); });
+  grid.for_each_near({Vec3::Constant(-9.0), Vec3::Constant(9.0)},
+                     [](int, const Bounds&) { FAIL(); });
 }
 
 TEST(CloseTriangles, AreThoseThatTryingAllPairsFinds) {

@@ -1,0 +1,97 @@
+#include "app/study/collision/collision_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.h"
+#include "app/common_options.h"
+#include "app/errors.h"
+#include "app/find_scene.h"
+#include "app/provenance.h"
+#include "app/study/collision/collision_report.h"
+#include "app/study/study_folder.h"
+#include "scenes/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+const std::vector<std::string> default_scenes = {"two_spheres_contact", "three_spheres_contact",
+                                                 "sphere_in_torus", "torus_three_spheres"};
+
+struct Options {
+  std::vector<std::string> scenes;
+  std::vector<std::string> overrides;
+  std::string out = "out/study_collision";
+  std::string command_line;
+  CollisionStudyOptions study;
+};
+
+std::vector<scenes::Scene> load(const Options& options) {
+  std::vector<scenes::Scene> loaded;
+  for (const std::string& name : options.scenes.empty() ? default_scenes : options.scenes) {
+    loaded.push_back(scenes::load_scene(find_scene(name), options.overrides));
+    std::int64_t soft = 0;
+    for (const scenes::BodyScene& body : loaded.back().bodies) {
+      if (body.kind == scenes::BodyKind::soft) soft += scenes::copy_count(body);
+    }
+    if (soft < 2) {
+      throw UsageError(fmt::format(
+          "{} has fewer than two soft bodies, so that no soft contacts are searched for; choose "
+          "another scene, such as {}",
+          loaded.back().name, default_scenes.front()));
+    }
+  }
+  return loaded;
+}
+
+ExitCode run(const Options& options) {
+  const std::vector<scenes::Scene> loaded = load(options);
+  const StudyFolder folder(options.out);
+  std::vector<CollisionStudy> studies;
+  for (const scenes::Scene& scene : loaded) {
+    studies.push_back(study_collision(scene, options.study));
+    fmt::print("{}\n", collision_text(studies.back()));
+    if (studies.back().steps > 0) {
+      write_diagram(folder, "collision_" + scene.name, collision_diagram(studies.back()));
+    }
+  }
+  folder.write("collision.csv", collision_csv(studies));
+  nlohmann::json json = provenance_json();
+  json["date"] = utc_date();
+  json["command"] = options.command_line;
+  json["scenes"] = collision_json(studies);
+  folder.write("collision.json", json.dump(2) + '\n');
+  fmt::print("{}\n", folder.path().string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_collision_study(CLI::App& study, Action& action,
+                         std::span<const std::string> command_line) {
+  const auto options = std::make_shared<Options>();
+  options->command_line = shell_line(command_line);
+  CLI::App* command = study.add_subcommand(
+      "collision", "What the search for contacts of soft bodies finds, and what it costs");
+  std::string defaults;
+  for (const std::string& name : default_scenes) defaults += (defaults.empty() ? "" : " ") + name;
+  command->add_option("scene", options->scenes, "Scene files or names [" + defaults + "]")
+      ->type_name("SCENE");
+  add_override_option(*command, options->overrides);
+  command->add_option("--seconds", options->study.seconds, "Only the scenes' first S seconds [10]")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 1e4));
+  command
+      ->add_option("--out", options->out,
+                   "Folder for CSV, JSON and diagrams [" + options->out + "]")
+      ->type_name("DIR");
+  command->add_flag("--short", options->study.few, "Four settings in place of all");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace pneuma::app
