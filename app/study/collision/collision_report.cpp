@@ -21,7 +21,7 @@ bool is_exact(const SearchResult& result) {
 std::string series_name(const SearchResult& result) {
   if (is_exact(result)) return "exact";
   if (result.setting.particles.attraction != sim::ParticleSettings{}.attraction) {
-    return "1, 4, 8 times the attraction";
+    return "1/8, attraction 1, 4, 8";
   }
   const std::string name = result.setting.name();
   return name.substr(0, name.find(','));
@@ -118,7 +118,7 @@ Diagram collision_diagram(const CollisionStudy& study) {
   }
   Diagram diagram;
   diagram.title = fmt::format("Vertices within reach that are found: {}", study.scene);
-  diagram.subtitle = "particles: 1, 2, 5, 10, 20 sweeps from left to right";
+  diagram.subtitle = "particles with 1, 2, 5, 10 and 20 sweeps a step";
   diagram.x = {.label = "time of the search per step, us", .logarithmic = true};
   diagram.y = {.label = "vertices found, %", .low = 0.0, .high = 105.0};
   for (const std::string& name : order) diagram.series.push_back(by_name.at(name));
