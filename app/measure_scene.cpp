@@ -1,7 +1,5 @@
 #include "app/measure_scene.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,12 +25,6 @@ constexpr double wall_warm_up = 0.1;
 constexpr std::int64_t least_frames = 20;
 // A step that takes longer than so many of all steps was interrupted by the system.
 constexpr double undisturbed_percent = 95.0;
-
-double thread_seconds() {
-  timespec now = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The part of a scene's run that is measured, in steps.
 struct Part {

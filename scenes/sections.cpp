@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "scenes/integrator_names.h"
 #include "scenes/text_checks.h"
 
 namespace pneuma::scenes {
@@ -311,6 +312,10 @@ std::vector<Section> fixed_sections(Scene& scene) {
           camera_section(scene.camera),
           picture_section(scene.picture),
           limits_section(scene.limits)};
+}
+
+std::span<const std::pair<sim::Integrator, std::string_view>> integrator_names() {
+  return integrators;
 }
 
 std::string default_name(std::size_t index) { return fmt::format("body{}", index + 1); }

@@ -1,6 +1,5 @@
 // `pneuma study`: the measurements behind the project's conclusions. Each study has files of its
-// own, and a function `void add_NAME_study(CLI::App& study, Action& action, ...)` that
-// add_study_command calls.
+// own, and a function here that adds it below `study` and that add_study_command calls.
 #pragma once
 
 #include "app/command.h"
@@ -10,5 +9,8 @@ namespace pneuma::app {
 /// Adds `study` with all studies below it. `command_line` is what the user typed, for the reports,
 /// and must outlive the action.
 void add_study_command(CLI::App& app, Action& action, std::span<const std::string> command_line);
+
+void add_error_study(CLI::App& study_command, Action& action,
+                     std::span<const std::string> command_line);
 
 }  // namespace pneuma::app

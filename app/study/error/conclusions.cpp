@@ -1,0 +1,160 @@
+#include "app/study/error/conclusions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/table.h"
+
+namespace pneuma::app {
+namespace {
+
+using Outcome = ErrorRun::Outcome;
+
+// Errors beyond are not small, and their terms of higher order not yet gone.
+constexpr double greatest_asymptotic_error = 0.1;
+// Errors below so many times the reference's own uncertainty are partly that.
+constexpr double clear_of_uncertainty = 10.0;
+constexpr double band = 0.2;
+
+// By the words of scene files. One that is not here has an observed order only.
+struct Theory {
+  std::string_view method;
+  double order;
+};
+constexpr std::array theories = {
+    Theory{"martin", 1.0},
+    Theory{"symplectic_euler", 1.0},
+    Theory{"velocity_verlet", 2.0},
+    Theory{"rk4", 4.0},
+};
+
+std::optional<double> theory_of(const ErrorStudy& study, const std::string& method) {
+  const auto* const known = std::ranges::find(theories, method, &Theory::method);
+  if (study.flight.contacts || known == theories.end()) return std::nullopt;
+  return known->order;
+}
+
+bool asymptotic(const ErrorStudy& study, const ErrorRun& run) {
+  return run.ours && run.outcome == Outcome::stable && error_of(run) < greatest_asymptotic_error &&
+         error_of(run) > clear_of_uncertainty * study.reference.uncertainty;
+}
+
+std::optional<PointRange> all_of(const std::vector<double>& points) {
+  if (points.size() < 3) return std::nullopt;
+  return PointRange{0, points.size() - 1};
+}
+
+void fit(const ErrorStudy& study, ObservedOrder& order) {
+  std::vector<double> steps, errors;
+  std::vector<int> rates;
+  for (const ErrorRun& run : study.runs) {
+    if (run.method != order.method || !asymptotic(study, run)) continue;
+    steps.push_back(run.step());
+    errors.push_back(error_of(run));
+    rates.push_back(run.steps_per_second);
+  }
+  const auto range = study.flight.contacts ? all_of(steps) : power_law_range(steps, errors, band);
+  if (!range) return;
+  order.points = range->count();
+  order.law = fit_power_law(std::span(steps).subspan(range->first, order.points),
+                            std::span(errors).subspan(range->first, order.points));
+  order.first_steps_per_second = rates[range->first];
+  order.last_steps_per_second = rates[range->last];
+}
+
+void keep_cheaper(std::optional<ErrorRun>& best, const ErrorRun& run) {
+  if (!best || run.run_time < best->run_time) best = run;
+}
+
+std::string microseconds(double seconds) { return readable(1e6 * seconds); }
+
+/// What makes up the two run times, in evaluations of the forces.
+std::string reason(const ErrorStudy& study, const Choice& choice, double wanted) {
+  const double evaluation = study.evaluation_time;
+  const ErrorRun& ours = *choice.ours;
+  const ErrorRun& cvode = *choice.cvode;
+  const double own_work = std::max(0.0, 1.0 - cvode.evaluations * evaluation / cvode.run_time);
+  return fmt::format(
+      "Per simulated second {} evaluates the forces {} times, at {} us each, and spends {:.0f} % "
+      "of "
+      "its time on other work; {} at 1/{} s takes as long as {} evaluations. To be {:g} times "
+      "ahead "
+      "it would have to take no longer than {}.",
+      cvode.method, readable(cvode.evaluations), microseconds(evaluation), 100.0 * own_work,
+      ours.method, ours.steps_per_second, readable(ours.run_time / evaluation), wanted,
+      readable(cvode.run_time / wanted / evaluation));
+}
+
+double wanted_ratio(double error) { return error == 1e-2 || error == 1e-3 ? 10.0 : 1.0; }
+
+}  // namespace
+
+std::vector<ObservedOrder> observed_orders(const ErrorStudy& study) {
+  std::vector<ObservedOrder> orders;
+  for (const ErrorRun& run : study.runs) {
+    if (!run.ours || (!orders.empty() && orders.back().method == run.method)) continue;
+    ObservedOrder& order = orders.emplace_back();
+    order.method = run.method;
+    order.theory = theory_of(study, run.method);
+    fit(study, order);
+  }
+  return orders;
+}
+
+std::optional<double> Choice::ratio() const {
+  if (!ours || !cvode) return std::nullopt;
+  return cvode->run_time / ours->run_time;
+}
+
+Choice choose(const ErrorStudy& study, double error) {
+  Choice choice;
+  choice.error = error;
+  choice.known = study.reference.uncertainty <= 0.1 * error;
+  if (!choice.known) return choice;
+  for (const ErrorRun& run : study.runs) {
+    if (run.outcome != Outcome::stable || !(error_of(run) <= error)) continue;
+    keep_cheaper(run.ours ? choice.ours : choice.cvode, run);
+  }
+  return choice;
+}
+
+std::string recommendation(const Choice& choice) {
+  if (!choice.known) {
+    return fmt::format(
+        "for an error of {:.0e} there is no recommendation: the motion itself is not "
+        "known that well",
+        choice.error);
+  }
+  if (!choice.ours) {
+    return fmt::format("an error of {:.0e} is reached by none of the steps studied", choice.error);
+  }
+  const ErrorRun& run = *choice.ours;
+  return fmt::format(
+      "for an error of {:.0e} take {} at step 1/{} s: {} microseconds per simulated second (its "
+      "error: {:.1e})",
+      choice.error, run.method, run.steps_per_second, microseconds(run.run_time), error_of(run));
+}
+
+std::vector<std::string> shortfalls(const ErrorStudy& study) {
+  std::vector<std::string> sentences;
+  if (study.flight.contacts) return sentences;
+  for (const double error : compared_errors) {
+    const Choice choice = choose(study, error);
+    const double wanted = wanted_ratio(error);
+    if (choice.cvode && !choice.ours) {
+      sentences.push_back(fmt::format(
+          "at an error of {:.0e} CVODE is ahead: none of our steps studied reaches it", error));
+    } else if (choice.ratio() && *choice.ratio() < wanted) {
+      const double ratio = *choice.ratio();
+      sentences.push_back(fmt::format(
+          "at an error of {:.0e} ours is {}. {}", error,
+          ratio < 1.0 ? fmt::format("behind CVODE, {:.2g} times as fast", ratio)
+                      : fmt::format("{:.1f} times ahead of CVODE, not {:g}", ratio, wanted),
+          reason(study, choice, wanted)));
+    }
+  }
+  return sentences;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,124 @@
+// pneuma study error: which integrator, at which step, for which error.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line.h"
+#include "app/find_scene.h"
+#include "app/progress.h"
+#include "app/provenance.h"
+#include "app/study/error/error_report.h"
+#include "app/study/study_command.h"
+#include "app/study/study_folder.h"
+#include "app/table.h"
+#include "app/timing_conditions.h"
+#include "scenes/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+/// The options as they were typed.
+struct Typed {
+  std::vector<std::string> scenes;
+  std::vector<std::string> overrides;
+  std::string out = "out/study/error";
+  FlightOptions flight;
+  std::optional<double> seconds;
+  std::optional<int> repeats;
+  bool is_short = false;
+  bool json = false;
+  bool quiet = false;
+  std::span<const std::string> command_line;
+};
+
+ErrorOptions sweep(const Typed& typed) {
+  ErrorOptions options = typed.is_short ? short_sweep() : full_sweep();
+  options.flight.body = typed.flight.body;
+  options.flight.free_flight = typed.flight.free_flight;
+  options.flight.seconds = typed.seconds.value_or(options.flight.seconds);
+  options.repeats = typed.repeats.value_or(options.repeats);
+  return options;
+}
+
+void write_files(const StudyFolder& folder, const ErrorStudy& study) {
+  folder.write(study.name + "_runs.csv", runs_csv(study));
+  folder.write(study.name + "_ratios.csv", ratios_csv(study));
+  write_diagram(folder, study.name + "_work", work_diagram(study));
+  write_diagram(folder, study.name + "_step", step_diagram(study));
+}
+
+ExitCode study(const Typed& typed) {
+  std::vector<scenes::Scene>
+      scenes;  // all, so that a slip in the last one is seen before the first
+  for (const std::string& name : typed.scenes) {
+    scenes.push_back(scenes::load_scene(find_scene(name), typed.overrides));
+  }
+  const StudyFolder folder(typed.out);
+  const ErrorOptions options = sweep(typed);
+  const std::string date = utc_date();
+  const std::vector<std::string> warnings = timing_warnings(timing_conditions());
+
+  nlohmann::json report = provenance_json();
+  report.update({{"date", date},
+                 {"command", shell_line(typed.command_line)},
+                 {"warnings", warnings},
+                 {"repeats", options.repeats},
+                 {"scenes", nlohmann::json::array()}});
+  std::string text;
+  Progress progress(progress_style(typed.quiet));
+  for (const scenes::Scene& scene : scenes) {
+    const ErrorStudy result = study_errors(
+        scene, options, [&](const std::string& what) { progress.show(scene.name + ": " + what); });
+    write_files(folder, result);
+    report["scenes"].push_back(error_json(result));
+    text += error_text(result) + "\n";
+  }
+  folder.write("error.json", report.dump(2) + "\n");
+  text += provenance_text(date);
+  for (const std::string& warning : warnings)
+    text += wrapped("Warning: " + warning + ".", 118) + "\n";
+  fmt::print("{}", typed.json ? report.dump(2) + "\n" : text);
+  progress.say("files in " + folder.path().string());
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_error_study(CLI::App& study_command, Action& action,
+                     std::span<const std::string> command_line) {
+  const auto typed = std::make_shared<Typed>();
+  typed->command_line = command_line;
+  CLI::App* command = study_command.add_subcommand(
+      "error", "Error against run time of every integrator, and which one to take");
+  command->add_option("scene", typed->scenes, "Scene files or names")
+      ->required()
+      ->type_name("SCENE");
+  command->add_option("--set", typed->overrides, "Override a value of the scenes, as body.k=200")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--body", typed->flight.body, "Only this body of the scene")
+      ->type_name("NAME");
+  command->add_flag("--free-flight", typed->flight.free_flight,
+                    "Without ground, boxes and contacts; so is any scene in which nothing touches");
+  command
+      ->add_option("--seconds", typed->seconds,
+                   "Simulated time, at most the scene's own [1; with --short 0.4]")
+      ->type_name("S")
+      ->check(CLI::Range(0.1, 3600.0));
+  command->add_option("--repeats", typed->repeats, "Of each run, for its time [5; with --short 2]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--short", typed->is_short, "Fewer steps, less time: to see that it works");
+  command->add_option("--out", typed->out, "Folder for tables and diagrams [out/study/error]")
+      ->type_name("DIR");
+  command->add_flag("--json", typed->json, "JSON in place of text");
+  command->add_flag("--quiet", typed->quiet, "Say nothing while measuring");
+  command->callback([typed, &action] { action = [typed] { return study(*typed); }; });
+}
+
+}  // namespace pneuma::app

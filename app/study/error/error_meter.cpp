@@ -1,0 +1,126 @@
+#include "app/study/error/error_meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/collision/oriented_box.h"
+#include "sim/mesh/measure.h"
+
+namespace pneuma::app {
+namespace {
+
+using sim::Vec3;
+
+/// 0 where there is neither an error nor anything that it could be compared with.
+double relative(double error, double scale) { return error == 0.0 ? 0.0 : std::abs(error / scale); }
+
+sim::OrientedBox oriented(const sim::RigidBox& box) {
+  return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
+}
+
+StateErrors greater(const StateErrors& a, const StateErrors& b) {
+  return {std::max(a.position, b.position), std::max(a.volume, b.volume),
+          std::max(a.centre, b.centre), std::max(a.energy, b.energy),
+          std::max(a.momentum, b.momentum)};
+}
+
+double mass(const sim::World& world) {
+  double sum = 0.0;
+  for (const sim::SoftBody& body : world.soft) {
+    sum += body.material.vertex_mass * body.mesh->topology.vertex_count();
+  }
+  for (const sim::RigidBox& box : world.rigid) sum += box.mass;
+  return sum;
+}
+
+}  // namespace
+
+double rest_radius(const sim::SoftBody& body) {
+  const sim::VertexArray& rest = body.mesh->rest_positions;
+  const Vec3 centre = sim::mean(rest);
+  double greatest = 0.0;
+  for (int v = 0; v < rest.size(); ++v) {
+    greatest = std::max(greatest, (Vec3(rest[v]) - centre).norm());
+  }
+  return greatest;
+}
+
+ErrorMeter::ErrorMeter(sim::World world, const Trajectory& reference) : world_(std::move(world)) {
+  for (const sim::SoftBody& body : world_.soft) radii_.push_back(rest_radius(body));
+  for (const sim::RigidBox& box : world_.rigid) radii_.push_back(0.5 * box.size.norm());
+  for (const Sample& sample : reference) {
+    reference_.push_back(observe(sample));
+    energy_scale_ = std::max(energy_scale_, reference_.back().kinetic);
+  }
+  momentum_scale_ = std::sqrt(2.0 * mass(world_) * energy_scale_);
+}
+
+ErrorMeter::Observed ErrorMeter::observe(const Sample& sample) {
+  Observed result;
+  result.sample = sample;
+  for (std::size_t b = 0; b < world_.soft.size(); ++b) {
+    sim::SoftBody& body = world_.soft[b];
+    body.positions = sample.soft[b].positions;
+    body.velocities = sample.soft[b].velocities;
+    result.volumes.push_back(sim::volume(body.mesh->topology, body.positions));
+    result.centres.push_back(sim::mean(body.positions));
+  }
+  world_.rigid = sample.rigid;
+  for (const sim::RigidBox& box : world_.rigid) result.centres.push_back(box.position);
+  const sim::Energy energy = sim::energy(world_);
+  result.energy = energy.total();
+  result.kinetic = energy.kinetic;
+  result.momentum = sim::momentum(world_).linear;
+  return result;
+}
+
+double ErrorMeter::position_error(const Sample& sample, const Sample& reference) const {
+  double squares = 0.0;
+  double points = 0.0;
+  std::size_t body = 0;
+  for (std::size_t b = 0; b < sample.soft.size(); ++b, ++body) {
+    const auto& positions = sample.soft[b].positions;
+    const double distances = (positions.rows() - reference.soft[b].positions.rows()).squaredNorm();
+    squares += distances / (radii_[body] * radii_[body]);
+    points += positions.size();
+  }
+  for (std::size_t b = 0; b < sample.rigid.size(); ++b, ++body) {
+    const auto here = oriented(sample.rigid[b]), there = oriented(reference.rigid[b]);
+    for (int corner = 0; corner < 8; ++corner) {
+      squares += (here.corner(corner) - there.corner(corner)).squaredNorm() /
+                 (radii_[body] * radii_[body]);
+      points += 1.0;
+    }
+  }
+  return std::sqrt(squares / points);
+}
+
+StateErrors ErrorMeter::errors(std::size_t i, const Sample& sample) {
+  const Observed& expected = reference_[i];
+  const Observed found = observe(sample);
+  StateErrors errors;
+  errors.position = position_error(sample, expected.sample);
+  for (std::size_t b = 0; b < found.volumes.size(); ++b) {
+    errors.volume = std::max(errors.volume,
+                             relative(found.volumes[b] - expected.volumes[b], expected.volumes[b]));
+  }
+  for (std::size_t b = 0; b < found.centres.size(); ++b) {
+    errors.centre = std::max(errors.centre,
+                             relative((found.centres[b] - expected.centres[b]).norm(), radii_[b]));
+  }
+  errors.energy = relative(found.energy - expected.energy, energy_scale_);
+  errors.momentum = relative((found.momentum - expected.momentum).norm(), momentum_scale_);
+  return errors;
+}
+
+RunErrors ErrorMeter::errors(const Trajectory& trajectory) {
+  RunErrors result;
+  for (std::size_t i = 0; i < reference_.size(); ++i) {
+    result.end = errors(i, trajectory[i]);
+    result.greatest = greater(result.greatest, result.end);
+  }
+  return result;
+}
+
+}  // namespace pneuma::app

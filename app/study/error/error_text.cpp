@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/study/error/conclusions.h"
+#include "app/study/error/error_report.h"
+#include "app/table.h"
+
+namespace pneuma::app {
+namespace {
+
+using Align = Table::Align;
+using Outcome = ErrorRun::Outcome;
+
+constexpr std::size_t text_width = 118;
+
+std::string microseconds(double seconds) { return readable(1e6 * seconds); }
+
+std::string error_cell(const ErrorRun& run) {
+  if (run.outcome != Outcome::stable) return std::string(to_string(run.outcome));
+  return fmt::format("{:.1e}", error_of(run));
+}
+
+std::string time_cell(const ErrorRun& run) {
+  return run.outcome == Outcome::skipped ? "-" : microseconds(run.run_time);
+}
+
+/// A row for each step or tolerance, and for each method its error and its time in it.
+std::string runs_table(const ErrorStudy& study, bool ours) {
+  std::vector<Table::Column> columns = {{ours ? "step, s" : "tolerance"}};
+  std::vector<std::pair<std::string, std::vector<std::string>>> rows;
+  std::string method;
+  for (const ErrorRun& run : study.runs) {
+    if (run.ours != ours) continue;
+    if (run.method != method) {
+      method = run.method;
+      columns.push_back({"error", Align::right, method});
+      columns.push_back({"us", Align::right, method});
+    }
+    const std::string key =
+        ours ? fmt::format("1/{}", run.steps_per_second) : fmt::format("{:.1e}", run.tolerance);
+    auto row = std::ranges::find(rows, key, &decltype(rows)::value_type::first);
+    if (row == rows.end()) row = rows.insert(rows.end(), {key, {key}});
+    row->second.push_back(error_cell(run));
+    row->second.push_back(time_cell(run));
+    if (!ours) row->second.push_back(readable(run.evaluations));
+    if (!ours && row == rows.begin()) columns.push_back({"evaluations", Align::right, method});
+  }
+  if (rows.empty()) return "";
+  Table table(std::move(columns));
+  for (auto& [key, cells] : rows) table.add_row(std::move(cells));
+  return table.text();
+}
+
+/// A paragraph behind a label.
+std::string labelled(const std::string& label, const std::string& text) {
+  constexpr std::size_t indent = 11;
+  std::string result = fmt::format("{:<{}}", label, indent);
+  for (const char c : wrapped(text, text_width - indent)) {
+    result += c;
+    if (c == '\n') result.append(indent, ' ');
+  }
+  return result + '\n';
+}
+
+std::string heading(const ErrorStudy& study) {
+  const Reference& reference = study.reference;
+  std::string text = fmt::format("{}: {}\n", study.name, study.title);
+  text +=
+      labelled("Motion", fmt::format("{}; {} vertices, rest radius {:.3g} m.",
+                                     study.flight.description, study.vertices, study.rest_radius));
+  text +=
+      labelled("Compared", fmt::format("until {:.4g} s with {}; known to {:.1e}.",
+                                       reference.seconds, reference.method, reference.uncertainty));
+  if (!reference.limit.empty()) {
+    text += labelled("", fmt::format("Not until the {:.4g} s asked for: {}.", study.flight.seconds,
+                                     reference.limit));
+  }
+  text += labelled("error",
+                   "root mean square distance of the vertices from where they should be, greatest "
+                   "over time, divided by the rest radius.");
+  return text + labelled("us",
+                         "microseconds of processor time per simulated second: the stepping alone, "
+                         "least of the repeats.");
+}
+
+std::string orders_text(const ErrorStudy& study) {
+  std::string text = "Order: the power of the step with which the error falls";
+  text += study.flight.contacts ? "; contacts are not smooth and have none in theory\n" : "\n";
+  for (const ObservedOrder& order : observed_orders(study)) {
+    const std::string theory = order.theory ? fmt::format(", in theory {:g}", *order.theory) : "";
+    text += order.law ? fmt::format("  {:<18}{:.2f}{} (fit over {} steps, 1/{} to 1/{} s)\n",
+                                    order.method, order.law->exponent, theory, order.points,
+                                    order.first_steps_per_second, order.last_steps_per_second)
+                      : fmt::format("  {:<18}no range of steps with a power law{}\n", order.method,
+                                    theory);
+  }
+  return text;
+}
+
+/// What else is off in the recommended runs.
+std::string other_errors_table(const ErrorStudy& study) {
+  constexpr const char* greatest = "greatest over time";
+  constexpr const char* end = "at the end";
+  Table table({{"run", Align::left},
+               {"position", Align::right, greatest},
+               {"volume", Align::right, greatest},
+               {"centre", Align::right, greatest},
+               {"energy", Align::right, greatest},
+               {"momentum", Align::right, greatest},
+               {"position", Align::right, end},
+               {"energy", Align::right, end}});
+  const auto cell = [](double error) { return fmt::format("{:.1e}", error); };
+  std::string last;
+  for (const double error : recommended_errors) {
+    const Choice choice = choose(study, error);
+    if (!choice.ours) continue;
+    const ErrorRun& run = *choice.ours;
+    const std::string name = fmt::format("{} 1/{} s", run.method, run.steps_per_second);
+    if (std::exchange(last, name) == name) continue;
+    const StateErrors& worst = run.errors.greatest;
+    table.add_row({name, cell(worst.position), cell(worst.volume), cell(worst.centre),
+                   cell(worst.energy), cell(worst.momentum), cell(run.errors.end.position),
+                   cell(run.errors.end.energy)});
+  }
+  return last.empty() ? "" : table.text();
+}
+
+std::string recommendations_text(const ErrorStudy& study) {
+  std::string text = "Recommended\n";
+  for (const double error : recommended_errors) {
+    text += fmt::format("  {}\n", recommendation(choose(study, error)));
+  }
+  return text + other_errors_table(study);
+}
+
+std::string comparison_text(const ErrorStudy& study) {
+  Table table({{"error"},
+               {"method", Align::left, "ours"},
+               {"step, s", Align::right, "ours"},
+               {"us", Align::right, "ours"},
+               {"method", Align::left, "CVODE, given the same forces"},
+               {"tolerance", Align::right, "CVODE, given the same forces"},
+               {"us", Align::right, "CVODE, given the same forces"},
+               {"CVODE /\nours"}});
+  for (const double error : compared_errors) {
+    const Choice choice = choose(study, error);
+    std::vector<std::string> cells = {fmt::format("{:.0e}", error)};
+    const auto add = [&](const std::optional<ErrorRun>& run) {
+      if (!run) return cells.insert(cells.end(), 3, "-");
+      cells.push_back(run->method);
+      cells.push_back(run->ours ? fmt::format("1/{}", run->steps_per_second)
+                                : fmt::format("{:.1e}", run->tolerance));
+      cells.push_back(microseconds(run->run_time));
+      return cells.end();
+    };
+    add(choice.ours);
+    add(choice.cvode);
+    cells.push_back(choice.ratio() ? fmt::format("{:.2f}x", *choice.ratio()) : "-");
+    table.add_row(std::move(cells));
+  }
+  std::string text = table.text();
+  const std::vector<std::string> sentences = shortfalls(study);
+  if (sentences.empty()) {
+    return text +
+           "Ours is ahead of CVODE at all of these errors, and ten times at 1e-2 and 1e-3.\n";
+  }
+  text += "Wanted: ahead everywhere, and ten times at 1e-2 and 1e-3. But:\n";
+  for (const std::string& sentence : sentences)
+    text += wrapped(fmt::format("- {}", sentence), text_width) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string error_text(const ErrorStudy& study) {
+  std::string text = heading(study) + "\n" + runs_table(study, true) + "\n";
+  if (!study.flight.contacts) text += runs_table(study, false) + "\n";
+  text += orders_text(study) + "\n" + recommendations_text(study);
+  if (!study.flight.contacts) text += fmt::format("\n{}", comparison_text(study));
+  return text;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,93 @@
+#include "app/study/error/flight.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "app/build_world.h"
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/study/error/samples.h"
+#include "sim/step/stepper.h"
+
+namespace pneuma::app {
+namespace {
+
+/// Short enough that in the time between two steps nothing comes and goes.
+constexpr int looking_steps_per_second = 960;
+
+void keep_body(sim::World& world, const std::string& name) {
+  std::vector<std::string> names;
+  for (const sim::SoftBody& body : world.soft) names.push_back(body.name);
+  for (const sim::RigidBox& box : world.rigid) names.push_back(box.name);
+  if (std::ranges::find(names, name) == names.end()) {
+    throw UsageError(
+        fmt::format("--body {}: the scene has no such body, but {}", name, fmt::join(names, ", ")));
+  }
+  const auto other = [&](const auto& body) { return body.name != name; };
+  std::erase_if(world.soft, other);
+  std::erase_if(world.rigid, other);
+}
+
+void check(const scenes::Scene& scene, const sim::World& world) {
+  if (world.soft.empty()) {
+    throw UsageError(fmt::format(
+        "{}: no soft body is left to study; name one with --body, or leave that option out",
+        scene.name));
+  }
+  for (const sim::SoftBody& body : world.soft) {
+    if (body.material.damping != sim::Damping::literal) continue;
+    throw UsageError(fmt::format(
+        "{}: the damping of {} is literal, which depends on the step and so has no solution to "
+        "compare with: add --set body.damping=dashpot; `pneuma study choices` measures literal "
+        "damping",
+        scene.name, body.name));
+  }
+}
+
+/// Whether anything touches in the time. A run that diverges says nothing, and then what the scene
+/// has stays.
+bool touches(sim::World world, double seconds) {
+  world.settings.integrator = sim::Integrator::rk4;
+  world.settings.steps_per_second =
+      std::max(world.settings.steps_per_second, looking_steps_per_second);
+  sim::Stepper stepper(world);
+  if (!stepper.plan().runs(sim::Stage::find_contacts)) return false;
+  const auto steps = std::llround(seconds * world.settings.steps_per_second);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    throw_if_interrupted();
+    if (stepper.step(world) || !stepper.contacts().empty()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) {
+  Flight flight;
+  flight.world = build_world(scene);
+  const double longest = std::min(options.seconds, scene.duration);
+  flight.seconds =
+      std::max(1.0, std::floor(longest * samples_per_second + 1e-9)) / samples_per_second;
+  if (!options.body.empty()) keep_body(flight.world, options.body);
+  if (options.free_flight) {
+    flight.world.settings.ground.reset();
+    flight.world.rigid.clear();
+  }
+  check(scene, flight.world);
+  if (options.free_flight) {
+    flight.description = "free flight, as asked for: without ground, boxes and contacts";
+  } else if (touches(flight.world, flight.seconds)) {
+    flight.contacts = true;
+    flight.description = "with contacts";
+  } else {
+    flight.world.rigid.clear();
+    flight.description = "free flight: nothing touches anything in this time";
+  }
+  return flight;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,31 @@
+// What of a scene an error study runs: which bodies, and whether anything touches.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.h"
+#include "sim/world.h"
+
+namespace pneuma::app {
+
+struct FlightOptions {
+  std::string body;          // only this one; empty: all
+  bool free_flight = false;  // without ground, boxes and contacts
+  double seconds = 1.0;      // simulated, at most as long as the scene
+};
+
+struct Flight {
+  sim::World world;  // at time 0
+  /// Contacts are looked for and resolved. Without, every soft body moves by itself, by the
+  /// model's differential equation: a smooth motion with a reference.
+  bool contacts = false;
+  double seconds = 0.0;     // a whole number of samples
+  std::string description;  // "free flight (nothing touches in this time)"
+};
+
+/// Asked for or not, a world in which nothing touches in the time is in free flight. Throws
+/// UsageError for a body that is not there, when nothing is left that could have an error, and for
+/// `literal` damping, which is no differential equation; and scenes::SceneError.
+Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options);
+
+}  // namespace pneuma::app

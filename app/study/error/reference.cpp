@@ -1,0 +1,107 @@
+#include "app/study/error/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/errors.h"
+#include "app/interrupt.h"
+#include "app/study/error/error_meter.h"
+#include "app/study/error/solver.h"
+
+namespace pneuma::app {
+namespace {
+
+constexpr double reference_tolerance = 1e-12;
+constexpr double check_tolerance = 1e-13;
+
+// Of the rest radius. Far below any error that is of use, far above rounding.
+constexpr double smooth_agreement = 1e-9;
+// An error of 1e-2 is then known to a tenth.
+constexpr double contact_agreement = 1e-3;
+
+/// As many samples as it gets.
+Trajectory follow(Solver& solver, std::size_t samples) {
+  Trajectory trajectory;
+  while (trajectory.size() < samples && solver.advance(trajectory.size())) {
+    throw_if_interrupted();
+    trajectory.push_back(solver.sample());
+  }
+  return trajectory;
+}
+
+/// Two runs that should be the same, the better one first.
+struct Runs {
+  std::unique_ptr<Solver> best;
+  std::unique_ptr<Solver> second;
+  double agreement;
+};
+
+Runs smooth_runs(const Flight& flight) {
+  return {make_reference_solver(flight.world, reference_tolerance),
+          make_reference_solver(flight.world, check_tolerance), smooth_agreement};
+}
+
+Runs contact_runs(const Flight& flight, int finest) {
+  sim::World world = flight.world;
+  world.settings.integrator = sim::Integrator::rk4;
+  world.settings.steps_per_second = 2 * finest;
+  auto best = make_stepper_solver(world, true);
+  world.settings.steps_per_second = finest;
+  return {std::move(best), make_stepper_solver(world, true), contact_agreement};
+}
+
+std::string method(const Flight& flight, int finest) {
+  if (flight.contacts) {
+    return fmt::format("our own rk4 at 1/{} s, as far as that at 1/{} s agrees within {:.0e}",
+                       2 * finest, finest, contact_agreement);
+  }
+  return fmt::format(
+      "CVODE's Adams method at tolerance {:.0e} on the equation written down again, "
+      "as far as that at {:.0e} agrees within {:.0e}",
+      reference_tolerance, check_tolerance, smooth_agreement);
+}
+
+std::string limit(const Flight& flight) {
+  return flight.contacts
+             ? "from then on the two finest runs part: which vertex touches first decides how it "
+               "goes on"
+             : "from then on the smallest difference grows into another motion (the body buckles), "
+               "which no method can follow";
+}
+
+}  // namespace
+
+Reference make_reference(const Flight& flight, int finest_steps_per_second) {
+  const auto samples = static_cast<std::size_t>(std::lround(flight.seconds * samples_per_second));
+  const Runs runs =
+      flight.contacts ? contact_runs(flight, finest_steps_per_second) : smooth_runs(flight);
+  Reference reference;
+  reference.method = method(flight, finest_steps_per_second);
+  reference.trajectory = follow(*runs.best, samples);
+  const Trajectory second = follow(*runs.second, reference.trajectory.size());
+
+  std::size_t known = 0;
+  if (!second.empty()) {
+    ErrorMeter meter(flight.world, reference.trajectory);
+    for (; known < second.size(); ++known) {
+      const double difference = meter.errors(known, second[known]).position;
+      if (!(difference <= runs.agreement)) break;
+      reference.uncertainty = std::max(reference.uncertainty, difference);
+    }
+  }
+  if (known == 0) {
+    const std::string& failure = runs.best->failure();
+    throw DivergenceError(fmt::format("no motion to compare with: {}",
+                                      failure.empty() ? "the two finest runs differ from the start"
+                                                      : "the finest run failed " + failure));
+  }
+  reference.trajectory.resize(known);
+  reference.seconds = sample_time(known - 1);
+  if (known < samples) reference.limit = limit(flight);
+  return reference;
+}
+
+}  // namespace pneuma::app

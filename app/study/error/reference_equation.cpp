@@ -1,0 +1,178 @@
+#include "app/study/error/reference_equation.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace pneuma::app {
+namespace {
+
+/// One body's part of the state and of its derivative: x, v and a of vertex i are at 3 i.
+struct Part {
+  const double* x;
+  const double* v;
+  double* a;
+};
+
+/// k (l - L) d and c (v_rel . d) d on both ends of every spring. c is the dashpot with which two
+/// masses m on one spring lose k / k_max (99 % at most) of their relative velocity in 1/60 s: that
+/// velocity decays at the rate 2 c / m (ERRATA row 5).
+void add_springs(const sim::SoftBody& body, const Part& part) {
+  const double m = body.material.vertex_mass;
+  double share = body.material.k / body.material.k_max;
+  if (share > 0.99) share = 0.99;
+  const double c = -30.0 * m * std::log(1.0 - share);
+  const auto& edges = body.mesh->topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto i = static_cast<std::size_t>(3 * edges[e][0]);
+    const auto j = static_cast<std::size_t>(3 * edges[e][1]);
+    const double dx = part.x[j] - part.x[i];
+    const double dy = part.x[j + 1] - part.x[i + 1];
+    const double dz = part.x[j + 2] - part.x[i + 2];
+    const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
+    if (length == 0.0) continue;  // no direction to act in
+    const double approach = ((part.v[j] - part.v[i]) * dx + (part.v[j + 1] - part.v[i + 1]) * dy +
+                             (part.v[j + 2] - part.v[i + 2]) * dz) /
+                            length;
+    const double force = body.material.k * (length - body.mesh->rest_lengths[e]) + c * approach;
+    const double scale = force / length / m;
+    part.a[i] += scale * dx;
+    part.a[i + 1] += scale * dy;
+    part.a[i + 2] += scale * dz;
+    part.a[j] -= scale * dx;
+    part.a[j + 1] -= scale * dy;
+    part.a[j + 2] -= scale * dz;
+  }
+}
+
+/// A triangle relative to the body's first vertex, which keeps the digits of a body far away; the
+/// volume of a closed mesh and its triangles' area vectors are the same about any point.
+struct Corner {
+  double x, y, z;
+};
+Corner corner(const Part& part, int vertex) {
+  const auto i = static_cast<std::size_t>(3 * vertex);
+  return {part.x[i] - part.x[0], part.x[i + 1] - part.x[1], part.x[i + 2] - part.x[2]};
+}
+
+/// V = 1/6 sum a . (b x c) (ERRATA row 2).
+double volume_of(const sim::SoftBody& body, const Part& part) {
+  double six_volumes = 0.0;
+  for (const auto& triangle : body.mesh->topology.triangles()) {
+    const Corner a = corner(part, triangle[0]);
+    const Corner b = corner(part, triangle[1]);
+    const Corner c = corner(part, triangle[2]);
+    six_volumes += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+                   a.z * (b.x * c.y - b.y * c.x);
+  }
+  return six_volumes / 6.0;
+}
+
+/// P = nRT / V on each triangle's area vector, a third to each corner (ERRATA rows 1 and 3), scaled
+/// by the corner's weight (row 4).
+bool add_pressure(const sim::SoftBody& body, const std::vector<double>& weights, const Part& part) {
+  const double nrt = body.material.n * 8.314472 * body.material.temperature;
+  if (nrt == 0.0) return true;
+  const double volume = volume_of(body, part);
+  if (!(volume > 0.0)) return false;
+  const double pressure = nrt / volume;
+  for (const auto& triangle : body.mesh->topology.triangles()) {
+    const Corner a = corner(part, triangle[0]);
+    const Corner b = corner(part, triangle[1]);
+    const Corner c = corner(part, triangle[2]);
+    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const double wx = c.x - a.x, wy = c.y - a.y, wz = c.z - a.z;
+    const double area_x = 0.5 * (uy * wz - uz * wy);
+    const double area_y = 0.5 * (uz * wx - ux * wz);
+    const double area_z = 0.5 * (ux * wy - uy * wx);
+    for (const int vertex : triangle) {
+      const auto i = static_cast<std::size_t>(3 * vertex);
+      const double scale =
+          weights[static_cast<std::size_t>(vertex)] * pressure / 3.0 / body.material.vertex_mass;
+      part.a[i] += scale * area_x;
+      part.a[i + 1] += scale * area_y;
+      part.a[i + 2] += scale * area_z;
+    }
+  }
+  return true;
+}
+
+/// Gravity, and the drag that loses the share rho_g of the velocity in 1/60 s (ERRATA row 5).
+void set_gravity_and_drag(const sim::SoftBody& body, const sim::Vec3& gravity, const Part& part) {
+  const double gamma = -60.0 * std::log(1.0 - body.material.rho_g);
+  const int vertices = body.mesh->topology.vertex_count();
+  for (int i = 0; i < 3 * vertices; ++i) part.a[i] = gravity[i % 3] - gamma * part.v[i];
+}
+
+/// 1 (`uniform`), or springs of the vertex / mean springs (`valence`).
+std::vector<double> pressure_weights(const sim::SoftBody& body) {
+  const auto vertices = static_cast<std::size_t>(body.mesh->topology.vertex_count());
+  if (body.material.pressure == sim::PressureWeighting::uniform) {
+    return std::vector<double>(vertices, 1.0);
+  }
+  std::vector<double> springs(vertices, 0.0);
+  double ends = 0.0;
+  for (const auto& edge : body.mesh->topology.edges()) {
+    for (const int vertex : edge) {
+      springs[static_cast<std::size_t>(vertex)] += 1.0;
+      ends += 1.0;
+    }
+  }
+  const double mean = ends / static_cast<double>(vertices);
+  for (double& weight : springs) weight /= mean;
+  return springs;
+}
+
+}  // namespace
+
+ReferenceEquation::ReferenceEquation(std::span<const sim::SoftBody> bodies,
+                                     const sim::Vec3& gravity)
+    : bodies_(bodies), gravity_(gravity) {
+  for (const sim::SoftBody& body : bodies) {
+    if (body.material.damping == sim::Damping::literal) {
+      throw std::invalid_argument("literal damping is no differential equation");
+    }
+    pressure_weights_.push_back(pressure_weights(body));
+    vertices_ += static_cast<std::size_t>(body.mesh->topology.vertex_count());
+  }
+}
+
+bool ReferenceEquation::operator()(const double* state, double* derivative) const {
+  const std::size_t velocities = 3 * vertices_;
+  for (std::size_t i = 0; i < velocities; ++i) derivative[i] = state[velocities + i];
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const sim::SoftBody& body = bodies_[b];
+    const Part part{state + first, state + velocities + first, derivative + velocities + first};
+    set_gravity_and_drag(body, gravity_, part);
+    add_springs(body, part);
+    if (!add_pressure(body, pressure_weights_[b], part)) return false;
+    first += static_cast<std::size_t>(3 * body.mesh->topology.vertex_count());
+  }
+  return true;
+}
+
+std::vector<double> flat_state(std::span<const sim::SoftBody> bodies) {
+  std::vector<double> state;
+  for (const auto array : {&sim::SoftBody::positions, &sim::SoftBody::velocities}) {
+    for (const sim::SoftBody& body : bodies) {
+      for (int v = 0; v < (body.*array).size(); ++v) {
+        for (const double value : sim::Vec3((body.*array)[v])) state.push_back(value);
+      }
+    }
+  }
+  return state;
+}
+
+void read_flat_state(std::span<const double> state, std::span<sim::SoftBody> bodies) {
+  std::size_t next = 0;
+  for (const auto array : {&sim::SoftBody::positions, &sim::SoftBody::velocities}) {
+    for (sim::SoftBody& body : bodies) {
+      for (int v = 0; v < (body.*array).size(); ++v) {
+        (body.*array)[v] = sim::Vec3(state[next], state[next + 1], state[next + 2]);
+        next += 3;
+      }
+    }
+  }
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,15 @@
+// The integrators by the words that scene files have for them.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "sim/world.h"
+
+namespace pneuma::scenes {
+
+/// All there are, each once.
+std::span<const std::pair<sim::Integrator, std::string_view>> integrator_names();
+
+}  // namespace pneuma::scenes
