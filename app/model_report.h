@@ -7,7 +7,7 @@ namespace pneuma::app {
 
 struct ModelReport {
   int vertices_before = 0;  // of the whole file
-  int vertices_welded = 0;  // of the whole file
+  int vertices_welded = 0;  // of all triangles of the file
   int vertices = 0;         // of the component kept, as all that follows
   int edges = 0;
   int triangles = 0;

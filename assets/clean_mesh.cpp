@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "assets/check_surface.h"
@@ -43,9 +44,7 @@ void check_input(const sim::TriangleMesh& mesh) {
 
 double diagonal(const sim::TriangleMesh& mesh) {
   sim::Bounds box;
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const int v : triangle) box.include(mesh.vertices[at(v)]);
-  }
+  for (const Vec3& vertex : mesh.vertices) box.include(vertex);
   const double greatest = box.size().maxCoeff();
   if (!(greatest <= greatest_extent)) {
     throw ModelError(
@@ -64,8 +63,8 @@ class Cleaner {
 
   CleanModel clean() {
     check_input(model_.mesh);
-    result_.vertices_before = static_cast<int>(model_.mesh.vertices.size());
-    weld_distance_ = weld_tolerance * diagonal(model_.mesh);
+    number();
+    weld_distance_ = weld_tolerance * diagonal(work_.mesh);
     weld_vertices();
     drop_triangles();
     keep_component();
@@ -77,24 +76,34 @@ class Cleaner {
  private:
   void say(std::string mended) { result_.mended.push_back(std::move(mended)); }
 
+  /// Vertices without triangles go at once: they may lie anywhere, and welding counts from the
+  /// first vertex in steps that the triangles' extent gives.
+  void number() {
+    work_.mesh = model_.mesh;
+    work_.vertex_number.resize(work_.mesh.vertices.size());
+    work_.triangle_number.resize(work_.mesh.triangles.size());
+    std::iota(work_.vertex_number.begin(), work_.vertex_number.end(), 0);
+    std::iota(work_.triangle_number.begin(), work_.triangle_number.end(), 0);
+    result_.vertices_before = static_cast<int>(work_.mesh.vertices.size());
+    lonely_vertices_ = compact();
+  }
+
   void weld_vertices() {
-    const Weld welded = weld(model_.mesh.vertices, weld_distance_);
+    const Weld welded = weld(work_.mesh.vertices, weld_distance_);
+    const std::size_t before = work_.mesh.vertices.size();
+    const std::size_t after = welded.vertices.size();
+    std::size_t count = 0;
+    for (std::size_t v = 0; v < before; ++v) {
+      const bool is_kept = at(welded.new_index[v]) == count;
+      if (is_kept) work_.vertex_number[count++] = work_.vertex_number[v];
+    }
+    work_.vertex_number.resize(after);
     work_.mesh.vertices = welded.vertices;
-    const int before = result_.vertices_before;
-    for (int v = 0; v < before; ++v) {
-      const bool is_kept = welded.new_index[at(v)] == static_cast<int>(work_.vertex_number.size());
-      if (is_kept) work_.vertex_number.push_back(v);
-    }
-    for (std::size_t t = 0; t < model_.mesh.triangles.size(); ++t) {
-      Triangle triangle = model_.mesh.triangles[t];
+    for (Triangle& triangle : work_.mesh.triangles) {
       for (int& v : triangle) v = welded.new_index[at(v)];
-      work_.mesh.triangles.push_back(triangle);
-      work_.triangle_number.push_back(static_cast<int>(t));
     }
-    result_.vertices_welded = static_cast<int>(welded.vertices.size());
-    if (result_.vertices_welded < before) {
-      say(fmt::format("{} vertices welded to {}", before, result_.vertices_welded));
-    }
+    result_.vertices_welded = static_cast<int>(after);
+    if (after < before) say(fmt::format("{} vertices welded to {}", before, after));
   }
 
   /// Those for which `keep` says true, in their order.
@@ -132,17 +141,13 @@ class Cleaner {
       say(counted(proper - single, "duplicate triangle", "duplicate triangles") + " dropped");
     }
     if (single == 0) throw ModelError("the model has no triangles that are not degenerate");
-    drop_lonely_vertices();
-  }
-
-  /// Vertices without triangles, so that what is left is numbered without gaps.
-  void drop_lonely_vertices() {
-    const int dropped = compact();
-    if (dropped > 0) {
-      say(counted(at(dropped), "vertex", "vertices") + " without triangles dropped");
+    lonely_vertices_ += compact();
+    if (lonely_vertices_ > 0) {
+      say(counted(at(lonely_vertices_), "vertex", "vertices") + " without triangles dropped");
     }
   }
 
+  /// Numbers the vertices that triangles have without gaps; returns how many others there were.
   int compact() {
     const std::size_t before = work_.mesh.vertices.size();
     std::vector<int> new_index(before, -1);
@@ -288,6 +293,7 @@ class Cleaner {
   const CleanOptions& options_;
   NumberedMesh work_;
   double weld_distance_ = 0.0;
+  int lonely_vertices_ = 0;
   CleanModel result_;
 };
 

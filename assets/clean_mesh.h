@@ -36,16 +36,16 @@ struct CleanModel {
   std::vector<Component> components;
   int kept = 0;             // index into components
   int vertices_before = 0;  // of the whole file
-  int vertices_welded = 0;  // of the whole file, after welding
+  int vertices_welded = 0;  // of all triangles of the file, after welding
 };
 
 /// Greatest and least diagonal of a scaled model's bounding box, in metres: what scenes can show.
 inline constexpr double largest_model = 1e6;
 inline constexpr double smallest_model = 1e-6;
 
-/// Mends what can be mended without a guess: welds vertices (weld.h), drops triangles with a vertex
-/// twice, triangles that are there twice and vertices without triangles, leaves out all but one
-/// component, turns triangles so that all face outwards. Then scales, turns and centres.
+/// Mends what can be mended without a guess: drops vertices without triangles, welds vertices
+/// (weld.h), drops triangles with a vertex twice and triangles that are there twice, leaves out all
+/// but one component, turns triangles so that all face outwards. Then scales, turns and centres.
 ///
 /// Throws ModelError for all else, with counts, up to five places and what to do: no triangles,
 /// indices out of range, coordinates that are not finite, too large or too small, too many

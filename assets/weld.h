@@ -18,7 +18,8 @@ struct Weld {
 };
 
 /// Every vertex becomes the first one before it that is no further than `distance` and that is
-/// itself kept, or is kept. `distance` > 0, coordinates finite.
+/// itself kept, or is kept. `distance` > 0, coordinates finite and within 1e15 distances of each
+/// other, so that they can be counted.
 Weld weld(const std::vector<Vec3>& vertices, double distance);
 
 }  // namespace pneuma::assets

@@ -64,6 +64,22 @@ TEST(CleanMesh, DropsWhatIsThereTwiceOrNotAtAll) {
                                    "1 vertex without triangles dropped"}));
 }
 
+TEST(CleanMesh, AVertexWithoutTrianglesMayLieAnywhere) {
+  // So far away that, counted from there, the cube's corners are all in one place; and so far that
+  // the way cannot be counted in welding distances.
+  for (const double distance : {1e20, 1e64, 1e308}) {
+    sim::TriangleMesh mesh = cube();
+    mesh.vertices.insert(mesh.vertices.begin(), {distance, 0.0, 0.0});
+    for (Triangle& triangle : mesh.triangles) {
+      for (int& v : triangle) ++v;
+    }
+    const CleanModel model = clean(mesh, {.centre = false});
+    EXPECT_EQ(model.mesh.vertices, cube().vertices);
+    EXPECT_EQ(model.mesh.triangles, cube().triangles);
+    EXPECT_EQ(model.mended, Strings{"1 vertex without triangles dropped"});
+  }
+}
+
 TEST(CleanMesh, KeepsTheOnlyClosedComponent) {
   sim::TriangleMesh lid = moved(cube(), {10.0, 0.0, 0.0});
   lid.triangles.resize(2);
