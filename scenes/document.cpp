@@ -114,7 +114,7 @@ Table parse_document(std::string_view text, int override_index) {
   try {
     return Converter(override_index).table(toml::parse(ascii));
   } catch (const toml::parse_error& error) {
-    throw SyntaxError(origin_of(error.source(), override_index), std::string(error.description()));
+    throw SyntaxError(origin_of(error.source(), override_index), printable(error.description()));
   } catch (const std::logic_error&) {
     throw SyntaxError({1, 1, override_index}, "this is not TOML, and the parser cannot tell where");
   }

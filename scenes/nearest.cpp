@@ -66,22 +66,26 @@ std::string suggestion_and_all(std::string_view name,
   return fmt::format("{} allowed: {}", near.empty() ? ";" : near, fmt::join(candidates, ", "));
 }
 
-std::string in_quotes(std::string_view text) {
-  std::size_t length = std::min(text.size(), longest_quote);
-  const auto inside_letter = [&](std::size_t i) {  // UTF-8 continues with bytes 10xxxxxx
-    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0u) == 0x80u;
-  };
-  while (length > 0 && inside_letter(length)) --length;
-  std::string result = "'";
-  for (const char c : text.substr(0, length)) {
+std::string printable(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 || byte == 0x7f)
       result += fmt::format("\\x{:02x}", byte);
     else
       result += c;
   }
-  result += length < text.size() ? "...'" : "'";
   return result;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::size_t length = std::min(text.size(), longest_quote);
+  const auto inside_letter = [&](std::size_t i) {  // UTF-8 continues with bytes 10xxxxxx
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0u) == 0x80u;
+  };
+  while (length > 0 && inside_letter(length)) --length;
+  return fmt::format("'{}{}'", printable(text.substr(0, length)),
+                     length < text.size() ? "..." : "");
 }
 
 }  // namespace pneuma::scenes

@@ -24,7 +24,10 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
 std::string suggestion_and_all(std::string_view name,
                                const std::vector<std::string_view>& candidates);
 
-/// `text` in single quotes, fit for a terminal: control characters escaped, long text cut.
+/// `text` fit for a terminal: control characters escaped.
+std::string printable(std::string_view text);
+
+/// The same in single quotes, long text cut.
 std::string in_quotes(std::string_view text);
 
 }  // namespace pneuma::scenes

@@ -113,7 +113,10 @@ class Override {
       const std::string name = walked.empty() ? path[i] : walked + "." + path[i];
       const bool last = i + 1 == path.size();
       if (!is_table(name)) {
-        if (!last) throw Refusal{fmt::format("{} is a key, and has no keys of its own", name)};
+        if (!last) {
+          throw Refusal{fmt::format("{} is no table, and has no keys of its own{}", in_quotes(name),
+                                    suggestion(name, table_names_))};
+        }
         put(*table, path[i], value_, false);
         return;
       }

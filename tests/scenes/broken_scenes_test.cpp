@@ -81,6 +81,7 @@ const std::vector<Broken> documents = {
     {"key_beyond_ascii", "gr\xc3\xb6sse = 1\n[[body]]\n", 1, 3, {"ASCII"}},
     {"string_of_several_lines", "title = \"\"\"\\\nx\"\"\"\n[[body]]\n", 1, 9, {"several lines"}},
     {"literal_of_several_lines", "title = '''\nx'''\n[[body]]\n", 1, 9, {"several lines"}},
+    {"tab_in_a_word", "shadows = tru\te\n[[body]]\n", 1, 14, {"saw 'tru\\x09'"}},
     {"header_without_a_name", "[[body]]\n [ &", 2, 4, {"table's name"}},
     {"header_of_nothing", "[[body]]\n[]", 2, 2, {"blank"}},
     {"body_with_one_bracket", "[body]\nk = 1\n", 1, 2, {"[[body]]", "two brackets"}},

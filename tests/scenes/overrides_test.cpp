@@ -129,7 +129,10 @@ TEST(Overrides, PathsThatLeadNowhere) {
   expect_refusal("body=1", {"body.KEY=VALUE"});
   expect_refusal("camera=1", {"camera is a table"});
   expect_refusal("simulation.particles=1", {"simulation.particles is a table"});
-  expect_refusal("simulation.seed.x=1", {"simulation.seed is a key"});
+  expect_refusal("simulation.seed.x=1", {"'simulation.seed' is no table"});
+  expect_refusal("simulation.partcles.max_sweeps=1",
+                 {"no table", "did you mean 'simulation.particles'?"});
+  expect_refusal("simulation.\x1b[2J.x=1", {"'simulation.\\x1b[2J' is no table"});
 }
 
 TEST(Overrides, ValuesThatAreNone) {
