@@ -1,7 +1,12 @@
 #include "app/draw_frames.h"
 
 #include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "app/background.h"
 #include "app/interrupt.h"
 #include "app/run_record.h"
 #include "render/image/file.h"
@@ -27,33 +32,62 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// A frame that is drawn, and what is to become of it.
+struct DrawnFrame {
+  render::Image picture;
+  std::optional<render::Image> overlay;
+  std::int64_t number = 0;
+  FrameState state;
+  std::vector<std::uint8_t> checkpoint;
+  FrameSeconds seconds;
+};
+
+/// Draws frames and hands them to a thread that encodes and writes them while the next is made.
+/// The order of files, journal and checkpoint stays what it is without that thread.
 class FrameWriter {
  public:
   explicit FrameWriter(const FrameOutput& output) : output_(output) {}
 
   void write(const Simulation& simulation) {
-    const RunFolder& folder = output_.folder;
-    const std::int64_t frame = simulation.frame();
-    FrameSeconds seconds;
-    PictureBytes bytes;
-    bytes.frame = draw(simulation, output_.pictures.show, folder.frame(frame), seconds);
-    if (output_.pictures.overlay) {
-      bytes.overlay = draw(simulation, *output_.pictures.overlay, folder.overlay(frame), seconds);
-    }
-    seconds.total = since_last_frame_.lap();
-    output_.journal.append(recorder_.line(simulation, bytes, seconds));
-    render::write_file_atomically(folder.state().string(), sim::save_state(simulation.world()));
+    const auto frame = std::make_shared<DrawnFrame>();
+    frame->number = simulation.frame();
+    Stopwatch watch;
+    frame->picture = draw(simulation, output_.pictures.show);
+    if (output_.pictures.overlay) frame->overlay = draw(simulation, *output_.pictures.overlay);
+    frame->seconds.draw = watch.lap();
+    frame->state = recorder_.state(simulation);
+    frame->checkpoint = sim::save_state(simulation.world());
+    frame->seconds.total = since_last_frame_.lap();
+    finishing_.submit([this, frame] { finish(*frame); });
   }
 
+  /// Waits until everything is on disk.
+  void wait() { finishing_.finish(); }
+
  private:
-  /// Returns the size of the file.
-  std::size_t draw(const Simulation& simulation, Show show, const std::filesystem::path& file,
-                   FrameSeconds& seconds) {
-    Stopwatch watch;
+  render::Image draw(const Simulation& simulation, Show show) {
+    render::Image image;
     output_.renderer.draw(
-        output_.builder.build(simulation.world(), simulation.stepper().contacts(), show), image_);
-    seconds.draw += watch.lap();
-    const std::vector<std::uint8_t> png = render::encode_png(image_);
+        output_.builder.build(simulation.world(), simulation.stepper().contacts(), show), image);
+    return image;
+  }
+
+  void finish(DrawnFrame& frame) const {
+    const RunFolder& folder = output_.folder;
+    PictureBytes bytes;
+    bytes.frame = save(frame.picture, folder.frame(frame.number), frame.seconds);
+    if (frame.overlay) {
+      bytes.overlay = save(*frame.overlay, folder.overlay(frame.number), frame.seconds);
+    }
+    output_.journal.append(frame_line(std::move(frame.state), bytes, frame.seconds));
+    render::write_file_atomically(folder.state().string(), frame.checkpoint);
+  }
+
+  /// Returns the size of the file.
+  static std::size_t save(const render::Image& image, const std::filesystem::path& file,
+                          FrameSeconds& seconds) {
+    Stopwatch watch;
+    const std::vector<std::uint8_t> png = render::encode_png(image);
     seconds.png += watch.lap();
     render::write_file_atomically(file.string(), png);
     seconds.write += watch.lap();
@@ -62,8 +96,8 @@ class FrameWriter {
 
   FrameOutput output_;
   FrameRecorder recorder_;
-  render::Image image_;
   Stopwatch since_last_frame_;
+  Background finishing_{1};  // the last member: it ends before what its jobs use
 };
 
 }  // namespace
@@ -89,6 +123,8 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
     throw_if_interrupted();
     simulation.advance_frame();
   }
+  writer.wait();
+  state.elapsed += watch.lap();
   progress.say(summary_line(state));
 }
 

@@ -1,8 +1,10 @@
 #include "app/measure_frames.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "app/background.h"
 #include "app/build_frame.h"
 #include "render/image/png.h"
 #include "render/renderer.h"
@@ -13,7 +15,8 @@ namespace {
 // The first ones upload meshes, and llvmpipe compiles what it draws with.
 constexpr int warm_up_frames = 3;
 
-/// One list of seconds for each part of a frame, and for the whole.
+/// One list of seconds for each part of a frame, and for the whole. `encode` is the other thread's
+/// until finish().
 struct Readings {
   std::vector<double> total, steps, build, draw, encode;
 };
@@ -36,37 +39,46 @@ class FrameMaker {
     const Clock::time_point stepped = Clock::now();
     const render::Frame frame = builder_.build(replay_.world());
     const Clock::time_point built = Clock::now();
-    renderer_.draw(frame, image_);
+    const auto image = std::make_shared<render::Image>();
+    renderer_.draw(frame, *image);
     const Clock::time_point drawn = Clock::now();
-    const std::vector<std::uint8_t> png = render::encode_png(image_);
-    const Clock::time_point encoded = Clock::now();
+    encoding_.submit([image, &readings] {
+      const Clock::time_point begin = Clock::now();
+      const std::vector<std::uint8_t> png = render::encode_png(*image);
+      readings.encode.push_back(seconds_since(begin));
+    });
+    const Clock::time_point handed_over = Clock::now();
 
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
       return std::chrono::duration<double>(to - from).count();
     };
-    readings.total.push_back(seconds(start, encoded));
+    readings.total.push_back(seconds(start, handed_over));
     readings.steps.push_back(seconds(start, stepped));
     readings.build.push_back(seconds(stepped, built));
     readings.draw.push_back(seconds(built, drawn));
-    readings.encode.push_back(seconds(drawn, encoded));
   }
+
+  /// Waits for the frames that are still being encoded.
+  void finish() { encoding_.finish(); }
 
  private:
   Replay& replay_;
   int steps_per_frame_;
   render::Renderer renderer_;
   FrameBuilder builder_;
-  render::Image image_;
+  Background encoding_{1};  // the last member: it ends before what its jobs use
 };
 
 }  // namespace
 
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
                           const render::Camera& camera, const Budget& budget) {
-  FrameMaker maker(replay, steps_per_frame, scene, camera);
   Readings ignored, readings;
+  FrameMaker maker(replay, steps_per_frame, scene, camera);
   for (int i = 0; i < warm_up_frames; ++i) maker.make(ignored);
+  maker.finish();
   while (budget.more(static_cast<std::int64_t>(readings.total.size()))) maker.make(readings);
+  maker.finish();
 
   FrameTimes times;
   times.frames = static_cast<std::int64_t>(readings.total.size());

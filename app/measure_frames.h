@@ -11,7 +11,8 @@
 
 namespace pneuma::app {
 
-/// Frames of the paper: 1/60 s of the scene's time, drawn and encoded as PNG to memory.
+/// Frames of the paper: 1/60 s of the scene's time, drawn and encoded as PNG to memory, as
+/// `pneuma render` does it: a second thread encodes while the next frame is made.
 struct FrameTimes {
   std::int64_t frames = 0;
   int width = 0;  // pixels

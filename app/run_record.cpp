@@ -131,8 +131,7 @@ Json launch_line(const std::vector<std::string>& command_line, int threads, std:
             {"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}}}}};
 }
 
-Json FrameRecorder::line(const Simulation& simulation, const PictureBytes& bytes,
-                         const FrameSeconds& seconds) {
+FrameState FrameRecorder::state(const Simulation& simulation) {
   const sim::World& world = simulation.world();
   Json times = Json::object();
   const sim::StageTimes& stage_times = simulation.stepper().stage_times();
@@ -142,10 +141,6 @@ Json FrameRecorder::line(const Simulation& simulation, const PictureBytes& bytes
         stage_times[stage] - stage_times_[stage];
   }
   stage_times_ = stage_times;
-  times["draw"] = seconds.draw;
-  times["png"] = seconds.png;
-  times["write"] = seconds.write;
-  times["total"] = seconds.total;
 
   Json line = {{"frame", simulation.frame()},
                {"time", sim::time(world)},
@@ -155,9 +150,19 @@ Json FrameRecorder::line(const Simulation& simulation, const PictureBytes& bytes
                {"momentum", momentum_json(world)},
                {"volumes", volumes_json(world)},
                {"contacts", contacts_json(simulation.stepper().contacts())},
-               {"greatest_penetration", number_json<Json>(sim::greatest_penetration(world))},
-               {"png_bytes", bytes.frame},
-               {"seconds", times}};
+               {"greatest_penetration", number_json<Json>(sim::greatest_penetration(world))}};
+  return {std::move(line), std::move(times)};
+}
+
+Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {
+  Json times = std::move(state.stage_seconds);
+  times["draw"] = seconds.draw;
+  times["png"] = seconds.png;
+  times["write"] = seconds.write;
+  times["total"] = seconds.total;
+  Json line = std::move(state.line);
+  line["png_bytes"] = bytes.frame;
+  line["seconds"] = std::move(times);
   if (bytes.overlay) line["overlay_png_bytes"] = *bytes.overlay;
   return line;
 }

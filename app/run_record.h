@@ -21,7 +21,7 @@ struct FrameSeconds {
   double draw = 0.0;
   double png = 0.0;
   double write = 0.0;
-  double total = 0.0;  // since the frame before, everything
+  double total = 0.0;  // since the frame before was drawn; the last frame's png and write go on
 };
 
 /// Sizes of a frame's files, by which a run that is continued knows them to be whole.
@@ -44,14 +44,23 @@ render::Camera camera_of(const Json& header);
 /// A line per time that the run is started or continued: where, when and how.
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);
 
+/// What a line says of a frame's state, taken before the simulation goes on.
+struct FrameState {
+  Json line;
+  Json stage_seconds;
+};
+
 /// Makes a line per frame.
 class FrameRecorder {
  public:
-  Json line(const Simulation& simulation, const PictureBytes& bytes, const FrameSeconds& seconds);
+  FrameState state(const Simulation& simulation);
 
  private:
   sim::StageTimes stage_times_ = {};  // up to the last line
 };
+
+/// The whole line, once the frame's files are there.
+Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds);
 
 /// "0x0123456789abcdef": JSON's numbers do not hold 64 bits everywhere.
 std::string hex(std::uint64_t value);
