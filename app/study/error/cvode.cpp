@@ -13,6 +13,10 @@
 namespace pneuma::app {
 namespace {
 
+/// From one sample to the next. More than any motion here takes; where the state loses its meaning
+/// CVODE would creep towards that moment for ever.
+constexpr long most_steps = 100'000;
+
 void require(int flag, const char* call) {
   if (flag >= 0) return;
   throw std::runtime_error(fmt::format("SUNDIALS: {} failed with {}", call, flag));
@@ -72,7 +76,7 @@ void Cvode::Memory::set_up(CvodeMethod method, const CvodeTolerances& tolerances
   require(CVodeSetErrFile(solver, nullptr), "CVodeSetErrFile");  // what fails is reported by us
   require(CVodeInit(solver, evaluate, 0.0, state), "CVodeInit");
   require(CVodeSetUserData(solver, this), "CVodeSetUserData");
-  require(CVodeSetMaxNumSteps(solver, -1), "CVodeSetMaxNumSteps");  // as many as it takes
+  require(CVodeSetMaxNumSteps(solver, most_steps), "CVodeSetMaxNumSteps");
 
   if (tolerances.absolute.size() != values.size()) {
     throw std::invalid_argument("CVODE needs an absolute tolerance per component");

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command_line.h"
+#include "app/errors.h"
 #include "app/find_scene.h"
 #include "app/progress.h"
 #include "app/provenance.h"
@@ -20,6 +21,8 @@
 
 namespace pneuma::app {
 namespace {
+
+constexpr std::size_t text_width = 118;
 
 /// The options as they were typed.
 struct Typed {
@@ -51,39 +54,67 @@ void write_files(const StudyFolder& folder, const ErrorStudy& study) {
   write_diagram(folder, study.name + "_step", step_diagram(study));
 }
 
+/// What has been found so far.
+struct Findings {
+  nlohmann::json scenes = nlohmann::json::array();
+  std::string text;
+  std::vector<std::string> warnings = timing_warnings(timing_conditions());
+  ExitCode code = ExitCode::done;
+};
+
+void study_scene(const scenes::Scene& scene, const ErrorOptions& options, const StudyFolder& folder,
+                 Progress& progress, Findings& findings) {
+  const auto say = [&](const std::string& what) {
+    progress.show(fmt::format("{}: {}", scene.name, what));
+  };
+  try {
+    const ErrorStudy study = study_errors(scene, options, say);
+    write_files(folder, study);
+    findings.scenes.push_back(error_json(study));
+    findings.text += error_text(study) + "\n";
+  } catch (const DivergenceError& error) {  // the other scenes are still worth measuring
+    findings.warnings.push_back(fmt::format("{} is missing: {}", scene.name, error.what()));
+    findings.code = ExitCode::diverged;
+  }
+}
+
+void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& folder,
+           const std::string& date, const Findings& findings) {
+  nlohmann::json report = provenance_json();
+  report.update({{"date", date},
+                 {"command", shell_line(typed.command_line)},
+                 {"repeats", options.repeats},
+                 {"warnings", findings.warnings},
+                 {"scenes", findings.scenes}});
+  const std::string json = report.dump(2) + "\n";
+  folder.write("error.json", json);
+  if (typed.json) {
+    fmt::print("{}", json);
+    return;
+  }
+  fmt::print("{}{}", findings.text, provenance_text(date));
+  for (const std::string& warning : findings.warnings) {
+    fmt::print("{}\n", wrapped(fmt::format("Warning: {}.", warning), text_width));
+  }
+}
+
 ExitCode study(const Typed& typed) {
-  std::vector<scenes::Scene>
-      scenes;  // all, so that a slip in the last one is seen before the first
+  // All are loaded first, so that a slip in the last one is seen before anything is measured.
+  std::vector<scenes::Scene> scenes;
   for (const std::string& name : typed.scenes) {
     scenes.push_back(scenes::load_scene(find_scene(name), typed.overrides));
   }
   const StudyFolder folder(typed.out);
   const ErrorOptions options = sweep(typed);
   const std::string date = utc_date();
-  const std::vector<std::string> warnings = timing_warnings(timing_conditions());
-
-  nlohmann::json report = provenance_json();
-  report.update({{"date", date},
-                 {"command", shell_line(typed.command_line)},
-                 {"warnings", warnings},
-                 {"repeats", options.repeats},
-                 {"scenes", nlohmann::json::array()}});
-  std::string text;
+  Findings findings;
   Progress progress(progress_style(typed.quiet));
   for (const scenes::Scene& scene : scenes) {
-    const ErrorStudy result = study_errors(
-        scene, options, [&](const std::string& what) { progress.show(scene.name + ": " + what); });
-    write_files(folder, result);
-    report["scenes"].push_back(error_json(result));
-    text += error_text(result) + "\n";
+    study_scene(scene, options, folder, progress, findings);
   }
-  folder.write("error.json", report.dump(2) + "\n");
-  text += provenance_text(date);
-  for (const std::string& warning : warnings)
-    text += wrapped("Warning: " + warning + ".", 118) + "\n";
-  fmt::print("{}", typed.json ? report.dump(2) + "\n" : text);
   progress.say("files in " + folder.path().string());
-  return ExitCode::done;
+  print(typed, options, folder, date, findings);
+  return findings.code;
 }
 
 }  // namespace

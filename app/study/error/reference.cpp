@@ -72,6 +72,19 @@ std::string limit(const Flight& flight) {
                "which no method can follow";
 }
 
+std::string nothing_known(const Runs& runs) {
+  for (const auto& solver : {&runs.best, &runs.second}) {
+    if (const std::string failure = (*solver)->failure(); !failure.empty()) {
+      return fmt::format("no motion to compare with: one of the two finest runs failed {}",
+                         failure);
+    }
+  }
+  return fmt::format(
+      "no motion to compare with: in the first {:.4g} s the two finest runs already "
+      "differ by more than {:.0e} of the rest radius",
+      sample_time(0), runs.agreement);
+}
+
 }  // namespace
 
 Reference make_reference(const Flight& flight, int finest_steps_per_second) {
@@ -92,12 +105,7 @@ Reference make_reference(const Flight& flight, int finest_steps_per_second) {
       reference.uncertainty = std::max(reference.uncertainty, difference);
     }
   }
-  if (known == 0) {
-    const std::string& failure = runs.best->failure();
-    throw DivergenceError(fmt::format("no motion to compare with: {}",
-                                      failure.empty() ? "the two finest runs differ from the start"
-                                                      : "the finest run failed " + failure));
-  }
+  if (known == 0) throw DivergenceError(nothing_known(runs));
   reference.trajectory.resize(known);
   reference.seconds = sample_time(known - 1);
   if (known < samples) reference.limit = limit(flight);

@@ -1,0 +1,63 @@
+#include "app/study/error/flight.h"
+
+#include <gtest/gtest.h>
+
+#include "app/errors.h"
+#include "tests/app/study/error/small_study.h"
+
+namespace pneuma::app {
+namespace {
+
+FlightOptions options(double seconds, bool free_flight = false, const std::string& body = "") {
+  return {.body = body, .free_flight = free_flight, .seconds = seconds};
+}
+
+const std::string low = "[[body]]\nname = \"low\"\nposition = [30, 0, 3.5]\n";
+const std::string box =
+    "[[body]]\nname = \"box\"\nkind = \"rigid\"\nposition = [-30, 0, 30]\nsize = [1, 1, 1]\n";
+
+TEST(Flight, IsFreeWhereNothingTouches) {
+  const Flight flight = prepare_flight(small_scene(box), options(0.5));
+  EXPECT_FALSE(flight.contacts);
+  EXPECT_EQ(flight.world.soft.size(), 1u);
+  EXPECT_TRUE(flight.world.rigid.empty());
+}
+
+TEST(Flight, HasContactsWhereSomethingTouches) {
+  const Flight flight = prepare_flight(small_scene(low + box), options(0.5));
+  EXPECT_TRUE(flight.contacts);
+  EXPECT_TRUE(flight.world.settings.ground);
+  EXPECT_EQ(flight.world.soft.size(), 2u);
+  EXPECT_EQ(flight.world.rigid.size(), 1u);
+}
+
+TEST(Flight, IsFreeWhereItIsAskedFor) {
+  const Flight flight = prepare_flight(small_scene(low + box), options(0.5, true));
+  EXPECT_FALSE(flight.contacts);
+  EXPECT_FALSE(flight.world.settings.ground);
+  EXPECT_EQ(flight.world.soft.size(), 2u);
+  EXPECT_TRUE(flight.world.rigid.empty());
+}
+
+TEST(Flight, CanBeOfOneBody) {
+  const Flight flight = prepare_flight(small_scene(low + box), options(0.5, false, "ball"));
+  EXPECT_FALSE(flight.contacts);
+  ASSERT_EQ(flight.world.soft.size(), 1u);
+  EXPECT_EQ(flight.world.soft[0].name, "ball");
+}
+
+TEST(Flight, LastsWholeSamplesAndNoLongerThanTheScene) {
+  EXPECT_DOUBLE_EQ(prepare_flight(small_scene(), options(0.5)).seconds, 7.0 / 15.0);
+  EXPECT_DOUBLE_EQ(prepare_flight(small_scene(), options(0.4)).seconds, 6.0 / 15.0);
+  EXPECT_DOUBLE_EQ(prepare_flight(small_scene(), options(5.0)).seconds, 1.0);
+  EXPECT_DOUBLE_EQ(prepare_flight(small_scene(), options(0.01)).seconds, 1.0 / 15.0);
+}
+
+TEST(Flight, RefusesWhatCannotBeStudied) {
+  EXPECT_THROW(prepare_flight(small_scene(), options(0.5, false, "bal")), UsageError);
+  EXPECT_THROW(prepare_flight(small_scene(box), options(0.5, true, "box")), UsageError);
+  EXPECT_THROW(prepare_flight(small_scene("damping = \"literal\"\n"), options(0.5)), UsageError);
+}
+
+}  // namespace
+}  // namespace pneuma::app
