@@ -13,6 +13,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   study->require_subcommand(1);
   add_error_study(*study, action, command_line);
   add_collision_study(*study, action, command_line);
+  add_growth_study(*study, action, command_line);
 }
 
 }  // namespace pneuma::app

@@ -46,13 +46,13 @@ class TrackedSearch {
     for (int i = 0; i < repeats && (i == 0 || least < repeat_below); ++i) {
       if (pair) *pair = before_;
       contacts_.clear();
-      const Clock::time_point start = Clock::now();
+      const double start = thread_seconds();
       if (pair) {
         find_by_particles(world, *pair);
       } else {
         sim::find_exact(world, first, second, exact_, contacts_);
       }
-      least = std::min(least, seconds_since(start));
+      least = std::min(least, thread_seconds() - start);
     }
     step_seconds_.back() += least;
     result_.contacts += static_cast<double>(contacts_.size());

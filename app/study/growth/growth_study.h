@@ -1,0 +1,38 @@
+// `pneuma study growth`: how the time of a step grows with the size of a scene.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/study/diagram.h"
+#include "app/study/power_law.h"
+
+namespace pneuma::app {
+
+struct GrowthPoint {
+  double size = 0.0;          // of what is varied
+  double step_seconds = 0.0;  // the processor's, median of a step: whatever else the machine does
+};
+
+/// One kind of scene in several sizes.
+struct GrowthSeries {
+  std::string name;  // "bodies"
+  std::vector<GrowthPoint> points;
+  PowerLaw law;  // step_seconds over size; an exponent of 1 is in proportion
+};
+
+struct GrowthOptions {
+  bool few = false;                // small sizes only
+  double seconds_per_point = 1.0;  // of measuring, and never fewer than ten steps
+};
+
+/// Vertices of one icosphere on the ground, soft spheres side by side on the ground, stacks of five
+/// cubes. Each runs half a second of its own time first. Throws DivergenceError and Interrupted.
+std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
+                                       const std::function<void(const std::string&)>& say);
+
+/// All series: time per step and size, over size.
+Diagram growth_diagram(const std::vector<GrowthSeries>& series);
+
+}  // namespace pneuma::app

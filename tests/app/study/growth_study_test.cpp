@@ -1,0 +1,41 @@
+#include "app/study/growth/growth_study.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pneuma::app {
+namespace {
+
+TEST(GrowthStudy, FitsTheTimesItMeasured) {
+  const std::vector<GrowthSeries> all =
+      study_growth({.few = true, .seconds_per_point = 0.01}, [](const std::string&) {});
+  ASSERT_EQ(all.size(), 3U);
+  for (const GrowthSeries& series : all) {
+    ASSERT_EQ(series.points.size(), 2U) << series.name;
+    const auto& [first, second] = std::pair(series.points[0], series.points[1]);
+    EXPECT_GT(first.step_seconds, 0.0);
+    EXPECT_LT(first.size, second.size);
+    // Two points determine the power; 1e-12 is rounding in its logarithms.
+    EXPECT_NEAR(
+        series.law.exponent,
+        std::log(second.step_seconds / first.step_seconds) / std::log(second.size / first.size),
+        1e-12);
+  }
+  EXPECT_EQ(all[0].points[0].size, 162.0);
+  EXPECT_EQ(all[1].points[1].size, 9.0);
+  EXPECT_EQ(all[2].points[1].size, 45.0);
+}
+
+TEST(GrowthStudy, TheDiagramNamesTheExponents) {
+  const GrowthSeries series{.name = "things",
+                            .points = {{1.0, 1e-6}, {10.0, 2e-5}},
+                            .law = {.exponent = 1.3, .factor = 1e-6}};
+  const Diagram diagram = growth_diagram({series});
+  ASSERT_EQ(diagram.series.size(), 1U);
+  EXPECT_EQ(diagram.series[0].name, "things: exponent 1.30");
+  EXPECT_DOUBLE_EQ(diagram.series[0].points[1].y, 2.0);  // 20 us for 10
+}
+
+}  // namespace
+}  // namespace pneuma::app
