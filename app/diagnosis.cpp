@@ -117,6 +117,15 @@ Finding check_ffmpeg() {
           .remedy = "sudo apt-get install ffmpeg"};
 }
 
+Finding check_gnuplot() {
+  const auto path = find_program("gnuplot");
+  if (path) return {.subject = "gnuplot", .detail = *path};
+  return {.subject = "gnuplot",
+          .state = State::missing,
+          .detail = "not found, so pneuma study writes its diagrams as scripts only",
+          .remedy = "sudo apt-get install gnuplot-nox"};
+}
+
 /// Those of the instruction sets that matter here.
 Finding check_processor() {
   const Machine here = machine();
@@ -192,7 +201,8 @@ std::vector<Finding> diagnose() {
   render::Image picture;
   std::vector<Finding> findings = {check_gl(picture)};
   findings.push_back(check_png(std::move(picture)));
-  for (auto* check : {check_scenes, check_ffmpeg, check_processor, check_build, check_disk}) {
+  for (auto* check :
+       {check_scenes, check_ffmpeg, check_gnuplot, check_processor, check_build, check_disk}) {
     findings.push_back(check());
   }
   return findings;

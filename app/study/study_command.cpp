@@ -12,6 +12,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   CLI::App* study = app.add_subcommand("study", "Measure what choices cost and what they gain");
   study->require_subcommand(1);
   add_error_study(*study, action, command_line);
+  add_choices_study(*study, action, command_line);
   add_collision_study(*study, action, command_line);
   add_growth_study(*study, action, command_line);
 }

@@ -169,10 +169,11 @@ TEST(Doctor, EndsWith6WhereNoPngCanBeWritten) {
   EXPECT_NE(result.output.find("export TMPDIR="), std::string::npos);
 }
 
-TEST(Doctor, SaysHowToInstallFfmpeg) {
+TEST(Doctor, SaysHowToInstallWhatItCanDoWithout) {
   const ProgramResult result = run_pneuma("doctor", "PATH=/nonexistent");
-  EXPECT_EQ(result.exit_code, 0);  // only --video needs it
+  EXPECT_EQ(result.exit_code, 0);  // only render --video and the studies' diagrams need them
   EXPECT_NE(result.output.find("to mend it: sudo apt-get install ffmpeg"), std::string::npos);
+  EXPECT_NE(result.output.find("to mend it: sudo apt-get install gnuplot-nox"), std::string::npos);
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <exception>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +33,12 @@ Pointer require(Pointer pointer, const char* call) {
 
 std::string_view to_string(CvodeMethod method) {
   return method == CvodeMethod::adams ? "cvode_adams" : "cvode_bdf";
+}
+
+std::string sundials_version() {
+  std::array<char, 32> text = {};
+  require(SUNDIALSGetVersion(text.data(), static_cast<int>(text.size())), "SUNDIALSGetVersion");
+  return text.data();
 }
 
 struct Cvode::Memory {

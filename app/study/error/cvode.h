@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +17,9 @@ enum class CvodeMethod {
   bdf,    // orders 1 to 5, by Newton's method with matrix-free GMRES: stiff
 };
 std::string_view to_string(CvodeMethod method);
+
+/// "6.4.1".
+std::string sundials_version();
 
 /// Errors are kept below relative * |y| + absolute, per component and step.
 struct CvodeTolerances {

@@ -12,6 +12,7 @@
 #include "app/find_scene.h"
 #include "app/progress.h"
 #include "app/provenance.h"
+#include "app/study/error/cvode.h"
 #include "app/study/error/error_report.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
@@ -83,6 +84,7 @@ void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& f
   nlohmann::json report = provenance_json();
   report.update({{"date", date},
                  {"command", shell_line(typed.command_line)},
+                 {"sundials", sundials_version()},
                  {"repeats", options.repeats},
                  {"warnings", findings.warnings},
                  {"scenes", findings.scenes}});
@@ -92,7 +94,7 @@ void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& f
     fmt::print("{}", json);
     return;
   }
-  fmt::print("{}{}", findings.text, provenance_text(date));
+  fmt::print("{}{}CVODE: SUNDIALS {}.\n", findings.text, provenance_text(date), sundials_version());
   for (const std::string& warning : findings.warnings) {
     fmt::print("{}\n", wrapped(fmt::format("Warning: {}.", warning), text_width));
   }

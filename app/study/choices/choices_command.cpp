@@ -1,0 +1,125 @@
+// pneuma study choices: where this project departs from the paper, what that changes.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/build_world.h"
+#include "app/command_line.h"
+#include "app/find_scene.h"
+#include "app/progress.h"
+#include "app/provenance.h"
+#include "app/study/choices/choices_report.h"
+#include "app/study/error/error_report.h"
+#include "app/study/study_command.h"
+#include "app/table.h"
+#include "app/timing_conditions.h"
+#include "scenes/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+constexpr std::size_t text_width = 118;
+
+/// The options as they were typed.
+struct Typed {
+  std::string scene = "one_sphere";
+  std::vector<std::string> overrides;
+  std::string body;
+  std::string out = "out/study/choices";
+  bool is_short = false;
+  bool json = false;
+  bool quiet = false;
+  std::span<const std::string> command_line;
+};
+
+ChoicesStudy measure(const Typed& typed, const scenes::Scene& scene, Progress& progress) {
+  ErrorOptions sweep = typed.is_short ? short_sweep() : full_sweep();
+  sweep.tolerances.clear();
+  sweep.flight.free_flight = true;
+  sweep.flight.body = typed.body;
+  DriftOptions drift;
+  if (typed.is_short) drift = {.trials = 5, .seconds = 1.0};
+  const double damping_seconds = typed.is_short ? 0.4 : 2.0;
+
+  ChoicesStudy study;
+  const auto say = [&](const std::string& what) {
+    progress.show(fmt::format("{}: {}", scene.name, what));
+  };
+  study.integrators = study_errors(scene, sweep, say);
+  study.name = study.integrators.name;
+  study.title = scene.title;
+  const sim::SoftBody& body = study.integrators.flight.world.soft.front();
+  // At the scene's own step where that is shorter: it is what its springs need.
+  const int own_rate = scene.settings.steps_per_second;
+  while (drift.steps_per_second < own_rate) drift.steps_per_second *= 2;
+  say("drift");
+  study.drift = study_drift(body, drift);
+  say("damping");
+  study.damping = study_damping(body, sweep.steps_per_second, damping_seconds);
+  return study;
+}
+
+void write_files(const StudyFolder& folder, const ChoicesStudy& study) {
+  folder.write(study.name + "_drift.csv", drift_csv(study));
+  folder.write(study.name + "_damping.csv", damping_csv(study));
+  folder.write(study.name + "_martin.csv", martin_csv(study));
+  write_diagram(folder, study.name + "_drift", drift_diagram(study));
+  write_diagram(folder, study.name + "_damping", damping_diagram(study));
+  write_diagram(folder, study.name + "_integrators", work_diagram(study.integrators));
+}
+
+ExitCode study(const Typed& typed) {
+  scenes::Scene scene = scenes::load_scene(find_scene(typed.scene), typed.overrides);
+  // Whatever the scene chooses, both are measured; the integrators on the one that is an equation.
+  for (scenes::BodyScene& body : scene.bodies) body.material.damping = sim::Damping::dashpot;
+  const StudyFolder folder(typed.out);
+  const std::string date = utc_date();
+  const std::vector<std::string> warnings = timing_warnings(timing_conditions());
+  Progress progress(progress_style(typed.quiet));
+  const ChoicesStudy study = measure(typed, scene, progress);
+  write_files(folder, study);
+
+  nlohmann::json report = provenance_json();
+  report.update({{"date", date},
+                 {"command", shell_line(typed.command_line)},
+                 {"warnings", warnings},
+                 {"choices", choices_json(study)}});
+  const std::string json = report.dump(2) + "\n";
+  folder.write("choices.json", json);
+  progress.say("files in " + folder.path().string());
+  fmt::print("{}", typed.json ? json : choices_text(study) + "\n" + provenance_text(date));
+  for (const std::string& warning : warnings) {
+    if (!typed.json) fmt::print("{}\n", wrapped(fmt::format("Warning: {}.", warning), text_width));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_choices_study(CLI::App& study_command, Action& action,
+                       std::span<const std::string> command_line) {
+  const auto typed = std::make_shared<Typed>();
+  typed->command_line = command_line;
+  CLI::App* command = study_command.add_subcommand(
+      "choices", "What the paper's own forms do beside ours: pressure, damping, integrator");
+  command->add_option("scene", typed->scene, "A scene file or name [one_sphere]")
+      ->type_name("SCENE");
+  command->add_option("--set", typed->overrides, "Override a value of the scene, as body.k=200")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--body", typed->body, "This body of the scene [the first soft one]")
+      ->type_name("NAME");
+  command->add_flag("--short", typed->is_short, "Fewer steps, less time: to see that it works");
+  command->add_option("--out", typed->out, "Folder for tables and diagrams [out/study/choices]")
+      ->type_name("DIR");
+  command->add_flag("--json", typed->json, "JSON in place of text");
+  command->add_flag("--quiet", typed->quiet, "Say nothing while measuring");
+  command->callback([typed, &action] { action = [typed] { return study(*typed); }; });
+}
+
+}  // namespace pneuma::app
