@@ -119,7 +119,18 @@ class Checks {
       report_.add(reader_.origin({&body.colour_axis}, header),
                   "colour_axis has no direction; make one of its numbers other than 0");
     }
+    check_integrator(body, header);
     check_spacing(body, header);
+  }
+
+  void check_integrator(const BodyScene& body, Origin header) {
+    if (body.kind != BodyKind::soft) return;
+    const sim::Integrator& integrator = scene_.settings.integrator;
+    if (sim::can_integrate(integrator, body.material)) return;
+    report_.add(reader_.origin({&body.material.pressure, &integrator}, header),
+                "an implicit integrator minimises an energy, but valence pressure is not the "
+                "force of one; use pressure = \"uniform\", or an explicit integrator such as "
+                "\"rk4\"");
   }
 
   void check_spacing(const BodyScene& body, Origin header) {

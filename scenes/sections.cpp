@@ -32,6 +32,8 @@ constexpr std::array integrators = {
     Named<sim::Integrator>{sim::Integrator::symplectic_euler, "symplectic_euler"},
     Named<sim::Integrator>{sim::Integrator::velocity_verlet, "velocity_verlet"},
     Named<sim::Integrator>{sim::Integrator::rk4, "rk4"},
+    Named<sim::Integrator>{sim::Integrator::implicit_euler, "implicit_euler"},
+    Named<sim::Integrator>{sim::Integrator::sdirk2, "sdirk2"},
 };
 constexpr std::array soft_searches = {
     Named<sim::SoftSearch>{sim::SoftSearch::particles, "particles"},

@@ -15,7 +15,8 @@ namespace pneuma::sim {
 /// J/(mol K); the value of the author's program.
 inline constexpr double gas_constant = 8.314472;
 
-enum class Integrator { martin, symplectic_euler, velocity_verlet, rk4 };
+/// The last two are implicit: sim/soft/implicit_step.h.
+enum class Integrator { martin, symplectic_euler, velocity_verlet, rk4, implicit_euler, sdirk2 };
 
 /// How triangle pressure forces reach the vertices (ERRATA row 4).
 enum class PressureWeighting {
@@ -125,6 +126,14 @@ struct World {
   std::vector<RestingImpulse> resting_impulses;  // of the last step, ordered by (first, second)
   std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
 };
+
+inline bool is_implicit(Integrator integrator) {
+  return integrator == Integrator::implicit_euler || integrator == Integrator::sdirk2;
+}
+/// Implicit integrators minimise an energy, and `valence` pressure is not the force of one.
+inline bool can_integrate(Integrator integrator, const SoftMaterial& material) {
+  return !is_implicit(integrator) || material.pressure == PressureWeighting::uniform;
+}
 
 inline double time_step(const Settings& settings) { return 1.0 / settings.steps_per_second; }
 inline double time(const World& world) {

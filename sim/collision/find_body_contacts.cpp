@@ -27,9 +27,11 @@ RestingLengths resting_lengths(double shortest_side) {
 
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts) {
   const VertexArray& positions = world.soft[at(soft)].positions;
+  // The implicit integrators keep vertices above the ground: what they hold is at z = 0 exactly.
+  const bool held_at_zero = is_implicit(world.settings.integrator);
   for (int v = 0; v < positions.size(); ++v) {
     const double height = positions[v].z();
-    if (!(height < 0.0)) continue;
+    if (!(held_at_zero ? height <= 0.0 : height < 0.0)) continue;
     contacts.push_back({vertex_side(soft, v), {}, positions[v], Vec3::UnitZ(), -height});
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace pneuma::sim {
 namespace {
@@ -96,11 +97,13 @@ double rk4(const SoftAcceleration& acceleration, double h, const SoftState& star
 
 }  // namespace
 
-IntegratorScratch::IntegratorScratch(const SoftMesh& mesh)
+IntegratorScratch::IntegratorScratch(const SoftMesh& mesh, Integrator integrator)
     : acceleration(mesh),
       stage_acceleration(mesh.topology.vertex_count()),
       sum_a(mesh.topology.vertex_count()),
-      sum_v(mesh.topology.vertex_count()) {}
+      sum_v(mesh.topology.vertex_count()) {
+  if (is_implicit(integrator)) implicit = std::make_unique<ImplicitScratch>(mesh);
+}
 
 double integrate(Integrator integrator, const SoftAcceleration& acceleration, double step,
                  const SoftState& start, VertexArray& positions, VertexArray& velocities,
@@ -112,6 +115,9 @@ double integrate(Integrator integrator, const SoftAcceleration& acceleration, do
       return symplectic_euler(acceleration, step, start, positions, velocities, scratch);
     case Integrator::velocity_verlet:
       return velocity_verlet(acceleration, step, start, positions, velocities, scratch);
+    case Integrator::implicit_euler:
+    case Integrator::sdirk2:
+      throw std::logic_error("implicit integrators are stepped by implicit_step()");
     case Integrator::rk4:
       break;
   }

@@ -1,27 +1,27 @@
-// The explicit integrators of one soft body over one step.
+// The explicit integrators of one soft body over one step. (The others: implicit_step.h.)
 #pragma once
 
+#include <memory>
+
 #include "sim/soft/acceleration.h"
+#include "sim/soft/implicit_step.h"
+#include "sim/soft/soft_state.h"
 
 namespace pneuma::sim {
 
-/// Memory for a step of any integrator on meshes of one shape.
+/// Memory for a step of one integrator on meshes of one shape.
 struct IntegratorScratch {
-  explicit IntegratorScratch(const SoftMesh& mesh);
+  /// Refers to the mesh, which must outlive it.
+  IntegratorScratch(const SoftMesh& mesh, Integrator integrator);
 
   AccelerationScratch acceleration;
   VertexArray stage_acceleration, sum_a, sum_v;
+  std::unique_ptr<ImplicitScratch> implicit;  // of implicit integrators
 };
 
-/// Positions and velocities of one body at one moment.
-struct SoftState {
-  VertexArray positions;   // m
-  VertexArray velocities;  // m/s
-};
-
-/// Writes into `positions` and `velocities` the state `step` seconds after `start`. Returns the
-/// least of the volumes at which the force was evaluated (see SoftAcceleration): not above zero, or
-/// not a number, when the step failed.
+/// An explicit one. Writes into `positions` and `velocities` the state `step` seconds after
+/// `start`. Returns the least of the volumes at which the force was evaluated (see
+/// SoftAcceleration): not above zero, or not a number, when the step failed.
 double integrate(Integrator integrator, const SoftAcceleration& acceleration, double step,
                  const SoftState& start, VertexArray& positions, VertexArray& velocities,
                  IntegratorScratch& scratch);

@@ -37,10 +37,17 @@ std::optional<Divergence> integrate(const World& world, SoftBody& body, SoftStat
   start.positions = body.positions;
   start.velocities = body.velocities;
   const Settings& settings = world.settings;
-  const SoftAcceleration acceleration(*body.mesh, body.material, settings.gravity,
-                                      scratch.acceleration);
-  const double least_volume = integrate(settings.integrator, acceleration, time_step(settings),
-                                        start, body.positions, body.velocities, scratch);
+  double least_volume = 0.0;
+  if (scratch.implicit) {
+    least_volume = implicit_step(*body.mesh, body.material, settings, start, body.positions,
+                                 body.velocities, *scratch.implicit)
+                       .volume;
+  } else {
+    const SoftAcceleration acceleration(*body.mesh, body.material, settings.gravity,
+                                        scratch.acceleration);
+    least_volume = integrate(settings.integrator, acceleration, time_step(settings), start,
+                             body.positions, body.velocities, scratch);
+  }
   if (body.material.damping == Damping::literal) {
     body.velocities.rows() *= 1.0 - literal_share(body.material);
   }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <stdexcept>
 
 #include "sim/step/stages.h"
 
@@ -32,9 +33,15 @@ SoftScratch make_soft_scratch(const World& world, int threads) {
   scratch.per_thread.resize(at(threads));
   std::map<const SoftMesh*, int> known;
   for (const SoftBody& body : world.soft) {
+    if (!can_integrate(world.settings.integrator, body.material)) {
+      throw std::invalid_argument(body.name +
+                                  ": implicit integrators cannot step valence pressure");
+    }
     const auto [entry, added] = known.try_emplace(body.mesh.get(), static_cast<int>(known.size()));
     if (added) {
-      for (auto& meshes : scratch.per_thread) meshes.emplace_back(*body.mesh);
+      for (auto& meshes : scratch.per_thread) {
+        meshes.emplace_back(*body.mesh, world.settings.integrator);
+      }
     }
     scratch.mesh_of_body.push_back(entry->second);
   }

@@ -38,13 +38,15 @@ struct StepWorkspace;
 /// identically. Results do not depend on the number of threads.
 class Stepper {
  public:
+  /// Throws std::invalid_argument for a body that the integrator cannot step (can_integrate).
   explicit Stepper(const World& world, StepperOptions options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
   Stepper& operator=(Stepper&&) noexcept;
 
   /// One step of the world this was made for. On divergence the world is left as the step found it:
-  /// in its last sound state. Allocates nothing once the number of contacts has peaked.
+  /// in its last sound state. Allocates nothing once the number of contacts has peaked (but see
+  /// sim/soft/vertex_matrix.h).
   [[nodiscard]] std::optional<Divergence> step(World& world);
 
   const Plan& plan() const;

@@ -110,6 +110,9 @@ void make_consistent(Scene& scene) {
       body.tube_radius = body.radius / 3.0;
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);
     }
+    if (!sim::can_integrate(scene.settings.integrator, body.material)) {
+      body.material.pressure = sim::PressureWeighting::uniform;
+    }
     if (body.shape == Shape::model && body.model.file.empty()) body.model.file = "a.ply";
     for (int axis = 0; axis < 3; ++axis) {
       if (body.spacing[axis] == 0.0) body.spacing[axis] = 1.0;
@@ -248,6 +251,10 @@ std::string_view expected_word(sim::Integrator integrator) {
       return "velocity_verlet";
     case sim::Integrator::rk4:
       return "rk4";
+    case sim::Integrator::implicit_euler:
+      return "implicit_euler";
+    case sim::Integrator::sdirk2:
+      return "sdirk2";
   }
   return "";
 }

@@ -1,0 +1,76 @@
+// One implicit Euler step of a soft body, on a ground or in the air, as a minimisation: what both
+// implicit integrators are made of (implicit_step.h says what is minimised, and why).
+#pragma once
+
+#include <vector>
+
+#include "sim/soft/minimise_energy.h"
+#include "sim/soft/soft_state.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// From where a step goes.
+struct EulerBase {
+  explicit EulerBase(const SoftMesh& mesh);
+
+  SoftState state;
+  std::vector<double> lengths;  // m, of the edges: by whose changes the dashpots act
+};
+
+void edge_lengths(const MeshTopology& topology, const VertexArray& positions,
+                  std::vector<double>& lengths);
+
+class EulerSolver {
+ public:
+  /// Refers to the mesh, which must outlive it. Takes memory for all that follows.
+  explicit EulerSolver(const SoftMesh& mesh);
+
+  /// For the following steps of a body. `friction` is Coulomb's coefficient against the ground.
+  void set_body(const SoftMaterial& material, const Vec3& gravity, double friction);
+  /// No ground, or at and above which height (m) each vertex is to stay.
+  void set_no_ground() { energy_.ground = false; }
+  void set_floor(int vertex, double height);
+
+  /// Of the vertices' springs.
+  double mean_rest_length() const { return mean_rest_length_; }
+
+  /// Steps `beta` seconds from `base`. `guess` is a place with V > 0 and not below the floor: the
+  /// energy where the step ends is at most what it is there.
+  void step(double beta, const EulerBase& base, const VertexArray& guess);
+
+  const VertexArray& positions() const { return positions_; }  // where the last step ended
+  bool is_on_floor(int vertex) const;
+  /// N, with which the ground held a vertex over the last step.
+  Vec3 ground_force(int vertex) const;
+
+  struct Effort {
+    int iterations = 0;
+    int factorizations = 0;
+    bool converged = true;
+  };
+  /// Of all steps since set_body().
+  const Effort& effort() const { return effort_; }
+
+ private:
+  void set_energy(double beta, const EulerBase& base);
+  void begin(const VertexArray& guess, bool from_here);
+  void raise_to_floor(VertexArray& positions) const;
+  double normal_force(int v) const { return minimiser_.floor_force(energy_, v); }
+  bool set_grip();
+  bool grip_has_changed() const;
+  void finish();
+  void hold_still_vertices();
+
+  const SoftMesh& mesh_;
+  EnergyMinimiser minimiser_;
+  StepEnergy energy_;
+  VertexArray positions_;
+  double mean_rest_length_;
+  SoftMaterial material_;
+  Vec3 gravity_ = Vec3::Zero();
+  double friction_ = 0.0;
+  Effort effort_;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,221 @@
+#include "sim/soft/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/mesh/measure.h"
+#include "sim/response/contact_side.h"
+#include "sim/soft/pressure_force.h"
+#include "sim/soft/spring_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of an energy's terms: the rounding in their sum.
+constexpr double energy_rounding = 1e-13;
+
+/// Of the mean rest length per step: slower is at rest.
+constexpr double still_share = 1e-10;
+
+/// sdirk2: the length of either part, and by how much more of what the first one changes the second
+/// one starts from.
+constexpr double part_of_step = 1.0 - 0.5 * std::numbers::sqrt2;
+constexpr double extrapolation = 1.0 + std::numbers::sqrt2;
+
+class ImplicitStep {
+ public:
+  ImplicitStep(const SoftMesh& mesh, const SoftMaterial& material, const Settings& settings,
+               const SoftState& start, ImplicitScratch& scratch)
+      : mesh_(mesh),
+        material_(material),
+        settings_(settings),
+        s_(scratch),
+        step_(time_step(settings)),
+        centre_(mean(start.positions)) {
+    take_start(start);
+    take_floor(start);
+  }
+
+  bool run(ImplicitReport& report) {
+    if (gas_strength(material_) > 0.0) {
+      report.volume = volume(mesh_.topology, s_.start.state.positions);
+      if (!(report.volume > 0.0)) return false;
+    }
+    start_energy_ = potential(s_.start.state.positions) + kinetic(s_.start.state.velocities);
+    if (!std::isfinite(start_energy_)) {
+      report.volume = std::numeric_limits<double>::quiet_NaN();
+      return false;
+    }
+    start_energy_ += energy_rounding * magnitude_;
+    report.by_euler = settings_.integrator == Integrator::sdirk2 && !sdirk2();
+    if (settings_.integrator == Integrator::implicit_euler || report.by_euler) implicit_euler();
+    report.energy_limited = limit_energy();
+    if (gas_strength(material_) > 0.0) {
+      report.volume = volume(mesh_.topology, s_.result.positions);
+    }
+    report.iterations = s_.solver.effort().iterations;
+    report.factorizations = s_.solver.effort().factorizations;
+    report.converged = s_.solver.effort().converged;
+    return true;
+  }
+
+  void write(VertexArray& positions, VertexArray& velocities) const {
+    for (int v = 0; v < positions.size(); ++v) {
+      positions[v] = s_.result.positions[v] + centre_;
+      velocities[v] = s_.result.velocities[v];
+      // What lifts off within the step keeps what pushed it: resolve_contacts will not see it.
+      if (s_.solver.is_on_floor(v)) {
+        velocities[v] -= s_.ground_impulse[v] / material_.vertex_mass;
+      }
+    }
+  }
+
+ private:
+  void take_start(const SoftState& start) {
+    for (int v = 0; v < start.positions.size(); ++v) {
+      s_.start.state.positions[v] = start.positions[v] - centre_;
+    }
+    s_.start.state.velocities.rows() = start.velocities.rows();
+    edge_lengths(mesh_.topology, s_.start.state.positions, s_.start.lengths);
+  }
+
+  void take_floor(const SoftState& start) {
+    if (!settings_.ground) {
+      s_.solver.set_body(material_, settings_.gravity, 0.0);
+      s_.solver.set_no_ground();
+      return;
+    }
+    s_.solver.set_body(material_, settings_.gravity,
+                       combine(material_.surface, *settings_.ground).friction);
+    // A vertex that is below the ground already is resolve_contacts' business.
+    for (int v = 0; v < start.positions.size(); ++v) {
+      s_.solver.set_floor(v, std::min(start.positions[v].z(), 0.0) - centre_.z());
+    }
+  }
+
+  double kinetic(const VertexArray& velocities) const {
+    return 0.5 * material_.vertex_mass * velocities.rows().squaredNorm();
+  }
+
+  /// Of springs, gas and gravity. Adds the sizes of the terms up in magnitude_.
+  double potential(const VertexArray& positions) {
+    const double springs = spring_energy(mesh_, positions, material_.k);
+    const double gas = gas_energy(material_, volume(mesh_.topology, positions));
+    const double gravity =
+        -material_.vertex_mass * positions.size() * settings_.gravity.dot(mean(positions));
+    magnitude_ = springs + std::abs(gas) + std::abs(gravity);
+    return springs + gas + gravity;
+  }
+
+  void implicit_euler() {
+    s_.ground_impulse.rows().setZero();
+    s_.solver.step(step_, s_.start, s_.start.state.positions);
+    take_ground_impulse(step_);
+    s_.result.positions.rows() = s_.solver.positions().rows();
+    s_.result.velocities.rows() =
+        (s_.result.positions.rows() - s_.start.state.positions.rows()) / step_;
+  }
+
+  /// False when the step must be left to implicit_euler.
+  bool sdirk2() {
+    const double part = part_of_step * step_;
+    s_.ground_impulse.rows().setZero();
+    s_.solver.step(part, s_.start, s_.start.state.positions);
+    take_ground_impulse(step_ - part);
+    if (hits_ground()) return false;
+    s_.middle.rows() = s_.solver.positions().rows();
+    extrapolate(part);
+    s_.solver.step(part, s_.extrapolated, s_.middle);
+    take_ground_impulse(part);
+    if (hits_ground()) return false;
+    s_.result.positions.rows() = s_.solver.positions().rows();
+    s_.result.velocities.rows() =
+        (s_.result.positions.rows() - s_.extrapolated.state.positions.rows()) / part;
+    return potential(s_.result.positions) <= start_energy_;
+  }
+
+  void extrapolate(double part) {
+    const SoftState& start = s_.start.state;
+    SoftState& ahead = s_.extrapolated.state;
+    const auto change = s_.middle.rows() - start.positions.rows();
+    ahead.positions.rows() = start.positions.rows() + extrapolation * change;
+    ahead.velocities.rows() =
+        start.velocities.rows() + extrapolation * (change / part - start.velocities.rows());
+    std::vector<double>& lengths = s_.extrapolated.lengths;
+    edge_lengths(mesh_.topology, s_.middle, lengths);
+    for (std::size_t e = 0; e < lengths.size(); ++e) {
+      lengths[e] = s_.start.lengths[e] + extrapolation * (lengths[e] - s_.start.lengths[e]);
+    }
+  }
+
+  /// The forces of the solver's last step act for so many seconds of the whole one.
+  void take_ground_impulse(double seconds) {
+    for (int v = 0; v < s_.ground_impulse.size(); ++v) {
+      s_.ground_impulse[v] += seconds * s_.solver.ground_force(v);
+    }
+  }
+
+  /// Whether the ground has pushed a vertex that was not at rest on it.
+  bool hits_ground() const {
+    if (!settings_.ground) return false;
+    const double still = still_share * s_.solver.mean_rest_length() / step_;
+    for (int v = 0; v < s_.ground_impulse.size(); ++v) {
+      if (s_.ground_impulse[v].z() == 0.0) continue;
+      if (s_.start.state.positions[v].z() + centre_.z() > 0.0) return true;
+      if (std::abs(s_.start.state.velocities[v].z()) > still) return true;
+    }
+    return false;
+  }
+
+  /// Cuts the velocities to what is left of the energy: those relative to the centre's, and only if
+  /// that is not enough, on the ground, its own too. Returns whether it was needed.
+  bool limit_energy() {
+    VertexArray& velocities = s_.result.velocities;
+    const double left = std::max(0.0, start_energy_ - potential(s_.result.positions));
+    if (kinetic(velocities) <= left) return false;
+    const Vec3 common = mean(velocities);
+    const double of_common = 0.5 * material_.vertex_mass * velocities.size() * common.squaredNorm();
+    const bool keep = of_common <= left;
+    if (keep) {
+      for (int v = 0; v < velocities.size(); ++v) velocities[v] -= common;
+    }
+    velocities.rows() *= std::sqrt((keep ? left - of_common : left) / kinetic(velocities));
+    if (keep) {
+      for (int v = 0; v < velocities.size(); ++v) velocities[v] += common;
+    }
+    return true;
+  }
+
+  const SoftMesh& mesh_;
+  const SoftMaterial& material_;
+  const Settings& settings_;
+  ImplicitScratch& s_;
+  double step_;
+  Vec3 centre_;
+  double start_energy_ = 0.0;  // J, and its rounding on top
+  double magnitude_ = 0.0;     // J
+};
+
+}  // namespace
+
+ImplicitScratch::ImplicitScratch(const SoftMesh& mesh)
+    : solver(mesh),
+      start(mesh),
+      extrapolated(mesh),
+      middle(mesh.topology.vertex_count()),
+      result{VertexArray(mesh.topology.vertex_count()), VertexArray(mesh.topology.vertex_count())},
+      ground_impulse(mesh.topology.vertex_count()) {}
+
+ImplicitReport implicit_step(const SoftMesh& mesh, const SoftMaterial& material,
+                             const Settings& settings, const SoftState& start,
+                             VertexArray& positions, VertexArray& velocities,
+                             ImplicitScratch& scratch) {
+  ImplicitReport report;
+  ImplicitStep step(mesh, material, settings, start, scratch);
+  if (step.run(report)) step.write(positions, velocities);
+  return report;
+}
+
+}  // namespace pneuma::sim

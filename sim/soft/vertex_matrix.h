@@ -1,0 +1,69 @@
+// A symmetric matrix over the coordinates of a mesh's vertices, with a 3 x 3 block for every vertex
+// and every edge, and its sparse factors L D L^T.
+//
+// The vertices are put in an order of little fill (approximate minimum degree) and the pattern is
+// analysed once, when this is made. Up to 5,461 vertices factorize() keeps to the memory taken
+// then; above, Eigen's three temporary columns outgrow the stack (EIGEN_STACK_ALLOCATION_LIMIT, 128
+// KiB each) and are allocated each time.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <vector>
+
+#include "sim/mesh/topology.h"
+#include "sim/mesh/vertex_array.h"
+
+namespace pneuma::sim {
+
+class VertexMatrix {
+ public:
+  /// Refers to the topology, which must outlive it.
+  explicit VertexMatrix(const MeshTopology& topology);
+
+  /// `diagonal` times the identity.
+  void set_identity(double diagonal);
+
+  void add(int vertex, const Mat3& block);  // symmetric
+  /// The block of an edge in the rows of its first vertex and the columns of its second, and the
+  /// transposed one in its mirror place.
+  void add_between(int edge, const Mat3& block);
+
+  /// Adds to the whole diagonal.
+  void add_identity(double diagonal);
+  double greatest_diagonal() const;
+
+  /// Takes a coordinate out: its row and column become those of the identity.
+  void pin(int vertex, int axis);
+
+  /// L D L^T without pivoting. False when a pivot is zero.
+  [[nodiscard]] bool factorize();
+  /// Of the eigenvalues, as many are negative as of D (Sylvester's law of inertia).
+  int negative_count() const { return negative_count_; }
+
+  /// Puts the solution in the place of the right side. After a successful factorize().
+  void solve(VertexArray& values) const;
+
+ private:
+  using Sparse = Eigen::SparseMatrix<double>;
+
+  /// Of a matrix whose columns are in their order already. What Eigen's own functions do, without
+  /// the copies of the matrix and of D that they allocate.
+  struct Factor : Eigen::SimplicialLDLT<Sparse, Eigen::Upper, Eigen::NaturalOrdering<int>> {
+    void factorize_in_order(const Sparse& matrix) { factorize_preordered<true>(matrix); }
+    Eigen::Index negative_count() const { return (m_diag.array() < 0.0).count(); }
+  };
+
+  void order();
+  void make_pattern();
+
+  const MeshTopology& topology_;
+  std::vector<int> place_;            // of each vertex in the order of elimination
+  std::vector<int> edge_offset_;      // of an edge's block in each column of its later vertex
+  std::vector<int> diagonal_offset_;  // of a vertex' own block in each of its columns
+  Sparse upper_;
+  Factor factor_;
+  int negative_count_ = 0;
+  mutable Eigen::VectorXd right_, solution_;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,218 @@
+// The pieces that implicit steps are made of: the energy's derivatives, the matrix, the minimiser.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+
+#include "sim/soft/minimise_energy.h"
+#include "sim/soft/vertex_matrix.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// A step's energy with every term in it, at a crumpled body of which some springs are stretched
+/// and some pressed, with vertices that friction holds, and others that slide.
+struct Case {
+  SoftBody body;
+  StepEnergy energy;
+  EnergyPoint point;
+
+  explicit Case(const TriangleMesh& mesh, double noise = 0.3)
+      : body(make_body(mesh)), energy(*body.mesh), point(*body.mesh) {
+    perturb(body, noise, 1);
+    point.positions.rows() = body.positions.rows();
+    energy.inertia = 200.0;
+    energy.target.rows() = body.mesh->rest_positions.rows();
+    energy.stiffness = 300.0;
+    energy.rest_lengths = body.mesh->rest_lengths;
+    energy.gas = 5000.0;
+    energy.friction = true;
+    energy.slip = 0.2;
+    energy.hold.rows() = body.mesh->rest_positions.rows();
+    std::fill(energy.grip.begin(), energy.grip.end(), 10.0);
+    EXPECT_TRUE(evaluate(*body.mesh, energy, point));
+  }
+
+  const SoftMesh& mesh() const { return *body.mesh; }
+  int size() const { return 3 * point.positions.size(); }
+
+  Eigen::VectorXd gradient() {
+    VertexArray rows(point.positions.size());
+    gradient_without_gas(mesh(), energy, point, rows);
+    rows.rows() -= pressure(energy, point) * point.volume_gradient.rows();
+    return flat(rows);
+  }
+
+  static Eigen::VectorXd flat(const VertexArray& values) {
+    Eigen::VectorXd result(3 * values.size());
+    for (int v = 0; v < values.size(); ++v) result.segment<3>(3 * v) = values[v];
+    return result;
+  }
+
+  /// `value` at a place moved by `h` along one coordinate.
+  template <class Function>
+  auto moved(int coordinate, double h, const Function& value) {
+    double& x = point.positions.rows()(coordinate % 3, coordinate / 3);
+    const double here = x;
+    x = here + h;
+    EXPECT_TRUE(evaluate(mesh(), energy, point));
+    const auto result = value();
+    x = here;
+    EXPECT_TRUE(evaluate(mesh(), energy, point));
+    return result;
+  }
+};
+
+TriangleMesh ball() { return make_sphere(3.0, 5, 6); }
+
+TEST(StepEnergy, GradientEqualsFiniteDifferences) {
+  Case c(ball());
+  const Eigen::VectorXd gradient = c.gradient();
+  const double h = 1e-5;
+  Eigen::VectorXd difference(c.size());
+  for (int i = 0; i < c.size(); ++i) {
+    const auto energy = [&] { return c.point.energy; };
+    difference[i] = (c.moved(i, h, energy) - c.moved(i, -h, energy)) / (2.0 * h);
+  }
+  // Truncation h^2 E''' / 6 about 1e-9 of the gradient's thousand N, rounding 1e-16 E / h = 1e-7 N.
+  EXPECT_LT((difference - gradient).norm() / gradient.norm(), 1e-8);
+}
+
+/// Column by column, from what the matrix makes of unit vectors when it is solved: M^-1 of it.
+Eigen::MatrixXd dense(const VertexMatrix& matrix, int vertices) {
+  Eigen::MatrixXd inverse(3 * vertices, 3 * vertices);
+  for (int i = 0; i < 3 * vertices; ++i) {
+    VertexArray unit(vertices);
+    unit.rows()(i % 3, i / 3) = 1.0;
+    matrix.solve(unit);
+    inverse.col(i) = Case::flat(unit);
+  }
+  return inverse.inverse();
+}
+
+Eigen::MatrixXd hessian_by_differences(Case& c) {
+  const double h = 1e-5;
+  Eigen::MatrixXd result(c.size(), c.size());
+  for (int i = 0; i < c.size(); ++i) {
+    const auto gradient = [&] { return c.gradient(); };
+    result.col(i) = (c.moved(i, h, gradient) - c.moved(i, -h, gradient)) / (2.0 * h);
+  }
+  return result;
+}
+
+TEST(StepEnergy, HessianEqualsFiniteDifferencesOfTheGradient) {
+  for (const double noise : {0.02, 0.3}) {
+    Case c(ball(), noise);
+    VertexMatrix matrix(c.mesh().topology);
+    hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
+                             matrix);
+    ASSERT_TRUE(matrix.factorize());
+    const Eigen::VectorXd area = Case::flat(c.point.volume_gradient);
+    const Eigen::MatrixXd whole =
+        dense(matrix, c.point.positions.size()) +
+        pressure(c.energy, c.point) / c.point.volume * area * area.transpose();
+    const Eigen::MatrixXd difference = hessian_by_differences(c);
+    EXPECT_LT((difference - whole).norm() / whole.norm(), 1e-7)
+        << noise;  // as above, inverted twice
+    // Sylvester's law, against the eigenvalues themselves.
+    const Eigen::MatrixXd sparse = dense(matrix, c.point.positions.size());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(sparse);
+    EXPECT_EQ(matrix.negative_count(), (solver.eigenvalues().array() < 0.0).count());
+  }
+}
+
+TEST(VertexMatrix, PinningTakesACoordinateOut) {
+  Case c(ball());
+  VertexMatrix matrix(c.mesh().topology);
+  hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
+                           matrix);
+  ASSERT_TRUE(matrix.factorize());
+  Eigen::MatrixXd expected = dense(matrix, c.point.positions.size());
+  for (const auto& [vertex, axis] : {std::pair{0, 2}, std::pair{7, 2}, std::pair{13, 0}}) {
+    matrix.pin(vertex, axis);
+    expected.row(3 * vertex + axis).setZero();
+    expected.col(3 * vertex + axis).setZero();
+    expected(3 * vertex + axis, 3 * vertex + axis) = 1.0;
+  }
+  ASSERT_TRUE(matrix.factorize());
+  const Eigen::MatrixXd pinned = dense(matrix, c.point.positions.size());
+  EXPECT_LT((pinned - expected).norm() / expected.norm(), 1e-10);  // inverted twice
+}
+
+/// What holds at a least value on or above the floor: no force but that of the floor, upwards.
+void expect_least(Case& c, EnergyMinimiser& minimiser) {
+  minimiser.update_gradient(c.energy);
+  c.point = minimiser.point();
+  const Eigen::VectorXd gradient = c.gradient();
+  for (int v = 0; v < c.point.positions.size(); ++v) {
+    const double floor_force = minimiser.floor_force(c.energy, v);
+    if (c.energy.ground) {
+      EXPECT_GE(c.point.positions[v].z(), c.energy.floor[at(v)]);
+    }
+    // N: the tolerance of 1e-10 m times a stiffness of some thousand N/m.
+    EXPECT_LT((gradient.segment<3>(3 * v) - Vec3(0.0, 0.0, floor_force)).norm(), 1e-5) << v;
+  }
+}
+
+TEST(EnergyMinimiser, EndsWhereNoForceIsLeftButThatOfTheFloor) {
+  for (const bool ground : {false, true}) {
+    for (const double noise : {0.02, 0.3, 1.5}) {
+      Case c(make_sphere(3.0, 8, 8), noise);
+      c.energy.ground = ground;
+      for (int v = 0; v < c.point.positions.size(); ++v) {
+        c.energy.floor[at(v)] = ground ? std::min(-2.0, c.point.positions[v].z()) : -1e9;
+        c.energy.target[v].z() -= 1.5;
+      }
+      ASSERT_TRUE(evaluate(c.mesh(), c.energy, c.point));
+      const double start = c.point.energy;
+      EnergyMinimiser minimiser(c.mesh());
+      minimiser.point() = c.point;
+      const MinimiserReport report = minimiser.minimise(c.energy, 1e-10);
+      EXPECT_TRUE(report.converged);
+      EXPECT_LT(minimiser.point().energy, start);
+      EXPECT_GT(minimiser.point().volume, 0.0);
+      expect_least(c, minimiser);
+    }
+  }
+}
+
+TEST(EnergyMinimiser, FindsTheOnlyMinimumOfSpringsInClosedForm) {
+  // Without gas and with rest lengths of zero E is quadratic: A (x - y) + s L x = 0, L the graph's
+  // Laplacian.
+  Case c(ball(), 0.3);
+  c.energy.gas = 0.0;
+  c.energy.friction = false;
+  std::fill(c.energy.rest_lengths.begin(), c.energy.rest_lengths.end(), 0.0);
+  ASSERT_TRUE(evaluate(c.mesh(), c.energy, c.point));
+  const int vertices = c.point.positions.size();
+  Eigen::MatrixXd system = c.energy.inertia * Eigen::MatrixXd::Identity(vertices, vertices);
+  for (const auto& [a, b] : c.mesh().topology.edges()) {
+    system(a, a) += c.energy.stiffness;
+    system(b, b) += c.energy.stiffness;
+    system(a, b) -= c.energy.stiffness;
+    system(b, a) -= c.energy.stiffness;
+  }
+  const Eigen::MatrixXd expected =
+      system.ldlt().solve(c.energy.inertia * c.energy.target.rows().transpose()).transpose();
+  EnergyMinimiser minimiser(c.mesh());
+  minimiser.point() = c.point;
+  EXPECT_LE(minimiser.minimise(c.energy, 1e-10).iterations, 2);
+  EXPECT_LT((minimiser.point().positions.rows() - expected).norm(), 1e-10);
+}
+
+TEST(EnergyMinimiser, ComesBackFromAVolumeOfAlmostNothing) {
+  // The pressure of 5,000 J in 1e-12 m^3 is that of the inside of the sun.
+  Case c(make_sphere(3.0, 8, 8), 0.0);
+  for (int v = 0; v < c.point.positions.size(); ++v) c.point.positions[v].z() *= 1e-14;
+  ASSERT_TRUE(evaluate(c.mesh(), c.energy, c.point));
+  ASSERT_LT(c.point.volume, 1e-12);
+  EnergyMinimiser minimiser(c.mesh());
+  minimiser.point() = c.point;
+  EXPECT_TRUE(minimiser.minimise(c.energy, 1e-10).converged);
+  expect_least(c, minimiser);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
