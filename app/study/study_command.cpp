@@ -4,8 +4,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "app/study/collision/collision_command.h"
-
 namespace pneuma::app {
 
 void add_study_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
@@ -15,6 +13,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_choices_study(*study, action, command_line);
   add_collision_study(*study, action, command_line);
   add_growth_study(*study, action, command_line);
+  add_extreme_study(*study, action, command_line);
 }
 
 }  // namespace pneuma::app

@@ -12,10 +12,13 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
 
 void add_error_study(CLI::App& study_command, Action& action,
                      std::span<const std::string> command_line);
-
 void add_choices_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
+void add_collision_study(CLI::App& study_command, Action& action,
+                         std::span<const std::string> command_line);
 void add_growth_study(CLI::App& study_command, Action& action,
                       std::span<const std::string> command_line);
+void add_extreme_study(CLI::App& study_command, Action& action,
+                       std::span<const std::string> command_line);
 
 }  // namespace pneuma::app

@@ -1,5 +1,4 @@
-#include "app/study/collision/collision_command.h"
-
+// pneuma study collision: its options, and what it leaves.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -14,6 +13,7 @@
 #include "app/find_scene.h"
 #include "app/provenance.h"
 #include "app/study/collision/collision_report.h"
+#include "app/study/study_command.h"
 #include "app/study/study_folder.h"
 #include "scenes/load_scene.h"
 
@@ -26,7 +26,7 @@ const std::vector<std::string> default_scenes = {"two_spheres_contact", "three_s
 struct Options {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  std::string out = "out/study_collision";
+  std::string out = "out/study/collision";
   std::string command_line;
   CollisionStudyOptions study;
 };
