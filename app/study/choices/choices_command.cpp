@@ -14,15 +14,13 @@
 #include "app/provenance.h"
 #include "app/study/choices/choices_report.h"
 #include "app/study/error/error_report.h"
+#include "app/study/report_text.h"
 #include "app/study/study_command.h"
-#include "app/table.h"
 #include "app/timing_conditions.h"
 #include "scenes/load_scene.h"
 
 namespace pneuma::app {
 namespace {
-
-constexpr std::size_t text_width = 118;
 
 /// The options as they were typed.
 struct Typed {
@@ -91,10 +89,9 @@ ExitCode study(const Typed& typed) {
   const std::string json = report.dump(2) + "\n";
   folder.write("choices.json", json);
   progress.say("files in " + folder.path().string());
-  fmt::print("{}", typed.json ? json : choices_text(study) + "\n" + provenance_text(date));
-  for (const std::string& warning : warnings) {
-    if (!typed.json) fmt::print("{}\n", wrapped(fmt::format("Warning: {}.", warning), text_width));
-  }
+  fmt::print("{}", typed.json ? json
+                              : choices_text(study) + "\n" + provenance_text(date) +
+                                    warnings_text(warnings));
   return ExitCode::done;
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/study/choices/choices_report.h"
 #include "app/study/choices/martin.h"
+#include "app/study/report_text.h"
 #include "app/table.h"
 
 namespace pneuma::app {
@@ -9,14 +10,8 @@ namespace {
 
 using Align = Table::Align;
 
-constexpr std::size_t text_width = 118;
-
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "-";
-}
-
-std::string item(const std::string& sentence) {
-  return wrapped(fmt::format("- {}", sentence), text_width) + '\n';
 }
 
 /// Both dampings side by side, a row per step.
@@ -47,17 +42,18 @@ std::string choices_text(const ChoicesStudy& study) {
       "Pressure, uniform or valence (ERRATA row 4): {} trials from vertices moved by "
       "up to {:.2g} m, no gravity\n",
       study.drift.uniform.size(), study.drift.perturbation);
-  text += item(drift_sentence(study.drift));
+  text += list_item(drift_sentence(study.drift));
   text += fmt::format("\nDamping, dashpot or literal (ERRATA row 5), {:g} s with rk4\n",
                       study.damping.seconds);
   text += damping_table(study.damping);
   text += "\"-\": diverged, or there is no swing\n";
-  for (const std::string& sentence : damping_sentences(study.damping)) text += item(sentence);
+  for (const std::string& sentence : damping_sentences(study.damping)) text += list_item(sentence);
   text += fmt::format(
       "\nThe paper's integrator beside the others (ERRATA row 7), {:.3g} s of free "
       "flight\n",
       study.integrators.reference.seconds);
-  for (const std::string& sentence : martin_sentences(study.integrators)) text += item(sentence);
+  for (const std::string& sentence : martin_sentences(study.integrators))
+    text += list_item(sentence);
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/study/error/conclusions.h"
+#include "app/study/report_text.h"
 #include "app/table.h"
 
 namespace pneuma::app {
@@ -30,8 +31,7 @@ std::string microseconds(const ErrorRun& run) { return readable(1e6 * run.run_ti
 
 std::string sentence(const MartinComparison& comparison) {
   return fmt::format(
-      "at 1/{} s the error of martin is {} times that of {}, at {:.2g} times its "
-      "run time",
+      "at 1/{} s the error of martin is {} times that of {}, at {:.2g} times its run time",
       comparison.steps_per_second, readable(comparison.error_ratio), comparison.other,
       comparison.time_ratio);
 }
@@ -41,15 +41,15 @@ std::string what_an_error_takes(const ErrorStudy& study) {
   std::erase_if(only_martin.runs, [](const ErrorRun& run) { return run.method != martin; });
   const Choice slow = choose(only_martin, asked_error), best = choose(study, asked_error);
   if (!slow.ours || !best.ours) {
-    return fmt::format("an error of {:.0e} martin reaches at none of the steps studied",
-                       asked_error);
+    return fmt::format("an error of {} martin reaches at none of the steps studied",
+                       power_of_ten(asked_error));
   }
   return fmt::format(
-      "an error of {:.0e} takes martin a step of 1/{} s and {} us per simulated second; {} does "
-      "with "
-      "1/{} s and {} us, {:.2g} times as fast",
-      asked_error, slow.ours->steps_per_second, microseconds(*slow.ours), best.ours->method,
-      best.ours->steps_per_second, microseconds(*best.ours),
+      "an error of {} takes martin a step of 1/{} s and {} us per simulated second; {} does with "
+      "1/{} "
+      "s and {} us, {:.2g} times as fast",
+      power_of_ten(asked_error), slow.ours->steps_per_second, microseconds(*slow.ours),
+      best.ours->method, best.ours->steps_per_second, microseconds(*best.ours),
       slow.ours->run_time / best.ours->run_time);
 }
 

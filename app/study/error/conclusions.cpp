@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/study/report_text.h"
 #include "app/table.h"
 
 namespace pneuma::app {
@@ -69,24 +70,54 @@ void keep_cheaper(std::optional<ErrorRun>& best, const ErrorRun& run) {
 
 std::string microseconds(double seconds) { return readable(1e6 * seconds); }
 
+/// Why not the next longer step; empty when there is none.
+std::string next_longer(const ErrorStudy& study, const ErrorRun& run) {
+  const auto longer = std::ranges::find_if(study.runs, [&](const ErrorRun& other) {
+    return other.method == run.method && 2 * other.steps_per_second == run.steps_per_second;
+  });
+  if (longer == study.runs.end()) return "";
+  const std::string what = longer->outcome == Outcome::stable
+                               ? fmt::format("its error is {:.1e}", error_of(*longer))
+                               : "it is unstable";
+  return fmt::format(" (at 1/{} s {})", longer->steps_per_second, what);
+}
+
 /// What makes up the two run times, in evaluations of the forces.
 std::string reason(const ErrorStudy& study, const Choice& choice, double wanted) {
   const double evaluation = study.evaluation_time;
   const ErrorRun& ours = *choice.ours;
   const ErrorRun& cvode = *choice.cvode;
   const double own_work = std::max(0.0, 1.0 - cvode.evaluations * evaluation / cvode.run_time);
-  return fmt::format(
+  const std::string theirs = fmt::format(
       "Per simulated second {} evaluates the forces {} times, at {} us each, and spends {:.0f} % "
       "of "
-      "its time on other work; {} at 1/{} s takes as long as {} evaluations. To be {:g} times "
-      "ahead "
-      "it would have to take no longer than {}.",
-      cvode.method, readable(cvode.evaluations), microseconds(evaluation), 100.0 * own_work,
-      ours.method, ours.steps_per_second, readable(ours.run_time / evaluation), wanted,
-      readable(cvode.run_time / wanted / evaluation));
+      "its time on other work;",
+      cvode.method, readable(cvode.evaluations), microseconds(evaluation), 100.0 * own_work);
+  return fmt::format(
+      "{} {} at 1/{} s takes as long as {} evaluations{}. To be {:g} times ahead it would have to "
+      "take no longer than {}.",
+      theirs, ours.method, ours.steps_per_second, readable(ours.run_time / evaluation),
+      next_longer(study, ours), wanted, readable(cvode.run_time / wanted / evaluation));
 }
 
 double wanted_ratio(double error) { return error == 1e-2 || error == 1e-3 ? 10.0 : 1.0; }
+
+constexpr const char* not_known = "the motion itself is not known that well";
+
+/// Empty when ours is as far ahead as wanted.
+std::string shortfall(const ErrorStudy& study, const Choice& choice, double wanted) {
+  if (!choice.known) return fmt::format("nothing can be said: {}", not_known);
+  if (!choice.ours) {
+    return fmt::format("{}: none of our steps studied reaches it",
+                       choice.cvode ? "CVODE is ahead" : "neither can be chosen");
+  }
+  if (!choice.cvode || *choice.ratio() >= wanted) return "";
+  const double ratio = *choice.ratio();
+  const std::string how_far =
+      ratio < 1.0 ? fmt::format("behind CVODE, {:.2g} times as fast", ratio)
+                  : fmt::format("{:.1f} times ahead of CVODE, not {:g}", ratio, wanted);
+  return fmt::format("ours is {}. {}", how_far, reason(study, choice, wanted));
+}
 
 }  // namespace
 
@@ -120,38 +151,27 @@ Choice choose(const ErrorStudy& study, double error) {
 }
 
 std::string recommendation(const Choice& choice) {
+  const std::string error = power_of_ten(choice.error);
   if (!choice.known) {
-    return fmt::format(
-        "for an error of {:.0e} there is no recommendation: the motion itself is not "
-        "known that well",
-        choice.error);
+    return fmt::format("for an error of {} there is no recommendation: {}", error, not_known);
   }
   if (!choice.ours) {
-    return fmt::format("an error of {:.0e} is reached by none of the steps studied", choice.error);
+    return fmt::format("an error of {} is reached by none of the steps studied", error);
   }
   const ErrorRun& run = *choice.ours;
   return fmt::format(
-      "for an error of {:.0e} take {} at step 1/{} s: {} microseconds per simulated second (its "
-      "error: {:.1e})",
-      choice.error, run.method, run.steps_per_second, microseconds(run.run_time), error_of(run));
+      "for an error of {} take {} at step 1/{} s: {} microseconds per simulated second (its error: "
+      "{:.1e})",
+      error, run.method, run.steps_per_second, microseconds(run.run_time), error_of(run));
 }
 
 std::vector<std::string> shortfalls(const ErrorStudy& study) {
   std::vector<std::string> sentences;
   if (study.flight.contacts) return sentences;
   for (const double error : compared_errors) {
-    const Choice choice = choose(study, error);
-    const double wanted = wanted_ratio(error);
-    if (choice.cvode && !choice.ours) {
-      sentences.push_back(fmt::format(
-          "at an error of {:.0e} CVODE is ahead: none of our steps studied reaches it", error));
-    } else if (choice.ratio() && *choice.ratio() < wanted) {
-      const double ratio = *choice.ratio();
-      sentences.push_back(fmt::format(
-          "at an error of {:.0e} ours is {}. {}", error,
-          ratio < 1.0 ? fmt::format("behind CVODE, {:.2g} times as fast", ratio)
-                      : fmt::format("{:.1f} times ahead of CVODE, not {:g}", ratio, wanted),
-          reason(study, choice, wanted)));
+    const std::string what = shortfall(study, choose(study, error), wanted_ratio(error));
+    if (!what.empty()) {
+      sentences.push_back(fmt::format("at an error of {} {}", power_of_ten(error), what));
     }
   }
   return sentences;

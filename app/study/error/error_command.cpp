@@ -14,16 +14,14 @@
 #include "app/provenance.h"
 #include "app/study/error/cvode.h"
 #include "app/study/error/error_report.h"
+#include "app/study/report_text.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/table.h"
 #include "app/timing_conditions.h"
 #include "scenes/load_scene.h"
 
 namespace pneuma::app {
 namespace {
-
-constexpr std::size_t text_width = 118;
 
 /// The options as they were typed.
 struct Typed {
@@ -94,10 +92,8 @@ void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& f
     fmt::print("{}", json);
     return;
   }
-  fmt::print("{}{}CVODE: SUNDIALS {}.\n", findings.text, provenance_text(date), sundials_version());
-  for (const std::string& warning : findings.warnings) {
-    fmt::print("{}\n", wrapped(fmt::format("Warning: {}.", warning), text_width));
-  }
+  fmt::print("{}{}CVODE: SUNDIALS {}.\n{}", findings.text, provenance_text(date),
+             sundials_version(), warnings_text(findings.warnings));
 }
 
 ExitCode study(const Typed& typed) {

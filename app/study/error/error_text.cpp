@@ -5,6 +5,7 @@
 
 #include "app/study/error/conclusions.h"
 #include "app/study/error/error_report.h"
+#include "app/study/report_text.h"
 #include "app/table.h"
 
 namespace pneuma::app {
@@ -12,8 +13,6 @@ namespace {
 
 using Align = Table::Align;
 using Outcome = ErrorRun::Outcome;
-
-constexpr std::size_t text_width = 118;
 
 std::string microseconds(double seconds) { return readable(1e6 * seconds); }
 
@@ -51,17 +50,6 @@ std::string runs_table(const ErrorStudy& study, bool ours) {
   Table table(std::move(columns));
   for (auto& [key, cells] : rows) table.add_row(std::move(cells));
   return table.text();
-}
-
-/// A paragraph behind a label.
-std::string labelled(const std::string& label, const std::string& text) {
-  constexpr std::size_t indent = 11;
-  std::string result = fmt::format("{:<{}}", label, indent);
-  for (const char c : wrapped(text, text_width - indent)) {
-    result += c;
-    if (c == '\n') result.append(indent, ' ');
-  }
-  return result + '\n';
 }
 
 std::string heading(const ErrorStudy& study) {
@@ -146,7 +134,7 @@ std::string comparison_text(const ErrorStudy& study) {
                {"CVODE /\nours"}});
   for (const double error : compared_errors) {
     const Choice choice = choose(study, error);
-    std::vector<std::string> cells = {fmt::format("{:.0e}", error)};
+    std::vector<std::string> cells = {power_of_ten(error)};
     const auto add = [&](const std::optional<ErrorRun>& run) {
       if (!run) return cells.insert(cells.end(), 3, "-");
       cells.push_back(run->method);
@@ -167,8 +155,7 @@ std::string comparison_text(const ErrorStudy& study) {
            "Ours is ahead of CVODE at all of these errors, and ten times at 1e-2 and 1e-3.\n";
   }
   text += "Wanted: ahead everywhere, and ten times at 1e-2 and 1e-3. But:\n";
-  for (const std::string& sentence : sentences)
-    text += wrapped(fmt::format("- {}", sentence), text_width) + "\n";
+  for (const std::string& sentence : sentences) text += list_item(sentence);
   return text;
 }
 

@@ -33,11 +33,11 @@ TEST(MartinSentences, SayTheRatiosAndWhatAnErrorTakes) {
   EXPECT_EQ(sentences[0],
             "at 1/60 s the error of martin is 2,000 times that of rk4, at 1 times its run time");
   EXPECT_EQ(sentences[1],
-            "an error of 1e-02 takes martin a step of 1/1920 s and 12,000 us per simulated second; "
+            "an error of 1e-2 takes martin a step of 1/1920 s and 12,000 us per simulated second; "
             "rk4 does with 1/60 s and 400 us, 30 times as fast");
   study.runs.erase(study.runs.begin() + 1);
   EXPECT_EQ(martin_sentences(study)[1],
-            "an error of 1e-02 martin reaches at none of the steps studied");
+            "an error of 1e-2 martin reaches at none of the steps studied");
 }
 
 TEST(CompareMartin, FindsItWorseThanAllOthersAtEveryStep) {

@@ -106,10 +106,10 @@ TEST(Choose, TakesNoUnstableRunAndNoneBeyondWhatIsKnown) {
 TEST(Recommendation, IsASentence) {
   ErrorStudy study = study_of_four();
   EXPECT_EQ(recommendation(choose(study, 1e-2)),
-            "for an error of 1e-02 take rk4 at step 1/60 s: 400 microseconds per simulated second "
+            "for an error of 1e-2 take rk4 at step 1/60 s: 400 microseconds per simulated second "
             "(its error: 2.0e-03)");
   EXPECT_EQ(recommendation(choose(study, 1e-3)),
-            "an error of 1e-03 is reached by none of the steps studied");
+            "an error of 1e-3 is reached by none of the steps studied");
   study.reference.uncertainty = 1e-3;
   EXPECT_TRUE(contains(recommendation(choose(study, 1e-4)), "not known that well"));
 }
@@ -118,16 +118,29 @@ TEST(Shortfalls, SayHowFarAheadAndWhy) {
   const auto sentences = shortfalls(study_of_four());
   // 1e-1: 3.6 times is ahead, and no more is wanted. 1e-2: not ten times. From 1e-3 on none of
   // ours.
-  ASSERT_EQ(sentences.size(), 3u);
+  ASSERT_EQ(sentences.size(), 5u);
   EXPECT_TRUE(
-      contains(sentences[0], "at an error of 1e-02 ours is 3.6 times ahead of CVODE, not 10"));
+      contains(sentences[0], "at an error of 1e-2 ours is 3.6 times ahead of CVODE, not 10"));
   EXPECT_TRUE(contains(sentences[0], "evaluates the forces 80.0 times"));
   // 1440 us less 80 times 2 us.
   EXPECT_TRUE(contains(sentences[0], "spends 89 % of its time"));
   EXPECT_TRUE(contains(sentences[0], "as long as 200 evaluations"));
   EXPECT_TRUE(contains(sentences[0], "no longer than 72.0."));
-  EXPECT_TRUE(contains(sentences[1], "at an error of 1e-03 CVODE is ahead"));
-  EXPECT_TRUE(contains(sentences[2], "at an error of 1e-04 CVODE is ahead"));
+  EXPECT_TRUE(contains(sentences[1], "at an error of 1e-3 CVODE is ahead"));
+  EXPECT_TRUE(contains(sentences[2], "at an error of 1e-4 CVODE is ahead"));
+}
+
+TEST(Shortfalls, SayWhenNeitherIsGoodEnough) {
+  const auto sentences = shortfalls(study_of_four());
+  EXPECT_TRUE(contains(sentences[3], "at an error of 1e-5 neither can be chosen"));
+}
+
+TEST(Shortfalls, SayWhyNotTheNextLongerStep) {
+  ErrorStudy study = study_of_four();
+  study.runs.push_back(made_up_run("rk4", 30, 0.025, 200e-6));
+  EXPECT_TRUE(contains(shortfalls(study)[0], "200 evaluations (at 1/30 s its error is 2.5e-02)."));
+  study.runs.back().outcome = ErrorRun::Outcome::unstable;
+  EXPECT_TRUE(contains(shortfalls(study)[0], "200 evaluations (at 1/30 s it is unstable)."));
 }
 
 TEST(Shortfalls, SayWhenOursIsBehind) {
@@ -136,7 +149,7 @@ TEST(Shortfalls, SayWhenOursIsBehind) {
   const auto sentences = shortfalls(study);
   ASSERT_EQ(sentences.size(), compared_errors.size());
   EXPECT_TRUE(
-      contains(sentences[5], "at an error of 1e-06 ours is behind CVODE, 0.5 times as fast"));
+      contains(sentences[5], "at an error of 1e-6 ours is behind CVODE, 0.5 times as fast"));
 }
 
 TEST(Shortfalls, AreNoneWhereOursIsAhead) {
