@@ -66,10 +66,10 @@ std::string method(const Flight& flight, int finest) {
 
 std::string limit(const Flight& flight) {
   return flight.contacts
-             ? "from then on the two finest runs part: which vertex touches first decides how it "
-               "goes on"
-             : "from then on the smallest difference grows into another motion (the body buckles), "
-               "which no method can follow";
+             ? "from then on the two finest runs part; contacts are not smooth, and a small "
+               "difference can decide which feature touches first"
+             : "from then on the smallest difference grows into another motion, as when a body "
+               "buckles, and no method can follow";
 }
 
 std::string nothing_known(const Runs& runs) {
