@@ -99,7 +99,8 @@ void add_motions(std::vector<ExtremeCase>& cases) {
   cases.push_back({.name = "a body 1e6 m away", .scene = sphere("n = 1.0", "[1e6, 0, 3.5]")});
   cases.push_back({.name = "100,000 steps at rest",
                    .scene = sphere("n = 1.0\nk = 10.0"),
-                   .seconds = 100'000.0 / 60.0});
+                   .seconds = 100'000.0 / 60.0,
+                   .large = true});
 }
 
 void add_starts(std::vector<ExtremeCase>& cases) {
@@ -149,6 +150,7 @@ void add_crowds(std::vector<ExtremeCase>& cases) {
   cases.push_back({.name = "fifty bodies piled in one spot",
                    .scene = sphere(soft + "copies = [50, 1, 1]\nspacing = [0.01, 0, 0]\n"),
                    .seconds = 3.0,
+                   .large = true,
                    // They start in each other, and are parted by moving vertices against springs.
                    .energy_tolerance = 0.02});
   cases.push_back({.name = "masses 1 to 1e6",
@@ -171,11 +173,13 @@ void add_crowds(std::vector<ExtremeCase>& cases) {
   cases.push_back({.name = "40,962 vertices",
                    .scene = "[[body]]\nshape = \"icosphere\"\nsubdivisions = 6\nposition = [0, 0, "
                             "3.2]\nn = 1.0\nvertex_mass = 5e-4\nk = 1.0\n",
-                   .seconds = 0.5,
-                   .explicit_outcomes = either});
+                   .seconds = 0.1,
+                   .explicit_outcomes = either,
+                   .large = true});
   cases.push_back({.name = "1,000 bodies",
                    .scene = sphere(soft + "copies = [10, 10, 10]\nspacing = [7.5, 7.5, 7.5]\n"),
-                   .seconds = 0.5});
+                   .seconds = 0.5,
+                   .large = true});
 }
 
 }  // namespace

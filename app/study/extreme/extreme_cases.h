@@ -32,6 +32,7 @@ struct ExtremeCase {
   // m: at most in the last half of the run. Negative: not asked, since the case starts inside of
   // what it would be measured against or has nothing to touch.
   double penetration = -1.0;
+  bool large = false;  // takes ten seconds and more
   // Energy above the start that is no fault, of the span of energy in the run: rounding, and what
   // contacts make that set a vertex back onto the ground by what it sank in one step (3.1.4).
   double energy_tolerance = 1e-3;

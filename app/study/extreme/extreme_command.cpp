@@ -23,6 +23,7 @@ namespace {
 struct Options {
   std::string out = "out/study/extremes";
   std::string command_line;
+  bool is_short = false;
 };
 
 struct Row {
@@ -84,6 +85,7 @@ ExitCode run(const Options& options) {
   std::vector<Row> rows;
   std::size_t unexpected = 0;
   for (const ExtremeCase& extreme : extreme_cases()) {
+    if (options.is_short && extreme.large) continue;
     std::vector<std::string> cells = {extreme.name};
     for (const auto& [integrator, implicit] : extreme_integrators) {
       throw_if_interrupted();
@@ -114,6 +116,7 @@ void add_extreme_study(CLI::App& study, Action& action, std::span<const std::str
       "extremes", "Run extreme scenes, and compare each outcome with what was expected");
   command->add_option("--out", options->out, "Folder for CSV and JSON [" + options->out + "]")
       ->type_name("DIR");
+  command->add_flag("--short", options->is_short, "Without those that take long");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

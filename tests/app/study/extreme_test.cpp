@@ -21,9 +21,10 @@ void PrintTo(const Run& run, std::ostream* out) {
   *out << run.extreme.name << " " << run.integrator;
 }
 
-std::vector<Run> all_runs() {
+std::vector<Run> all_runs(bool large) {
   std::vector<Run> runs;
   for (const ExtremeCase& extreme : extreme_cases()) {
+    if (extreme.large != large) continue;
     for (const auto& [integrator, implicit] : extreme_integrators) {
       runs.push_back({extreme, integrator, implicit});
     }
@@ -47,7 +48,8 @@ TEST_P(Extreme, ComesToWhatWasExpected) {
       << to_string(result.outcome) << ": " << result.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Extreme, testing::ValuesIn(all_runs()), run_name);
+INSTANTIATE_TEST_SUITE_P(Cases, Extreme, testing::ValuesIn(all_runs(false)), run_name);
+INSTANTIATE_TEST_SUITE_P(LargeCases, Extreme, testing::ValuesIn(all_runs(true)), run_name);
 
 ExtremeCase sphere_case(const std::string& keys) {
   return {.name = "a case", .scene = "[[body]]\nposition = [0, 0, 3.5]\n" + keys, .seconds = 1.0};
