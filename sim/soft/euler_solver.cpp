@@ -19,13 +19,13 @@ constexpr double tolerance_share = 1e-10;
 /// Of the greatest coordinate: what a double can tell.
 constexpr double rounding_share = 4e-15;
 
-/// m/s. While the minimisation goes on, a vertex that friction holds may slide as fast; then it is
-/// put back.
+/// m/s. Slower is held by friction rather than sliding, until it is known better.
 constexpr double slip_speed = 1e-4;
-/// Friction's grip comes from the ground's forces, which it changes in turn: the minimisation is
-/// repeated until the changes add up to less than this share of them, but not more often than this.
+/// Friction comes from the ground's forces, which it changes in turn: the minimisation is repeated
+/// until no vertex begins or ceases to slide, and the friction of those that do changes by less
+/// than this share in all, but not more often than this.
 constexpr double grip_change = 0.05;
-constexpr int greatest_grip_rounds = 3;
+constexpr int greatest_friction_rounds = 4;
 
 }  // namespace
 
@@ -63,21 +63,24 @@ void EulerSolver::set_floor(int vertex, double height) {
   energy_.floor[at(vertex)] = height;
 }
 
-void EulerSolver::step(double beta, const EulerBase& base, const VertexArray& guess) {
+bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& guess) {
   set_energy(beta, base);
   const double tolerance = std::max(tolerance_share * mean_rest_length_,
                                     rounding_share * guess.rows().cwiseAbs().maxCoeff());
-  begin(guess, false);
+  if (!begin(guess, false)) return false;
+  predict_friction(base);
   for (int round = 1;; ++round) {
-    if (set_grip()) begin(guess, true);
+    if (energy_.friction && !begin(guess, true)) return false;
     const MinimiserReport report = minimiser_.minimise(energy_, tolerance);
     effort_.iterations += report.iterations;
     effort_.factorizations += report.factorizations;
     effort_.converged &= report.converged;
     minimiser_.update_gradient(energy_);
-    if (round == greatest_grip_rounds || !grip_has_changed()) break;
+    if (round == greatest_friction_rounds || !correct_friction()) break;
   }
-  finish();
+  positions_.rows() = minimiser_.point().positions.rows();
+  keep_momentum();
+  return true;
 }
 
 void EulerSolver::set_energy(double beta, const EulerBase& base) {
@@ -99,16 +102,15 @@ void EulerSolver::set_energy(double beta, const EulerBase& base) {
   energy_.hold.rows() = base.state.positions.rows();
   energy_.slip = slip_speed * beta;
   energy_.friction = false;
-  std::fill(energy_.grip.begin(), energy_.grip.end(), 0.0);
 }
 
 /// Takes the minimiser to the best of some places: the guess, the guess moved along as a whole,
 /// where the vertices would be by themselves, and, if asked to, where it is.
-void EulerSolver::begin(const VertexArray& guess, bool from_here) {
+bool EulerSolver::begin(const VertexArray& guess, bool from_here) {
   EnergyPoint& point = minimiser_.point();
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&] {
-    raise_to_floor(point.positions);
+    put_where_allowed(point.positions);
     if (!evaluate(mesh_, energy_, point) || !(point.energy < least)) return;
     least = point.energy;
     positions_.rows() = point.positions.rows();
@@ -122,79 +124,62 @@ void EulerSolver::begin(const VertexArray& guess, bool from_here) {
   point.positions.rows() = energy_.target.rows();
   consider();
   point.positions.rows() = positions_.rows();
-  evaluate(mesh_, energy_, point);
+  return std::isfinite(least) && evaluate(mesh_, energy_, point);
 }
 
-void EulerSolver::raise_to_floor(VertexArray& positions) const {
+void EulerSolver::put_where_allowed(VertexArray& positions) const {
   if (!energy_.ground) return;
   for (int v = 0; v < positions.size(); ++v) {
     positions[v].z() = std::max(positions[v].z(), energy_.floor[at(v)]);
+    if (!energy_.friction || !energy_.held[at(v)]) continue;
+    positions[v].head<2>() = Vec3(energy_.hold[v]).head<2>();
   }
 }
 
-/// From the ground's forces where the minimiser is. Returns whether there is any.
-bool EulerSolver::set_grip() {
-  if (!energy_.ground || friction_ == 0.0) return false;
+/// From where the minimiser is: what the ground pushes there is held if it was slow, or slides.
+void EulerSolver::predict_friction(const EulerBase& base) {
+  if (!energy_.ground || friction_ == 0.0) return;
   minimiser_.update_gradient(energy_);
-  energy_.friction = false;
-  for (int v = 0; v < positions_.size(); ++v) {
-    energy_.grip[at(v)] = friction_ * normal_force(v);
-    energy_.friction |= energy_.grip[at(v)] > 0.0;
-  }
-  return energy_.friction;
-}
-
-bool EulerSolver::grip_has_changed() const {
-  if (!energy_.ground || friction_ == 0.0) return false;
-  double change = 0.0, sum = 0.0;
   for (int v = 0; v < positions_.size(); ++v) {
     const double grip = friction_ * normal_force(v);
-    change += std::abs(grip - energy_.grip[at(v)]);
-    sum += grip;
+    const bool slow = Vec3(base.state.velocities[v]).head<2>().norm() < slip_speed;
+    energy_.held[at(v)] = grip > 0.0 && slow;
+    energy_.grip[at(v)] = slow ? 0.0 : grip;
+    energy_.friction |= grip > 0.0;
   }
-  return change > grip_change * sum;
 }
 
-bool EulerSolver::is_on_floor(int vertex) const {
-  return energy_.ground && positions_[vertex].z() <= energy_.floor[at(vertex)];
-}
-
-Vec3 EulerSolver::ground_force(int vertex) const {
-  if (!energy_.ground) return Vec3::Zero();
-  const double normal = normal_force(vertex);
-  // The grip is that of the last round but one: not more than Coulomb's law allows in the end.
-  const double grip = std::min(energy_.grip[at(vertex)], friction_ * normal);
-  const VertexArray& x = minimiser_.point().positions;
-  const Vec2 slide = (x[vertex] - energy_.hold[vertex]).head<2>();
-  const Vec2 sideways = -grip / std::max(slide.norm(), energy_.slip) * slide;
-  return {sideways.x(), sideways.y(), normal};
-}
-
-void EulerSolver::finish() {
-  positions_.rows() = minimiser_.point().positions.rows();
-  bool touches = false;
-  for (int v = 0; v < positions_.size(); ++v) touches |= energy_.ground && normal_force(v) > 0.0;
-  if (touches) {
-    hold_still_vertices();
-    return;
-  }
-  // Springs and gas do not move the centre: what is left of that is the minimisation's tolerance.
-  const Vec3 move = mean(energy_.target) - mean(positions_);
-  for (int v = 0; v < positions_.size(); ++v) positions_[v] += move;
-}
-
-void EulerSolver::hold_still_vertices() {
-  if (!energy_.friction) return;
+/// From where the minimiser has come to. Returns whether that must be minimised again.
+bool EulerSolver::correct_friction() {
+  if (!energy_.ground || friction_ == 0.0) return false;
+  double change = 0.0, sum = 0.0;
+  bool other = false;  // held or not
   for (int v = 0; v < positions_.size(); ++v) {
-    if (energy_.grip[at(v)] == 0.0) continue;
-    const Vec3 hold = energy_.hold[v];
-    if ((positions_[v] - hold).head<2>().norm() >= energy_.slip) continue;
-    positions_[v].head<2>() = hold.head<2>();
+    const double grip = friction_ * normal_force(v);
+    const Vec3 slide = minimiser_.point().positions[v] - energy_.hold[v];
+    const bool was_held = energy_.friction && energy_.held[at(v)];
+    const bool held = grip > 0.0 && (was_held ? minimiser_.hold_force(v) <= grip
+                                              : slide.head<2>().norm() < energy_.slip);
+    const double before = energy_.friction ? energy_.grip[at(v)] : 0.0;
+    energy_.held[at(v)] = held;
+    energy_.grip[at(v)] = held ? 0.0 : grip;
+    change += std::abs(energy_.grip[at(v)] - before);
+    sum += grip;
+    other |= held != was_held;
   }
-  // A body that is flat to within a micrometre.
-  if (energy_.gas > 0.0 && !(volume(mesh_.topology, positions_) > 0.0)) {
-    positions_.rows() = minimiser_.point().positions.rows();
+  energy_.friction = sum > 0.0;
+  return other || change > grip_change * sum;
+}
+
+/// Springs and gas do not move the centre: what is left of that, in the air, is the minimisation's
+/// tolerance.
+void EulerSolver::keep_momentum() {
+  const Vec3 move = mean(energy_.target) - mean(positions_);
+  for (int v = 0; energy_.ground && v < positions_.size(); ++v) {
+    if (normal_force(v) > 0.0) return;
+    if (positions_[v].z() + move.z() < energy_.floor[at(v)]) return;
   }
+  for (int v = 0; v < positions_.size(); ++v) positions_[v] += move;
 }
 
 }  // namespace pneuma::sim

@@ -36,13 +36,13 @@ class EulerSolver {
   double mean_rest_length() const { return mean_rest_length_; }
 
   /// Steps `beta` seconds from `base`. `guess` is a place with V > 0 and not below the floor: the
-  /// energy where the step ends is at most what it is there.
-  void step(double beta, const EulerBase& base, const VertexArray& guess);
+  /// energy where the step ends is at most what it is there. Returns false when its volume is not
+  /// above 0 by more than rounding, or something is not finite.
+  [[nodiscard]] bool step(double beta, const EulerBase& base, const VertexArray& guess);
 
   const VertexArray& positions() const { return positions_; }  // where the last step ended
-  bool is_on_floor(int vertex) const;
-  /// N, with which the ground held a vertex over the last step.
-  Vec3 ground_force(int vertex) const;
+  /// Whether the ground held a vertex up over the last step.
+  bool is_pushed(int vertex) const { return energy_.ground && normal_force(vertex) > 0.0; }
 
   struct Effort {
     int iterations = 0;
@@ -54,13 +54,12 @@ class EulerSolver {
 
  private:
   void set_energy(double beta, const EulerBase& base);
-  void begin(const VertexArray& guess, bool from_here);
-  void raise_to_floor(VertexArray& positions) const;
+  bool begin(const VertexArray& guess, bool from_here);
+  void put_where_allowed(VertexArray& positions) const;
   double normal_force(int v) const { return minimiser_.floor_force(energy_, v); }
-  bool set_grip();
-  bool grip_has_changed() const;
-  void finish();
-  void hold_still_vertices();
+  void predict_friction(const EulerBase& base);
+  bool correct_friction();
+  void keep_momentum();
 
   const SoftMesh& mesh_;
   EnergyMinimiser minimiser_;

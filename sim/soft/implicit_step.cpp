@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/mesh/measure.h"
+#include "sim/response/contact_impulse.h"
 #include "sim/response/contact_side.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
@@ -43,14 +44,20 @@ class ImplicitStep {
       report.volume = volume(mesh_.topology, s_.start.state.positions);
       if (!(report.volume > 0.0)) return false;
     }
-    start_energy_ = potential(s_.start.state.positions) + kinetic(s_.start.state.velocities);
+    const double speed_energy = kinetic(s_.start.state.velocities);
+    start_energy_ = potential(s_.start.state.positions) + speed_energy;
     if (!std::isfinite(start_energy_)) {
       report.volume = std::numeric_limits<double>::quiet_NaN();
       return false;
     }
-    start_energy_ += energy_rounding * magnitude_;
+    start_energy_ += energy_rounding * (magnitude_ + speed_energy);
     report.by_euler = settings_.integrator == Integrator::sdirk2 && !sdirk2();
-    if (settings_.integrator == Integrator::implicit_euler || report.by_euler) implicit_euler();
+    if (settings_.integrator == Integrator::implicit_euler || report.by_euler) {
+      if (!implicit_euler()) {
+        report.volume = 0.0;  // to rounding
+        return false;
+      }
+    }
     report.energy_limited = limit_energy();
     if (gas_strength(material_) > 0.0) {
       report.volume = volume(mesh_.topology, s_.result.positions);
@@ -65,10 +72,6 @@ class ImplicitStep {
     for (int v = 0; v < positions.size(); ++v) {
       positions[v] = s_.result.positions[v] + centre_;
       velocities[v] = s_.result.velocities[v];
-      // What lifts off within the step keeps what pushed it: resolve_contacts will not see it.
-      if (s_.solver.is_on_floor(v)) {
-        velocities[v] -= s_.ground_impulse[v] / material_.vertex_mass;
-      }
     }
   }
 
@@ -109,26 +112,50 @@ class ImplicitStep {
     return springs + gas + gravity;
   }
 
-  void implicit_euler() {
-    s_.ground_impulse.rows().setZero();
-    s_.solver.step(step_, s_.start, s_.start.state.positions);
-    take_ground_impulse(step_);
+  /// False when the start has no volume.
+  bool implicit_euler() {
+    s_.pushed.assign(s_.pushed.size(), 0);
+    if (!s_.solver.step(step_, s_.start, s_.start.state.positions)) return false;
+    see_what_is_pushed();
     s_.result.positions.rows() = s_.solver.positions().rows();
     s_.result.velocities.rows() =
         (s_.result.positions.rows() - s_.start.state.positions.rows()) / step_;
+    rebound();
+    return true;
+  }
+
+  /// What hits the ground rests on it afterwards, or parts with the restitution's share of the
+  /// speed with which it came, as in resolve_contacts. Within the step the ground has only braked
+  /// it so far that it has just arrived: the rest of the impulse comes with friction, too.
+  void rebound() {
+    if (!settings_.ground) return;
+    const Surface pair = combine(material_.surface, *settings_.ground);
+    for (int v = 0; v < s_.result.velocities.size(); ++v) {
+      if (!s_.pushed[at(v)]) continue;
+      Vec3 velocity = s_.result.velocities[v];
+      const double parting = -pair.restitution * s_.start.state.velocities[v].z();
+      const double before = velocity.z();
+      velocity.z() = parting > least_bounce_speed ? parting : 0.0;
+      const double sliding = velocity.head<2>().norm();
+      if (sliding > 0.0) {
+        const double braked = pair.friction * (velocity.z() - before);
+        velocity.head<2>() *= std::max(0.0, 1.0 - braked / sliding);
+      }
+      s_.result.velocities[v] = velocity;
+    }
   }
 
   /// False when the step must be left to implicit_euler.
   bool sdirk2() {
     const double part = part_of_step * step_;
-    s_.ground_impulse.rows().setZero();
-    s_.solver.step(part, s_.start, s_.start.state.positions);
-    take_ground_impulse(step_ - part);
+    s_.pushed.assign(s_.pushed.size(), 0);
+    if (!s_.solver.step(part, s_.start, s_.start.state.positions)) return false;
+    see_what_is_pushed();
     if (hits_ground()) return false;
     s_.middle.rows() = s_.solver.positions().rows();
     extrapolate(part);
-    s_.solver.step(part, s_.extrapolated, s_.middle);
-    take_ground_impulse(part);
+    if (!s_.solver.step(part, s_.extrapolated, s_.middle)) return false;
+    see_what_is_pushed();
     if (hits_ground()) return false;
     s_.result.positions.rows() = s_.solver.positions().rows();
     s_.result.velocities.rows() =
@@ -150,19 +177,17 @@ class ImplicitStep {
     }
   }
 
-  /// The forces of the solver's last step act for so many seconds of the whole one.
-  void take_ground_impulse(double seconds) {
-    for (int v = 0; v < s_.ground_impulse.size(); ++v) {
-      s_.ground_impulse[v] += seconds * s_.solver.ground_force(v);
-    }
+  /// By the ground, in the solver's last step.
+  void see_what_is_pushed() {
+    for (int v = 0; v < s_.middle.size(); ++v) s_.pushed[at(v)] |= s_.solver.is_pushed(v);
   }
 
   /// Whether the ground has pushed a vertex that was not at rest on it.
   bool hits_ground() const {
     if (!settings_.ground) return false;
     const double still = still_share * s_.solver.mean_rest_length() / step_;
-    for (int v = 0; v < s_.ground_impulse.size(); ++v) {
-      if (s_.ground_impulse[v].z() == 0.0) continue;
+    for (int v = 0; v < s_.middle.size(); ++v) {
+      if (!s_.pushed[at(v)]) continue;
       if (s_.start.state.positions[v].z() + centre_.z() > 0.0) return true;
       if (std::abs(s_.start.state.velocities[v].z()) > still) return true;
     }
@@ -177,14 +202,11 @@ class ImplicitStep {
     if (kinetic(velocities) <= left) return false;
     const Vec3 common = mean(velocities);
     const double of_common = 0.5 * material_.vertex_mass * velocities.size() * common.squaredNorm();
-    const bool keep = of_common <= left;
-    if (keep) {
-      for (int v = 0; v < velocities.size(); ++v) velocities[v] -= common;
-    }
-    velocities.rows() *= std::sqrt((keep ? left - of_common : left) / kinetic(velocities));
-    if (keep) {
-      for (int v = 0; v < velocities.size(); ++v) velocities[v] += common;
-    }
+    const Vec3 kept = of_common <= left ? common : Vec3(Vec3::Zero());
+    for (int v = 0; v < velocities.size(); ++v) velocities[v] -= kept;
+    const double of_kept = of_common <= left ? of_common : 0.0;
+    velocities.rows() *= std::min(1.0, std::sqrt((left - of_kept) / kinetic(velocities)));
+    for (int v = 0; v < velocities.size(); ++v) velocities[v] += kept;
     return true;
   }
 
@@ -206,7 +228,7 @@ ImplicitScratch::ImplicitScratch(const SoftMesh& mesh)
       extrapolated(mesh),
       middle(mesh.topology.vertex_count()),
       result{VertexArray(mesh.topology.vertex_count()), VertexArray(mesh.topology.vertex_count())},
-      ground_impulse(mesh.topology.vertex_count()) {}
+      pushed(at(mesh.topology.vertex_count())) {}
 
 ImplicitReport implicit_step(const SoftMesh& mesh, const SoftMaterial& material,
                              const Settings& settings, const SoftState& start,

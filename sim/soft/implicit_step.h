@@ -20,9 +20,9 @@
 // the rate (l - l0) / beta makes in either step then cancel over both.
 //
 // Ground (3.1.4): z >= 0 is a bound of the minimisation, and friction (Coulomb) a potential in it
-// with the bound's own forces, so that neither can add energy. What the ground gave to the vertices
-// it holds is taken off their velocities again, for resolve_contacts to give it back with friction
-// and restitution: it would otherwise not know of these contacts.
+// with the bound's own forces, so that neither can add energy. Restitution is the last act of a
+// step. resolve_contacts sees these vertices at z = 0 and at rest: what is left for it is what
+// other bodies do to them.
 //
 // Guarantees, for every step and every material, up to rounding:
 //   V > 0 afterwards, if it was before;
@@ -56,7 +56,7 @@ struct ImplicitScratch {
   EulerBase extrapolated;
   VertexArray middle;  // m
   SoftState result;
-  VertexArray ground_impulse;  // N s
+  std::vector<char> pushed;  // per vertex: by the ground
 };
 
 /// How a step went.

@@ -15,9 +15,12 @@ constexpr double rounding = 1e-13;
 constexpr double armijo_share = 1e-4;
 constexpr int greatest_halvings = 60;
 
-/// Of an energy's terms, what the last iteration may still promise to take. A body thinner than the
-/// tolerance moves by little and yet has far to go: every iteration doubles its volume.
+/// Of nRT, what the last iteration may still promise to take. A body thinner than the tolerance
+/// moves by little and yet has far to go: every iteration doubles its volume.
 constexpr double small_promise = 1e-8;
+
+/// Of the volume, what an iteration leaves at least: closer to 0 the way back is long.
+constexpr double least_volume_left = 0.01;
 
 /// Steps after which E stands still to rounding, but the positions may still become better.
 constexpr int greatest_polishing = 3;
@@ -69,22 +72,23 @@ double EnergyMinimiser::floor_force(const StepEnergy& energy, int vertex) const 
   return std::max(0.0, gradient_[vertex].z());
 }
 
-/// Of the vertices on the floor those that E would push through it (Bertsekas, Projected Newton
-/// methods, 1982).
+/// Of the vertices on the floor, the heights of those that E would push through it (Bertsekas,
+/// Projected Newton methods, 1982), and the places of those that friction holds.
 void EnergyMinimiser::find_pinned(const StepEnergy& energy) {
   if (!energy.ground) return;
   for (int v = 0; v < gradient_.size(); ++v) {
-    const char pinned = floor_force(energy, v) > 0.0;
-    has_factors_ &= pinned == pinned_[at(v)];
-    pinned_[at(v)] = pinned;
+    const Pins pins{floor_force(energy, v) > 0.0, energy.friction && energy.held[at(v)]};
+    has_factors_ &= pins == pinned_[at(v)];
+    pinned_[at(v)] = pins;
   }
-  release_pinned(gradient_);
-  release_pinned(other_gradient_);
+  clear_pinned(gradient_);
+  clear_pinned(other_gradient_);
 }
 
-void EnergyMinimiser::release_pinned(VertexArray& values) const {
+void EnergyMinimiser::clear_pinned(VertexArray& values) const {
   for (int v = 0; v < values.size(); ++v) {
-    if (pinned_[at(v)]) values[v].z() = 0.0;
+    if (pinned_[at(v)].height) values[v].z() = 0.0;
+    if (pinned_[at(v)].place) values[v].head<2>().setZero();
   }
 }
 
@@ -93,10 +97,12 @@ void EnergyMinimiser::release_pinned(VertexArray& values) const {
 bool EnergyMinimiser::factorize(const StepEnergy& energy) {
   hessian_without_rank_one(mesh_, energy, point_, opposite_, matrix_);
   matrix_.add_identity(added_inertia_);
-  if (energy.ground) {
-    for (int v = 0; v < gradient_.size(); ++v) {
-      if (pinned_[at(v)]) matrix_.pin(v, 2);
+  for (int v = 0; energy.ground && v < gradient_.size(); ++v) {
+    if (pinned_[at(v)].place) {
+      matrix_.pin(v, 0);
+      matrix_.pin(v, 1);
     }
+    if (pinned_[at(v)].height) matrix_.pin(v, 2);
   }
   factors_inertia_ = energy.inertia;
   has_factors_ = matrix_.factorize() && matrix_.negative_count() <= (energy.gas > 0.0 ? 1 : 0);
@@ -110,7 +116,7 @@ bool EnergyMinimiser::solve(const StepEnergy& energy) {
   if (energy.gas > 0.0) {
     const double p = pressure(energy, point_);
     rank_one_.rows() = std::sqrt(p / point_.volume) * point_.volume_gradient.rows();
-    if (energy.ground) release_pinned(rank_one_);
+    if (energy.ground) clear_pinned(rank_one_);
     rank_one_solved_.rows() = rank_one_.rows();
     matrix_.solve(rank_one_solved_);
     const double denominator = 1.0 + dot(rank_one_, rank_one_solved_);
@@ -156,6 +162,7 @@ double EnergyMinimiser::descend(const StepEnergy& energy) {
   for (int i = 0; i <= greatest_halvings; ++i, share *= 0.5) {
     go(energy, share);
     if (!evaluate(mesh_, energy, trial_)) continue;
+    if (trial_.volume < least_volume_left * point_.volume) continue;
     const double promised =
         gradient_.rows().cwiseProduct(trial_.positions.rows() - point_.positions.rows()).sum();
     if (trial_.energy <= point_.energy + armijo_share * promised + rounding * trial_.magnitude) {
@@ -171,20 +178,21 @@ MinimiserReport EnergyMinimiser::minimise(const StepEnergy& energy, double toler
   added_inertia_ = 0.0;
   double last_size = std::numeric_limits<double>::infinity();  // of the last direction
   int polishing = 0;
+  const double least_gas = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();
   while (report.iterations < greatest_iterations && !report.converged) {
     update_gradient(energy);
     find_pinned(energy);
     if (!find_direction_by_old_factors(energy, last_size)) find_direction(energy, report);
     ++report.iterations;
     const double size = greatest_size(direction_);
-    const double promise = -dot(gradient_, direction_) / point_.magnitude;
+    const double promise = -dot(gradient_, direction_);
     const double share = descend(energy);
-    if (!(promise > rounding)) ++polishing;
+    if (!(promise > rounding * point_.magnitude)) ++polishing;
     // The directions shrink by the same factor again, with new factors by more.
     const bool full = share == 1.0 && added_inertia_ == 0.0;
     const double next = full ? size * std::min(1.0, size / last_size) : size;
-    report.converged = (next <= tolerance && promise <= small_promise) || share == 0.0 ||
-                       polishing > greatest_polishing;
+    report.converged = (next <= tolerance && promise <= small_promise * least_gas) ||
+                       share == 0.0 || polishing > greatest_polishing;
     last_size = full ? size : 0.0;
     added_inertia_ /= addition_factor;
   }

@@ -57,14 +57,23 @@ class EnergyMinimiser {
   /// comes out, to its last bit, depends on them.
   void forget() { has_factors_ = false; }
 
-  /// dE/dz in N at point(): the force of the floor on a vertex that is on it, else 0.
+  /// N, at point(): with which the floor holds a vertex up that is on it, else 0.
   double floor_force(const StepEnergy& energy, int vertex) const;
-  /// To be called once before floor_force().
+  /// N, at point(): with which a held vertex is held in its place across the ground.
+  double hold_force(int vertex) const { return gradient_[vertex].head<2>().norm(); }
+  /// To be called once before these.
   void update_gradient(const StepEnergy& energy);
 
  private:
+  /// What of a vertex' coordinates does not move.
+  struct Pins {
+    bool height = false;  // on the floor, that pushes
+    bool place = false;   // held by friction
+    friend bool operator==(const Pins&, const Pins&) = default;
+  };
+
   void find_pinned(const StepEnergy& energy);
-  void release_pinned(VertexArray& values) const;
+  void clear_pinned(VertexArray& values) const;
   bool find_direction_by_old_factors(const StepEnergy& energy, double last_size);
   void find_direction(const StepEnergy& energy, MinimiserReport& report);
   bool factorize(const StepEnergy& energy);
@@ -82,7 +91,7 @@ class EnergyMinimiser {
   VertexArray direction_;
   VertexArray rank_one_;         // q
   VertexArray rank_one_solved_;  // S^-1 q
-  std::vector<char> pinned_;     // per vertex: held by the floor
+  std::vector<Pins> pinned_;     // per vertex
   double added_inertia_ = 0.0;
   bool has_factors_ = false;  // in matrix_
   double factors_inertia_ = 0.0;

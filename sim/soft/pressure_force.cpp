@@ -33,6 +33,16 @@ double volume(const VertexArray& positions, const VertexArray& gradient) {
   return three_volumes / 3.0;
 }
 
+double volume_rounding(const VertexArray& positions, const VertexArray& gradient) {
+  constexpr double rounding = 1e-15;  // of a term and its share of the sum
+  const Vec3 centre = mean(positions);
+  double terms = 0.0;
+  for (int v = 0; v < positions.size(); ++v) {
+    terms += (positions[v] - centre).norm() * gradient[v].norm();
+  }
+  return rounding * terms;
+}
+
 double gas_energy(const SoftMaterial& material, double volume) {
   const double strength = gas_strength(material);
   return strength > 0.0 ? -strength * std::log(volume) : 0.0;

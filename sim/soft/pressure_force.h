@@ -17,6 +17,9 @@ void volume_gradient(const MeshTopology& topology, const VertexArray& positions,
 /// centre, so by Euler's theorem 3 V = sum (x - c) . dV/dx.
 double volume(const VertexArray& positions, const VertexArray& gradient);
 
+/// m^3, by which that may be off. A body as thin as this has no volume that a double can tell.
+double volume_rounding(const VertexArray& positions, const VertexArray& gradient);
+
 /// nRT in joule.
 inline double gas_strength(const SoftMaterial& material) {
   return material.n * gas_constant * material.temperature;

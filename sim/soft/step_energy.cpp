@@ -16,8 +16,8 @@ Vec2 slide(const StepEnergy& energy, const VertexArray& positions, int v) {
   return (positions[v] - energy.hold[v]).head<2>();
 }
 
-/// Coulomb's friction as a potential: its force grows with the slide u until u = slip, and is
-/// the grip from there on (Li et al., Incremental Potential Contact, 2020, section 5.2, with the
+/// Sliding friction as a potential: its force grows with the slide u until u = slip, and is the
+/// grip from there on (Li et al., Incremental Potential Contact, 2020, section 5.2, with the
 /// simplest function that does so).
 double friction_energy(const StepEnergy& energy, const VertexArray& positions) {
   double sum = 0.0;
@@ -75,8 +75,9 @@ StepEnergy::StepEnergy(const SoftMesh& mesh)
     : target(mesh.topology.vertex_count()),
       rest_lengths(mesh.rest_lengths.size()),
       floor(at(mesh.topology.vertex_count())),
-      grip(at(mesh.topology.vertex_count())),
-      hold(mesh.topology.vertex_count()) {}
+      hold(mesh.topology.vertex_count()),
+      held(at(mesh.topology.vertex_count())),
+      grip(at(mesh.topology.vertex_count())) {}
 
 EnergyPoint::EnergyPoint(const SoftMesh& mesh)
     : positions(mesh.topology.vertex_count()),
@@ -98,7 +99,7 @@ bool evaluate(const SoftMesh& mesh, const StepEnergy& energy, EnergyPoint& point
   if (energy.gas > 0.0) {
     volume_gradient(mesh.topology, point.positions, point.volume_gradient);
     point.volume = volume(point.positions, point.volume_gradient);
-    if (!(point.volume > 0.0)) return false;
+    if (!(point.volume > volume_rounding(point.positions, point.volume_gradient))) return false;
     const double gas = -energy.gas * std::log(point.volume);
     point.energy += gas;
     point.magnitude += std::abs(gas);

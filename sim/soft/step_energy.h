@@ -5,7 +5,7 @@
 // y is where the vertices would be without springs and gas, A their inertia, and s, r the stiffness
 // and rest lengths of springs and dashpots together (implicit_step.h says which). E grows without
 // bound as V -> 0 and as |x| -> infinity, so that it has a least value with V > 0. Where there is a
-// ground, x is to stay above it.
+// ground, x is to stay above it, and some vertices where friction holds them.
 #pragma once
 
 #include <array>
@@ -29,9 +29,10 @@ struct StepEnergy {
   std::vector<double> floor;  // m, per vertex: z is not to be below
 
   bool friction = false;
-  std::vector<double> grip;  // N, per vertex: the most that friction bears
   VertexArray hold;          // m, where friction would hold the vertices
-  double slip = 1.0;         // m from there at which friction has become its greatest
+  std::vector<char> held;    // per vertex: does so, x and y are to be there
+  std::vector<double> grip;  // N, per vertex: with how much it drags them there; not of held ones
+  double slip = 1.0;         // m from there at which that has become its greatest
 };
 
 /// A place at which the energy is known.

@@ -192,10 +192,10 @@ void separate(World& world, const StepWorkspace& workspace) {
   }
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
     const Contact& contact = workspace.contacts[i];
-    // At a depth of 0 the integrator has put the vertex where ground and friction hold it.
-    if (!is_soft_ground(contact) || contact.depth == 0.0) continue;
-    put_onto_ground(world, contact, workspace.impulses[i].sticks(),
-                    workspace.soft_start[at(contact.first.body)]);
+    if (!is_soft_ground(contact)) continue;
+    // Implicit integrators hold by friction what is on the ground, and below it, themselves.
+    const bool sticks = !is_implicit(world.settings.integrator) && workspace.impulses[i].sticks();
+    put_onto_ground(world, contact, sticks, workspace.soft_start[at(contact.first.body)]);
   }
 }
 
