@@ -18,6 +18,10 @@ std::string volume_report(double volume) {
          "gas";
 }
 
+/// By which a volume may grow from the least at which a step of an explicit integrator took its
+/// force to its end. That force does not last: the gas would do far more work than it has to give.
+constexpr double greatest_growth = 64.0;
+
 /// A step ends soundly when every position is finite and a body with gas has a volume.
 std::optional<Divergence> check(const World& world, const SoftBody& body, double least_volume) {
   const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
@@ -29,6 +33,12 @@ std::optional<Divergence> check(const World& world, const SoftBody& body, double
   if (!(least_volume > 0.0)) return failure(world, body, volume_report(least_volume));
   const double end_volume = volume(body.mesh->topology, body.positions);
   if (!(end_volume > 0.0)) return failure(world, body, volume_report(end_volume));
+  if (end_volume > greatest_growth * least_volume) {
+    return failure(world, body,
+                   "its volume grew from " + std::to_string(least_volume) + " to " +
+                       std::to_string(end_volume) +
+                       " m^3 in one step: the step is too long for its gas");
+  }
   return std::nullopt;
 }
 

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/mesh/measure.h"
+#include "sim/soft/pressure_force.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
@@ -199,7 +201,7 @@ void separate(World& world, const StepWorkspace& workspace) {
   }
 }
 
-/// The last look at a step: what its contacts made is finite.
+/// The last look at a step: what its contacts made is finite, and what holds gas has a volume.
 std::optional<Divergence> find_not_finite(const World& world) {
   const auto divergence = [&](const std::string& body) {
     return Divergence{Stage::resolve_contacts, world.steps + 1, body,
@@ -209,6 +211,11 @@ std::optional<Divergence> find_not_finite(const World& world) {
     // A sum is finite only if all its terms are, and far quicker to look at.
     const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
     if (!std::isfinite(sum)) return divergence(body.name);
+    if (gas_strength(body.material) > 0.0 && !(volume(body.mesh->topology, body.positions) > 0.0)) {
+      return Divergence{
+          Stage::resolve_contacts, world.steps + 1, body.name,
+          "its contacts pressed its volume to nothing: it came too fast for this step"};
+    }
   }
   for (const RigidBox& box : world.rigid) {
     const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
