@@ -59,6 +59,7 @@ const PaperScene paper_scenes[] = {
     {"pressure_firm", one_body, 0.0, 2e-4, 0.05, false},
     {"pressure_soft", one_body, 0.0, 1e-5, 0.2, false},
     {"sphere_in_torus", soft_bodies, 0.0, 2e-4, 0.05, true},
+    {"stiff_torus", one_body, 0.0, 1e-5, 1.5, false},  // five seconds, in which it does not settle
     {"three_spheres", soft_bodies, 0.0, 1e-5, 0.3, false},
     // Seven particles on each sphere, which now and then change the features that hold it.
     {"three_spheres_contact", soft_bodies, 0.2, 1.5e-2, 0.4, true},

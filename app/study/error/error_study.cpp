@@ -36,9 +36,16 @@ struct Candidate {
 /// From coarse to fine, so that the first one that takes too long stops the rest.
 using Method = std::vector<Candidate>;
 
+bool can_integrate(sim::Integrator integrator, const sim::World& world) {
+  return std::ranges::all_of(world.soft, [&](const sim::SoftBody& body) {
+    return sim::can_integrate(integrator, body.material);
+  });
+}
+
 std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& options) {
   std::vector<Method> methods;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
+    if (!can_integrate(integrator, flight.world)) continue;
     Method& method = methods.emplace_back();
     for (const int rate : options.steps_per_second) {
       sim::World world = flight.world;
