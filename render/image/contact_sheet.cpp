@@ -82,7 +82,9 @@ Image contact_sheet(std::span<const Image> images, int columns, int rows, int wi
   }
   constexpr std::uint8_t paper = 250;
   const int margin = std::max(2, width / 320);
-  const int cell_width = (width - margin * (columns + 1)) / columns;
+  int widest = 0;
+  for (const Image& image : images) widest = std::max(widest, image.width);
+  const int cell_width = std::min(widest, (width - margin * (columns + 1)) / columns);
   const double shape = static_cast<double>(images[0].height) / images[0].width;
   const int cell_height = static_cast<int>(std::lround(cell_width * shape));
   if (cell_width < 1 || cell_height < 1) {
@@ -90,7 +92,7 @@ Image contact_sheet(std::span<const Image> images, int columns, int rows, int wi
         fmt::format("contact_sheet: {} pixels are too few for {} columns", width, columns));
   }
 
-  Image sheet{width, margin + rows * (cell_height + margin), {}};
+  Image sheet{margin + columns * (cell_width + margin), margin + rows * (cell_height + margin), {}};
   sheet.pixels.assign(channel_index(sheet, 0, sheet.height), paper);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];

@@ -11,10 +11,11 @@ namespace pneuma::render {
 /// std::invalid_argument unless 1 <= width <= image.width, and so for the height.
 Image downscale(const Image& image, int width, int height);
 
-/// A page `width` pixels wide with the pictures row by row, each made to fit its cell and centred
-/// in it, never enlarged. Cells have the shape of the first picture; cells without a picture stay
-/// empty. Throws std::invalid_argument without pictures, with more than columns x rows of them, or
-/// when the page is too narrow for its columns.
+/// A page at most `width` pixels wide with the pictures row by row, each made to fit its cell and
+/// centred in it, never enlarged: cells are as wide as the page allows, but no wider than the
+/// widest picture. They have the shape of the first picture; those without a picture stay empty.
+/// Throws std::invalid_argument without pictures, with more than columns x rows of them, or when
+/// the page is too narrow for its columns.
 Image contact_sheet(std::span<const Image> images, int columns, int rows, int width = 1280);
 
 }  // namespace pneuma::render

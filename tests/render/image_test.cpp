@@ -165,6 +165,17 @@ TEST(ContactSheet, centres_what_does_not_fill_its_cell) {
   EXPECT_EQ(pixel_at(sheet, 140, 52), (Pixel{250, 250, 250})) << "not enlarged";
 }
 
+TEST(ContactSheet, is_no_wider_than_its_pictures_fill) {
+  const std::vector<Image> images(5, plain(64, 48, {255, 0, 0}));
+  const Image sheet = contact_sheet(images, 4, 3, 1920);
+  // Margins of 1920 / 320 = 6 about cells of 64 x 48.
+  EXPECT_EQ(sheet.width, 6 + 4 * (64 + 6));
+  EXPECT_EQ(sheet.height, 6 + 3 * (48 + 6));
+  EXPECT_EQ(pixel_at(sheet, 6, 6), (Pixel{255, 0, 0}));
+  EXPECT_EQ(pixel_at(sheet, 6 + 63, 6 + 47), (Pixel{255, 0, 0}));
+  EXPECT_EQ(pixel_at(sheet, 6 + 64, 6), (Pixel{250, 250, 250}));
+}
+
 TEST(ContactSheet, refuses_too_many_or_too_few) {
   const std::vector<Image> images(5, plain(10, 10, {0, 0, 0}));
   EXPECT_THROW(contact_sheet(images, 2, 2), std::invalid_argument);
