@@ -4,9 +4,11 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "render/context/context.h"
 #include "render/image/file.h"
 #include "scenes/load_scene.h"
+#include "scenes/nearest.h"
 
 namespace {
 
@@ -66,6 +69,17 @@ ExitCode run(const app::Action& action) {
   }
 }
 
+/// What to say when the first word is no command; none when it is one, or an option.
+std::optional<std::string> unknown_command(const CLI::App& cli,
+                                           const std::vector<std::string>& command_line) {
+  if (command_line.size() < 2 || command_line[1].starts_with('-')) return std::nullopt;
+  std::vector<std::string> names;
+  for (const CLI::App* command : cli.get_subcommands({})) names.push_back(command->get_name());
+  if (std::ranges::find(names, command_line[1]) != names.end()) return std::nullopt;
+  return fmt::format("there is no command {}{}", scenes::in_quotes(command_line[1]),
+                     scenes::suggestion_and_all(command_line[1], {names.begin(), names.end()}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -86,6 +100,9 @@ int main(int argc, char** argv) {
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const auto unknown = unknown_command(cli, command_line)) {
+      return static_cast<int>(fail(ExitCode::usage, app::UsageError(*unknown)));
+    }
     return static_cast<int>(cli.exit(error) == 0 ? ExitCode::done : ExitCode::usage);
   }
   return static_cast<int>(run(action));

@@ -29,6 +29,14 @@ TEST(Usage, IsTwo) {
   }
 }
 
+TEST(Usage, NamesTheCommandsAndTheNearest) {
+  expect_failure(run_pneuma("frobnicate one_sphere 2>&1"), 2,
+                 {"pneuma: there is no command 'frobnicate'",
+                  "allowed: render, export, bench, check, list, doctor"});
+  expect_failure(run_pneuma("rendre one_sphere 2>&1"), 2,
+                 {"no command 'rendre'; did you mean 'render'?"});
+}
+
 TEST(Help, GoesToStandardOutput) {
   for (const char* asked : {"--help", "render --help", "--version"}) {
     const ProgramResult result = run_pneuma(std::string(asked) + " 2>/dev/null");
