@@ -15,6 +15,7 @@
 #include "app/errors.h"
 #include "app/find_model.h"
 #include "app/find_scene.h"
+#include "app/keys_json.h"
 #include "assets/model_file.h"
 #include "scenes/load_scene.h"
 #include "scenes/print_scene.h"
@@ -46,7 +47,7 @@ ExitCode check_model_file(const CheckOptions& options) {
 
 ExitCode check(const CheckOptions& options) {
   if (options.keys) {
-    fmt::print("{}", scenes::scene_reference());
+    fmt::print("{}", options.json ? keys_json().dump(2) + "\n" : scenes::scene_reference());
     return ExitCode::done;
   }
   if (options.scene.empty()) {

@@ -61,6 +61,24 @@ struct ValueText {
   std::string operator()(const Word& word) const { return string_text(word.words[word.get()]); }
 };
 
+struct TypeText {
+  std::string operator()(std::monostate) const { return {}; }
+  std::string operator()(const double*) const { return "number"; }
+  std::string operator()(const int*) const { return "whole number"; }
+  std::string operator()(const std::uint64_t*) const { return "whole number"; }
+  std::string operator()(const bool*) const { return "true or false"; }
+  std::string operator()(const std::string*) const { return "string"; }
+  std::string operator()(const Vec3*) const { return "3 numbers"; }
+  std::string operator()(const std::optional<double>*) const { return "number"; }
+  std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
+  std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
+  std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
+  std::string operator()(const std::optional<sim::Surface>*) const { return "true or false"; }
+  std::string operator()(const Word& word) const {
+    return fmt::format("\"{}\"", fmt::join(word.words, "\", \""));
+  }
+};
+
 struct MemberOf {
   const void* operator()(std::monostate) const { return nullptr; }
   template <class T>
@@ -102,6 +120,8 @@ std::string Range::text(std::string_view name) const {
 }
 
 const void* member_of(const Slot& slot) { return std::visit(MemberOf{}, slot); }
+
+std::string type_text(const Slot& slot) { return std::visit(TypeText{}, slot); }
 
 std::string value_text(const Slot& slot) { return std::visit(ValueText{}, slot); }
 

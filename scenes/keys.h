@@ -42,6 +42,9 @@ using Slot = std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, 
 /// The address that identifies a slot's member.
 const void* member_of(const Slot& slot);
 
+/// What a slot takes, in words: "3 numbers".
+std::string type_text(const Slot& slot);
+
 /// A slot's value as TOML; empty for an optional member without a value.
 std::string value_text(const Slot& slot);
 

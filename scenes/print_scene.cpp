@@ -1,7 +1,6 @@
 #include "scenes/print_scene.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "scenes/nearest.h"
 #include "scenes/sections.h"
@@ -58,31 +57,12 @@ std::string scene_text(Scene scene, bool comments) {
   return text;
 }
 
-/// What a slot takes, in words.
-struct TypeText {
-  std::string operator()(std::monostate) const { return {}; }
-  std::string operator()(const double*) const { return "number"; }
-  std::string operator()(const int*) const { return "whole number"; }
-  std::string operator()(const std::uint64_t*) const { return "whole number"; }
-  std::string operator()(const bool*) const { return "true or false"; }
-  std::string operator()(const std::string*) const { return "string"; }
-  std::string operator()(const Vec3*) const { return "3 numbers"; }
-  std::string operator()(const std::optional<double>*) const { return "number"; }
-  std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
-  std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
-  std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
-  std::string operator()(const std::optional<sim::Surface>*) const { return "true or false"; }
-  std::string operator()(const Word& word) const {
-    return fmt::format("\"{}\"", fmt::join(word.words, "\", \""));
-  }
-};
-
 std::string key_reference(const Key& key) {
   const std::string range = key.range.text(key.name);
   const std::string value = value_text(key.slot);
   std::string text = fmt::format("  {:<18}{}", key.name, key.meaning);
   if (!key.only_for.empty()) text += fmt::format(" ({} only)", key.only_for);
-  text += fmt::format("\n  {:<18}  {}", "", std::visit(TypeText{}, key.slot));
+  text += fmt::format("\n  {:<18}  {}", "", type_text(key.slot));
   if (!range.empty()) text += fmt::format(", {}", range);
   if (!key.unit.empty()) text += fmt::format(" {}", key.unit);
   return text + (value.empty() ? "; not set by default\n" : fmt::format("; default {}\n", value));

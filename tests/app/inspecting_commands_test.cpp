@@ -69,6 +69,29 @@ TEST(Bench, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(run_pneuma("bench one_sphere --steps 1 --seconds 1 2>&1").exit_code, 2);
 }
 
+TEST(Check, PrintsTheKeysAsJsonToo) {
+  const auto keys = nlohmann::json::parse(run_pneuma("check --keys --json", no_gl).output);
+  const std::string text = run_pneuma("check --keys", no_gl).output;
+  const auto find = [&](const std::string& path) -> nlohmann::json {
+    for (const auto& key : keys) {
+      if (key["path"] == path) return key;
+    }
+    return {};
+  };
+  EXPECT_EQ(find("body.k"), nlohmann::json::parse(R"({"path": "body.k", "takes": "number",
+      "words": null, "range": "k >= 0", "unit": "N/m", "default": 50.0,
+      "only_for": "soft bodies", "meaning": "spring constant"})"));
+  EXPECT_EQ(find("simulation.integrator")["words"],
+            (nlohmann::json{"martin", "symplectic_euler", "velocity_verlet", "rk4"}));
+  EXPECT_EQ(find("simulation.gravity")["default"], (nlohmann::json{0.0, 0.0, -9.81}));
+  EXPECT_EQ(find("ground.present")["default"], true);
+  EXPECT_TRUE(find("camera.eye")["default"].is_null());
+  // As many as the text has, where each key has a line with its default.
+  std::size_t defaults = 0;
+  for (std::size_t at = 0; (at = text.find("default", at)) != text.npos; ++at) ++defaults;
+  EXPECT_EQ(keys.size(), defaults);
+}
+
 TEST(Check, PrintsWhatRunsAndWhatIsLeftOut) {
   const ProgramResult result = run_pneuma("check one_sphere", no_gl);
   EXPECT_EQ(result.exit_code, 0);
