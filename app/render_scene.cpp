@@ -21,6 +21,7 @@
 #include "render/image/file.h"
 #include "scenes/load_scene.h"
 #include "scenes/print_scene.h"
+#include "sim/step/plan.h"
 
 namespace pneuma::app {
 namespace {
@@ -60,10 +61,22 @@ void close_run(const RunFolder& folder) {
   std::filesystem::remove(folder.state());
 }
 
+/// Particles are asked for in vain where no two soft bodies can meet.
+void warn_of_missing_particles(const Pictures& pictures, const scenes::Scene& scene,
+                               const sim::World& world, Progress& progress) {
+  const bool asked = pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
+  const sim::Plan plan = sim::make_plan(world);
+  if (!asked || plan.runs(sim::Stage::move_particles)) return;
+  const auto stage = static_cast<std::size_t>(sim::Stage::move_particles);
+  progress.say(fmt::format("{}: there are no collision particles to draw: {}", scene.name,
+                           plan.stages[stage].reason));
+}
+
 void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
                  const RunFolder& folder, Progress& progress) {
   const sim::World start = build_world(scene);
   render::Renderer renderer(picture_options(scene.picture));
+  warn_of_missing_particles(request.pictures, scene, start, progress);
 
   const Json identity = run_identity(scene, start, frames.first, frames.last, request.pictures,
                                      renderer.description());
@@ -86,6 +99,16 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   draw_frames(simulation, from.next_frame, frames.last,
               {builder, request.pictures, renderer, folder, journal}, progress);
   close_run(folder);
+}
+
+/// Before the run, which may take long.
+void check_video(const scenes::Scene& scene, const std::string& video, Progress& progress) {
+  check_video_place(video);
+  if (const auto ffmpeg = find_program("ffmpeg")) {
+    try_video(*ffmpeg, scene.picture.width, scene.picture.height, video);
+  } else {
+    progress.say("ffmpeg is not installed; after the run, the command for the video is printed");
+  }
 }
 
 void make_video(const RunFolder& folder, std::int64_t first, int frames_per_second,
@@ -118,6 +141,7 @@ ExitCode render_scene(const RenderRequest& request) {
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);
   try {
+    if (!request.video.empty()) check_video(scene, request.video, progress);
     make_frames(request, scene, frames, folder, progress);
     fmt::print("{}\n", folder.path().string());
     if (request.sheet) {

@@ -249,6 +249,35 @@ TEST_F(RenderTest, RunsFfmpegAndReportsItsFailure) {
   EXPECT_EQ(failed.exit_code, 6);
   EXPECT_NE(failed.output.find("no such codec"), std::string::npos) << failed.output;
   EXPECT_EQ(pictures().size(), 2u);
+  // Before a run, not after it.
+  EXPECT_EQ(render_into("not_begun", "--video '" + video + "'", path).exit_code, 6);
+  EXPECT_FALSE(fs::exists(out("not_begun")));
+}
+
+TEST_F(RenderTest, DoesNotBeginWithoutAPlaceForItsVideo) {
+  write_text(folder_ / "file", "");
+  for (const char* place : {"gone/film.mp4", "file/film.mp4", ".", "/proc/film.mp4"}) {
+    const fs::path video = folder_ / place;  // an absolute place stays as it is
+    const ProgramResult result = render("--video '" + video.string() + "'");
+    EXPECT_EQ(result.exit_code, 6) << result.output;
+    EXPECT_NE(result.output.find(" the video " + video.string() + ": "), std::string::npos)
+        << result.output;
+    EXPECT_FALSE(fs::exists(out()));
+  }
+}
+
+TEST_F(RenderTest, SaysThatThereAreNoParticlesToDraw) {
+  const std::string words = "fall: there are no collision particles to draw: ";
+  for (const char* options : {"--overlay particles", "--overwrite --show contacts,particles"}) {
+    const ProgramResult result = render(std::string(options) + " --frames 1");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.output.find(words), std::string::npos) << result.output;
+  }
+  EXPECT_EQ(render("--overwrite --overlay contacts --frames 1").output.find(words),
+            std::string::npos);
+  write_text(scene(), std::string(falling_ball) + "copies = [2, 1, 1]\n");
+  EXPECT_EQ(render("--overwrite --overlay particles --frames 1").output.find(words),
+            std::string::npos);
 }
 
 }  // namespace
