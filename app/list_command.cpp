@@ -27,7 +27,7 @@ std::string list_text(const std::vector<CatalogueEntry>& entries) {
                {"title", Align::left}});
   for (const CatalogueEntry& entry : entries) {
     const std::string title = entry.error.empty() ? entry.title : "INVALID: " + entry.error;
-    table.add_row({entry.name, wrapped(entry.figure, figure_width),
+    table.add_row({entry.name, entry.figure.empty() ? "-" : wrapped(entry.figure, figure_width),
                    entry.paper_fps ? fmt::format("{:g}", *entry.paper_fps) : "-",
                    wrapped(title, title_width)});
   }

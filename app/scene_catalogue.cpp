@@ -11,11 +11,12 @@ namespace pneuma::app {
 namespace {
 
 // Section 6.3's list from top to bottom, then sections 6.4 and 6.5.
-constexpr std::array<std::string_view, 12> paper_order = {
+constexpr std::array<std::string_view, 13> paper_order = {
     "one_sphere",          "one_torus",           "two_spheres",
     "two_spheres_contact", "three_spheres",       "three_spheres_contact",
     "sphere_in_torus",     "torus_four_cubes",    "pressure_firm",
     "pressure_soft",       "torus_three_spheres", "torus_three_spheres_four_cubes",
+    "cat_on_sphere",
 };
 
 CatalogueEntry make_entry(const scenes::SceneInfo& info) {

@@ -34,6 +34,7 @@ TEST(SceneCatalogue, PutsThePapersBenchmarkFirst) {
   ASSERT_GE(names.size(), 2u);
   EXPECT_EQ(names[0], "one_sphere");
   EXPECT_EQ(names[1], "one_torus");
+  EXPECT_EQ(names.back(), "cat_on_sphere") << "the last figure";
   for (const fs::path& path : scenes_of_the_paper()) {
     EXPECT_TRUE(scenes::load_scene(path).paper_fps) << path;
   }
