@@ -1,40 +1,9 @@
-// Scenes with one thing wrong: the place and the words of the message.
-#include <gtest/gtest.h>
+#include "tests/scenes/broken_scenes.h"
 
-#include "scenes/load_scene.h"
+#include <initializer_list>
 
 namespace pneuma::scenes {
 namespace {
-
-struct Broken {
-  const char* name;
-  std::string text;
-  int line;
-  int column;
-  std::vector<std::string> words;  // all of them are in the message
-};
-
-void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
-
-class BrokenScene : public testing::TestWithParam<Broken> {};
-
-TEST_P(BrokenScene, IsRefusedAtThePlaceWithAMessageThatHelps) {
-  const Broken& broken = GetParam();
-  try {
-    parse_scene(broken.text, "broken.toml");
-    FAIL() << "was accepted:\n" << broken.text;
-  } catch (const SceneError& error) {
-    ASSERT_EQ(error.diagnostics().size(), 1u) << error.what();
-    const Diagnostic& diagnostic = error.diagnostics().front();
-    EXPECT_EQ(diagnostic.file, "broken.toml");
-    EXPECT_EQ(diagnostic.line, broken.line) << error.what();
-    EXPECT_EQ(diagnostic.column, broken.column) << error.what();
-    for (const std::string& word : broken.words) {
-      EXPECT_NE(diagnostic.message.find(word), std::string::npos)
-          << "'" << word << "' is not in: " << diagnostic.message;
-    }
-  }
-}
 
 std::string lines(std::initializer_list<std::string> texts) {
   std::string result;
@@ -62,7 +31,7 @@ std::string dotted(int depth) {
   return key + "a = 1\n";
 }
 
-const std::vector<Broken> documents = {
+const std::vector<BrokenScene> documents = {
     {"empty_file", "", 1, 1, {"at least one [[body]]"}},
     {"no_body", "title = \"x\"\n", 1, 1, {"at least one [[body]]"}},
     {"no_value", "[[body]]\nk =\n", 2, 4, {}},
@@ -96,7 +65,7 @@ const std::vector<Broken> documents = {
      {"[simulation.particles]", "got true"}},
 };
 
-const std::vector<Broken> unknown_keys = {
+const std::vector<BrokenScene> unknown_keys = {
     {"misspelt_key",
      sphere("raduis = 3.0"),
      2,
@@ -128,7 +97,7 @@ const std::vector<Broken> unknown_keys = {
     {"strange_key", sphere("\"a\\u001bb\" = 1"), 2, 1, {"'a\\x1bb'"}},
 };
 
-const std::vector<Broken> inapplicable_keys = {
+const std::vector<BrokenScene> inapplicable_keys = {
     {"k_of_a_rigid_body", rigid("k = 10"), 3, 1, {"k applies to soft bodies only", "a rigid box"}},
     {"mass_of_a_soft_body",
      sphere("mass = 1"),
@@ -163,7 +132,7 @@ const std::vector<Broken> inapplicable_keys = {
     {"rigid_sphere", rigid("shape = \"sphere\""), 3, 9, {"a rigid body is always a box"}},
 };
 
-const std::vector<Broken> wrong_types = {
+const std::vector<BrokenScene> wrong_types = {
     {"string_for_a_number", sphere("k = \"x\""), 2, 5, {"k: expected a number, got string \"x\""}},
     {"flag_for_a_number", sphere("k = true"), 2, 5, {"expected a number, got true"}},
     {"date_for_a_number", sphere("k = 2009-05-01"), 2, 5, {"expected a number, got a date"}},
@@ -207,7 +176,7 @@ const std::vector<Broken> wrong_types = {
     {"unknown_shape", sphere("shape = \"cube\""), 2, 9, {"allowed: sphere, torus, box, icosphere"}},
 };
 
-const std::vector<Broken> out_of_range = {
+const std::vector<BrokenScene> out_of_range = {
     {"negative_k",
      sphere("k = -5"),
      2,
@@ -248,7 +217,7 @@ const std::vector<Broken> out_of_range = {
      {"201 characters", "at most 200"}},
 };
 
-const std::vector<Broken> across_keys = {
+const std::vector<BrokenScene> across_keys = {
     {"torus_without_a_hole",
      shaped("torus", "tube_radius = 3.0"),
      3,
@@ -306,15 +275,15 @@ const std::vector<Broken> across_keys = {
      {"5 copies along z", "set spacing"}},
 };
 
-std::string test_name(const testing::TestParamInfo<Broken>& info) { return info.param.name; }
-
-INSTANTIATE_TEST_SUITE_P(Documents, BrokenScene, testing::ValuesIn(documents), test_name);
-INSTANTIATE_TEST_SUITE_P(UnknownKeys, BrokenScene, testing::ValuesIn(unknown_keys), test_name);
-INSTANTIATE_TEST_SUITE_P(InapplicableKeys, BrokenScene, testing::ValuesIn(inapplicable_keys),
-                         test_name);
-INSTANTIATE_TEST_SUITE_P(WrongTypes, BrokenScene, testing::ValuesIn(wrong_types), test_name);
-INSTANTIATE_TEST_SUITE_P(OutOfRange, BrokenScene, testing::ValuesIn(out_of_range), test_name);
-INSTANTIATE_TEST_SUITE_P(AcrossKeys, BrokenScene, testing::ValuesIn(across_keys), test_name);
-
 }  // namespace
+
+std::vector<BrokenScene> broken_scenes() {
+  std::vector<BrokenScene> all;
+  for (const auto* some :
+       {&documents, &unknown_keys, &inapplicable_keys, &wrong_types, &out_of_range, &across_keys}) {
+    all.insert(all.end(), some->begin(), some->end());
+  }
+  return all;
+}
+
 }  // namespace pneuma::scenes
