@@ -109,6 +109,15 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
   state.last = last;
+  const auto advance = [&] {
+    try {
+      throw_if_interrupted();
+      simulation.advance_frame();
+    } catch (...) {
+      writer.wait();  // a frame that could not be written is the first thing to know
+      throw;
+    }
+  };
   for (;;) {
     state.frame = simulation.frame();
     if (state.frame >= next) {
@@ -120,8 +129,7 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
     state.elapsed += watch.lap();
     progress.show(progress_line(state));
     if (state.frame >= last) break;
-    throw_if_interrupted();
-    simulation.advance_frame();
+    advance();
   }
   writer.wait();
   state.elapsed += watch.lap();

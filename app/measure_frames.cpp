@@ -75,8 +75,7 @@ FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Sce
                           const render::Camera& camera, const Budget& budget) {
   Readings ignored, readings;
   FrameMaker maker(replay, steps_per_frame, scene, camera);
-  for (int i = 0; i < warm_up_frames; ++i) maker.make(ignored);
-  maker.finish();
+  for (int i = 0; i < warm_up_frames; ++i) maker.make(ignored);  // also fills the pipeline
   while (budget.more(static_cast<std::int64_t>(readings.total.size()))) maker.make(readings);
   maker.finish();
 

@@ -13,6 +13,12 @@ bool meet(const Bounds& a, const Bounds& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
+/// Numbers of cells go up and down with every breath of the bodies: room for twice as many spares
+/// an allocation at each new peak.
+void reserve_ahead(std::vector<int>& values, std::size_t count) {
+  if (values.capacity() < count) values.reserve(2 * count);
+}
+
 }  // namespace
 
 void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
@@ -37,6 +43,7 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
 
   // Counting sort: how many entries each cell has, where they start, and the entries.
   const std::size_t cells = at(counts_.prod());
+  reserve_ahead(cell_start_, cells + 1);
   cell_start_.assign(cells + 1, 0);
   const auto for_each_entry = [&](const auto& visit) {
     for (std::size_t i = 0; i < taken_.size(); ++i) {
@@ -51,6 +58,7 @@ void SurfaceGrid::fill(const SurfaceView& surface, const Bounds& region) {
   for_each_entry([&](std::size_t cell, int) { ++cell_start_[cell]; });
   int end = 0;
   for (int& start : cell_start_) start = (end += start);  // now where each cell ends
+  reserve_ahead(entries_, at(end));
   entries_.resize(at(end));
   for_each_entry([&](std::size_t cell, int taken) { entries_[at(--cell_start_[cell])] = taken; });
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <sstream>
 
 #include "sim/mesh/measure.h"
 #include "sim/soft/damping.h"
@@ -12,8 +13,15 @@ Divergence failure(const World& world, const SoftBody& body, const std::string& 
   return {Stage::integrate_soft, world.steps + 1, body.name, what};
 }
 
+/// Six digits, however small.
+std::string text(double value) {
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
 std::string volume_report(double volume) {
-  return "its volume is " + std::to_string(volume) +
+  return "its volume is " + text(volume) +
          " m^3: the body turned inside out, because the step is too long for its springs or its "
          "gas";
 }
@@ -35,8 +43,7 @@ std::optional<Divergence> check(const World& world, const SoftBody& body, double
   if (!(end_volume > 0.0)) return failure(world, body, volume_report(end_volume));
   if (end_volume > greatest_growth * least_volume) {
     return failure(world, body,
-                   "its volume grew from " + std::to_string(least_volume) + " to " +
-                       std::to_string(end_volume) +
+                   "its volume grew from " + text(least_volume) + " to " + text(end_volume) +
                        " m^3 in one step: the step is too long for its gas");
   }
   return std::nullopt;

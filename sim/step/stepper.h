@@ -45,8 +45,8 @@ class Stepper {
   Stepper& operator=(Stepper&&) noexcept;
 
   /// One step of the world this was made for. On divergence the world is left as the step found it:
-  /// in its last sound state. Allocates nothing once the number of contacts has peaked (but see
-  /// sim/soft/vertex_matrix.h).
+  /// in its last sound state. Allocates nothing once the numbers of contacts, and
+  /// of cells of the exact search, have peaked (but see sim/soft/vertex_matrix.h).
   [[nodiscard]] std::optional<Divergence> step(World& world);
 
   const Plan& plan() const;

@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "app/command_line.h"
+#include "app/find_program.h"
 #include "app/run_command.h"
+#include "render/image/file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::app {

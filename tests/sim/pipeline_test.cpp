@@ -43,6 +43,11 @@ World torus_with_cubes() {
   return world;
 }
 
+World searched_exactly(World world) {
+  world.settings.soft_search = SoftSearch::exact;
+  return world;
+}
+
 World stacked_cubes() {
   World world;
   for (int i = 0; i < 10; ++i) add(world, make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5 + i}));
@@ -58,17 +63,19 @@ void PrintTo(const NamedWorld& world, std::ostream* out) { *out << world.name; }
 
 class AnyWorld : public testing::TestWithParam<NamedWorld> {};
 
-INSTANTIATE_TEST_SUITE_P(Worlds, AnyWorld,
-                         testing::Values(NamedWorld{"meeting_spheres",
-                                                    [] { return meeting_spheres(4.0, 1); }},
-                                         NamedWorld{"spheres_leaning", spheres_leaning},
-                                         NamedWorld{"three_spheres_piled", three_spheres_piled},
-                                         NamedWorld{"box_on_sphere", box_on_sphere},
-                                         NamedWorld{"sphere_on_box", sphere_on_box},
-                                         NamedWorld{"sphere_in_torus", sphere_in_torus},
-                                         NamedWorld{"torus_with_cubes", torus_with_cubes},
-                                         NamedWorld{"stacked_cubes", stacked_cubes}),
-                         [](const auto& name) { return name.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, AnyWorld,
+    testing::Values(NamedWorld{"meeting_spheres", [] { return meeting_spheres(4.0, 1); }},
+                    NamedWorld{"spheres_leaning", spheres_leaning},
+                    NamedWorld{"three_spheres_piled", three_spheres_piled},
+                    NamedWorld{"box_on_sphere", box_on_sphere},
+                    NamedWorld{"sphere_on_box", sphere_on_box},
+                    NamedWorld{"sphere_in_torus", sphere_in_torus},
+                    NamedWorld{"exact_spheres_leaning",
+                               [] { return searched_exactly(spheres_leaning()); }},
+                    NamedWorld{"torus_with_cubes", torus_with_cubes},
+                    NamedWorld{"stacked_cubes", stacked_cubes}),
+    [](const auto& name) { return name.param.name; });
 
 std::uint64_t hash_after(World world, double seconds, StepperOptions options = {}) {
   EXPECT_FALSE(run(world, seconds, std::move(options)));

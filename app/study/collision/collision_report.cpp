@@ -41,7 +41,7 @@ std::string collision_text(const CollisionStudy& study) {
                {"greatest\npenetration m"}});
   for (const SearchResult& result : study.results) {
     table.add_row({result.setting.name(), readable(1e6 * result.step_seconds),
-                   fmt::format("{:.2f}", result.step_seconds / study.exact().step_seconds),
+                   readable(result.step_seconds / study.exact().step_seconds),
                    readable(result.contacts),
                    fmt::format("{:.2f}", 100.0 * result.score.region_share()),
                    fmt::format("{:.2f}", 100.0 * result.score.vertex_share()),

@@ -42,20 +42,25 @@ std::string cell(const Row& row) {
   std::string text = to_string(row.result.outcome);
   if (row.result.outcome == Outcome::diverged)
     text += fmt::format(" at {:.3g} s", row.result.seconds);
+  if (row.result.penetration > 0.0) {
+    text += fmt::format(", {:.2g} m deep", row.result.penetration);
+  }
   if (!row.expected()) text += "\nNOT AS EXPECTED: " + row.expectation();
   return text;
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
   Csv csv({"case", "integrator", "expected", "outcome", "as_expected", "seconds", "energy_gain_J",
-           "energy_span_J", "least_volume_share", "greatest_speed_m_per_s", "message"});
+           "energy_span_J", "least_volume_share", "penetration_m", "greatest_speed_m_per_s",
+           "message"});
   for (const Row& row : rows) {
     const ExtremeResult& result = row.result;
     csv.add_row({csv_cell(row.extreme.name), csv_cell(row.integrator), csv_cell(row.expectation()),
                  csv_cell(to_string(result.outcome)), csv_cell(row.expected()),
                  csv_cell(result.seconds), csv_cell(result.energy_gain),
                  csv_cell(result.energy_span), csv_cell(result.least_volume_share),
-                 csv_cell(result.greatest_speed), csv_cell(result.message)});
+                 csv_cell(result.penetration), csv_cell(result.greatest_speed),
+                 csv_cell(result.message)});
   }
   return csv.text();
 }

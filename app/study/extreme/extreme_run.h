@@ -22,7 +22,7 @@ struct ExtremeResult {
   double energy_gain = 0.0;         // J above the start at most, of the span below
   double energy_span = 0.0;         // J between the least and the greatest
   double least_volume_share = 1.0;  // of its first, over all bodies with gas and the whole run
-  double penetration = 0.0;         // m, greatest in the last half; as far as asked for
+  double penetration = 0.0;         // m, greatest in the last half
   double greatest_speed = 0.0;      // m/s, of any vertex or box
 };
 

@@ -153,6 +153,13 @@ TEST(CollisionStudy, ConcludesFromTheCheapestThatFindsWhatTouches) {
   EXPECT_NE(conclusions(study)[1].find("no setting finds"), std::string::npos);
 }
 
+TEST(CollisionStudy, ConcludesNothingFromNothing) {
+  CollisionStudy study = made_up(4e-6, 995, 0.3);
+  for (SearchResult& one : study.results) one.score = {};
+  ASSERT_EQ(conclusions(study).size(), 1U);
+  EXPECT_NE(conclusions(study)[0].find("Nothing came within reach"), std::string::npos);
+}
+
 TEST(CollisionStudy, SaysWhatThePapersSettingFinds) {
   const std::string sentence = conclusions(made_up(4e-6, 980, 0.3))[0];
   EXPECT_NE(sentence.find("1/8 per vertex, 10 sweeps, attraction 2"), std::string::npos);
