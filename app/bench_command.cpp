@@ -34,11 +34,9 @@ struct BenchOptions {
 /// The paper's own windows had about this size.
 constexpr const char* default_size = "640x480";
 
-constexpr int greatest_picture = 8192;  // pixels along a side: what the renderer takes
-
 /// As values for the scene's keys, so that the scene stays the one place that says it.
 void add_size(const std::string& size, std::vector<std::string>& overrides) {
-  const GridSize grid = parse_grid("--size", size, greatest_picture);
+  const GridSize grid = parse_grid("--size", size, scenes::greatest_picture_side);
   overrides.push_back(fmt::format("picture.width={}", grid.columns));
   overrides.push_back(fmt::format("picture.height={}", grid.rows));
 }

@@ -191,10 +191,10 @@ class Builder {
     memory_gib_ += scenes::estimated_memory_gib(in_body, scenes::copy_count(body));
     if (memory_gib_ > limits.memory_gib) {
       refuse(scene_, body,
-             fmt::format("about {:.2g} GiB of memory are needed, more than the limit of {} GiB; "
+             fmt::format("about {} of memory are needed, more than the limit of {} GiB; "
                          "use a smaller model, ask for fewer copies, or raise memory_gib in "
                          "[limits]",
-                         memory_gib_, limits.memory_gib));
+                         scenes::memory_text(memory_gib_), limits.memory_gib));
     }
   }
 

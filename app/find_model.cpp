@@ -36,8 +36,9 @@ sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::Body
   options.rotation = body.model.rotation;
   options.centre = body.model.centre;
   options.most_vertices = scene.limits.vertices_per_body;
+  const auto most_bytes = static_cast<std::size_t>(scene.limits.model_file_mib * 1024.0 * 1024.0);
   try {
-    return assets::load_model(find_model(body.model.file, scene.folder), options).mesh;
+    return assets::load_model(find_model(body.model.file, scene.folder), options, most_bytes).mesh;
   } catch (const assets::ModelError&) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
     throw;

@@ -10,11 +10,11 @@
 #include "app/common_options.h"
 #include "app/render_request.h"
 #include "app/render_scene.h"
+#include "scenes/scene.h"
 
 namespace pneuma::app {
 namespace {
 
-constexpr int greatest_picture = 8192;  // pixels along a side: what the renderer takes
 constexpr int greatest_sheet = 100;
 
 /// The options as they were typed.
@@ -42,7 +42,7 @@ RenderRequest read(const Typed& typed) {
   if (typed.resume) request.existing = ExistingRun::resume;
   // What the scene can say itself becomes part of the scene, and so of the run's record.
   if (!typed.size.empty()) {
-    const GridSize size = parse_grid("--size", typed.size, greatest_picture);
+    const GridSize size = parse_grid("--size", typed.size, scenes::greatest_picture_side);
     request.overrides.push_back(fmt::format("picture.width={}", size.columns));
     request.overrides.push_back(fmt::format("picture.height={}", size.rows));
   }

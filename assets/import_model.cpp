@@ -26,7 +26,7 @@ namespace {
 class OneModel : public Assimp::IOSystem {
  public:
   OneModel(std::filesystem::path path, const std::string& bytes, std::size_t most_bytes)
-      : path_(std::move(path)), bytes_(bytes), bytes_left_(most_bytes - bytes.size()) {
+      : path_(std::move(path)), bytes_(bytes), most_bytes_(most_bytes), bytes_read_(bytes.size()) {
     const std::string ending = path_.extension().string();
     name_ = "model" + ending;
     std::transform(name_.begin(), name_.end(), name_.begin(),
@@ -42,8 +42,8 @@ class OneModel : public Assimp::IOSystem {
   Assimp::IOStream* Open(const char* file, const char*) override {
     if (file == name_) return stream(bytes_);
     if (!is_buffer(file)) return nullptr;
-    buffers_.push_back(read_model_file(beside(file), bytes_left_));
-    bytes_left_ -= buffers_.back().size();
+    buffers_.push_back(read_model_file(beside(file), most_bytes_, bytes_read_));
+    bytes_read_ += buffers_.back().size();
     return stream(buffers_.back());
   }
 
@@ -65,7 +65,8 @@ class OneModel : public Assimp::IOSystem {
 
   std::filesystem::path path_;
   const std::string& bytes_;
-  std::size_t bytes_left_;
+  std::size_t most_bytes_;
+  std::size_t bytes_read_;
   std::string name_;
   bool has_buffers_ = false;
   std::vector<std::string> buffers_;
@@ -172,10 +173,8 @@ class Collector {
   /// Instances multiply: what is one mesh in the file may be here a million times.
   void check_size(const aiMesh& mesh) const {
     const auto refuse = [](std::string_view what, std::size_t most) {
-      throw ModelError(
-          fmt::format("the file holds more than {} {}, instances counted; simplify "
-                      "the model",
-                      most, what));
+      throw ModelError(fmt::format("the file holds more than {} {}, instances counted; {}", most,
+                                   what, how_to_keep_counts));
     };
     if (model_.mesh.vertices.size() + mesh.mNumVertices > limits_.vertices) {
       refuse("vertices", limits_.vertices);
@@ -256,8 +255,10 @@ Model import_here(const std::filesystem::path& path, const std::string& bytes,
 /// Twice and more what sound files take: at most 20 bytes of memory per byte of file (FBX as text)
 /// and 0.02 s per MiB were measured, on OBJ, PLY, STL, DAE and FBX files of 20 to 40 MiB. Damaged
 /// files that go on for ever are refused the sooner.
-ApartLimits apart_limits(std::size_t bytes) {
+ApartLimits apart_limits(std::size_t bytes, const ImportLimits& import) {
   ApartLimits limits;
+  // A vertex is three doubles, a triangle three indices and a part; names, too.
+  limits.answer = std::max(limits.answer, 32 * import.vertices + 32 * import.triangles);
   limits.memory = (std::size_t{512} << 20) + 40 * bytes;
   limits.seconds = 4 + static_cast<int>(2 * (bytes >> 20));
   return limits;
@@ -271,7 +272,7 @@ Model import_model(const std::filesystem::path& path, const ImportLimits& limits
     const std::string bytes = read_model_file(path, limits.bytes);
     check_model_header(format, bytes, limits.vertices, limits.triangles);
     Model model = unpack(run_apart([&] { return pack(import_here(path, bytes, limits)); },
-                                   apart_limits(bytes.size())));
+                                   apart_limits(bytes.size(), limits)));
     if (model.mesh.triangles.empty()) throw ModelError("the model has no triangles");
     return model;
   } catch (const ModelError& error) {

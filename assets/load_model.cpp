@@ -13,8 +13,10 @@ constexpr std::size_t raw_per_welded = 8;
 
 }  // namespace
 
-CleanModel load_model(const std::filesystem::path& path, const CleanOptions& options) {
+CleanModel load_model(const std::filesystem::path& path, const CleanOptions& options,
+                      std::size_t most_bytes) {
   ImportLimits limits;
+  limits.bytes = most_bytes;
   const std::size_t most = sim::at(options.most_vertices) * raw_per_welded;
   limits.vertices = std::max(limits.vertices, most);
   limits.triangles = std::max(limits.triangles, most);

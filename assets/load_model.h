@@ -9,6 +9,8 @@
 namespace pneuma::assets {
 
 /// import_model, then clean_mesh. Throws ModelError, whose message begins with the path.
-CleanModel load_model(const std::filesystem::path& path, const CleanOptions& options = {});
+/// `most_bytes`: of the model's files together.
+CleanModel load_model(const std::filesystem::path& path, const CleanOptions& options = {},
+                      std::size_t most_bytes = ImportLimits{}.bytes);
 
 }  // namespace pneuma::assets

@@ -10,6 +10,11 @@
 
 namespace pneuma::assets {
 
+/// What to do about a file with too many vertices or triangles.
+inline constexpr std::string_view how_to_keep_counts =
+    "simplify the model (or, in a scene, raise vertices_per_body in [limits], eight times which "
+    "the file may have)";
+
 enum class Format { obj, ply, stl, off, gltf, glb, a3ds, dae, fbx };
 
 /// By the file's ending, upper or lower case. Throws ModelError that lists the endings.
@@ -21,9 +26,11 @@ bool has_model_ending(const std::filesystem::path& path);
 /// "obj, ply, stl, off, gltf, glb, 3ds, dae or fbx".
 std::string model_endings();
 
-/// The whole file. Throws ModelError when it cannot be read, is a folder, is empty or is larger
-/// than `most_bytes`; no more than that is read.
-std::string read_model_file(const std::filesystem::path& path, std::size_t most_bytes);
+/// The whole file. Throws ModelError when it cannot be read, is a folder, is empty or is, with the
+/// `read_before` bytes of the model's other files, larger than `most_bytes`; no more than that is
+/// read.
+std::string read_model_file(const std::filesystem::path& path, std::size_t most_bytes,
+                            std::size_t read_before = 0);
 
 /// Throws ModelError when the bytes are not of the format, or when a header announces more than the
 /// file can hold or than `most_vertices` and `most_triangles`: importers believe it, and reserve

@@ -28,8 +28,8 @@ void check_count(std::string_view what, Count count, Count most, Count least_byt
         count, what, bytes));
   }
   if (count > most) {
-    throw ModelError(
-        fmt::format("{} {} are more than the limit of {}; simplify the model", count, what, most));
+    throw ModelError(fmt::format("{} {} are more than the limit of {} for a file; {}", count, what,
+                                 most, how_to_keep_counts));
   }
 }
 

@@ -28,8 +28,8 @@ void require(bool fine, const char* what, int value, const char* allowed) {
 }
 
 const RenderOptions& check_options(const RenderOptions& options) {
-  require(options.width >= 16 && options.width <= 8192, "width", options.width, "16..8192");
-  require(options.height >= 16 && options.height <= 8192, "height", options.height, "16..8192");
+  require(options.width >= 16 && options.width <= 16384, "width", options.width, "16..16384");
+  require(options.height >= 16 && options.height <= 16384, "height", options.height, "16..16384");
   require(options.samples == 1 || options.samples == 2 || options.samples == 4, "samples",
           options.samples, "1, 2 or 4");
   require(options.shadow_size >= 256 && options.shadow_size <= 8192, "shadow_size",

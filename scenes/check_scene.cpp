@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace pneuma::scenes {
 namespace {
@@ -18,6 +19,7 @@ class Checks {
 
   void run() {
     check_frames();
+    check_picture();
     check_camera();
     check_names();
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
@@ -67,6 +69,20 @@ class Checks {
     report_.add(at, fmt::format("{} frames are more than the limit of {}; make duration or "
                                 "frames_per_second smaller, or raise frames in [limits]",
                                 frame_count(scene_), scene_.limits.frames));
+  }
+
+  void check_picture() {
+    const int& limit = scene_.limits.picture_side;
+    const PictureScene& picture = scene_.picture;
+    if (!reader_.sound({&limit})) return;
+    for (const auto& [name, side] :
+         {std::pair("width", &picture.width), std::pair("height", &picture.height)}) {
+      if (!reader_.sound({side}) || *side <= limit) continue;
+      report_.add(reader_.origin({side, &limit}, whole_file),
+                  fmt::format("{} = {} pixels are more than the limit of {}; make the picture "
+                              "smaller, or raise picture_side in [limits]",
+                              name, *side, limit));
+    }
   }
 
   void check_camera() {
@@ -185,10 +201,10 @@ class Checks {
     const Origin at = reader_.origin(
         {&limit, &scene_.picture.width, &scene_.picture.height, &scene_.picture.samples},
         whole_file);
-    report_.add(at, fmt::format("about {:.2g} GiB of memory are needed, more than the limit of {} "
+    report_.add(at, fmt::format("about {} of memory are needed, more than the limit of {} "
                                 "GiB; make the picture or the bodies smaller, or raise memory_gib "
                                 "in [limits]",
-                                needed, limit));
+                                memory_text(needed), limit));
   }
 
   const Scene& scene_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -137,14 +138,27 @@ void flatten_models(Table& document, Report& report) {
   throw SceneError({{path.string(), 0, 0, why}});
 }
 
-std::string too_large() {
-  return fmt::format(
-      "larger than {} bytes, the limit for a scene file; make many bodies of one "
-      "[[body]] with copies",
-      greatest_file_size);
+constexpr double bytes_per_mib = 1024.0 * 1024.0;
+
+/// The limit that holds before a file is read.
+double most_mib(std::span<const std::string> overrides) {
+  const auto raised = number_override(overrides, "limits.scene_file_mib");
+  const bool in_range = raised && *raised > 0.0 && *raised <= greatest_scene_file_mib;
+  return in_range ? *raised : Limits{}.scene_file_mib;  // out of range: refused with the other keys
 }
 
-std::string read_file(const std::filesystem::path& path) {
+void check_size(const std::filesystem::path& path, std::uintmax_t bytes, double limit,
+                std::string_view and_more = "") {
+  const double mib = static_cast<double>(bytes) / bytes_per_mib;
+  if (mib <= limit) return;
+  throw_unreadable(path,
+                   fmt::format("{} bytes{} are more than the limit of {} MiB for a scene file; "
+                               "make many bodies of one [[body]] with copies, or raise the "
+                               "limit with --set limits.scene_file_mib={}",
+                               bytes, and_more, limit, std::ceil(mib)));
+}
+
+std::string read_file(const std::filesystem::path& path, double limit) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw_unreadable(path, "is a folder; name a scene file in it");
@@ -154,11 +168,14 @@ std::string read_file(const std::filesystem::path& path) {
   if (!file) {
     throw_unreadable(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
   }
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error) check_size(path, size, limit);
   // One byte more than is allowed, because the size of a pipe is not known beforehand.
-  std::string text(greatest_file_size + 1, '\0');
+  std::string text(static_cast<std::size_t>(limit * bytes_per_mib) + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw_unreadable(path, fmt::format("cannot be read: {}", std::strerror(errno)));
   text.resize(static_cast<std::size_t>(file.gcount()));
+  if (error) check_size(path, text.size(), limit, " and more");
   return text;
 }
 
@@ -166,7 +183,7 @@ std::string read_file(const std::filesystem::path& path) {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
                   std::span<const std::string> overrides) {
-  if (text.size() > greatest_file_size) throw_unreadable(file, too_large());
+  check_size(file, text.size(), most_mib(overrides));
   Report report(file.string(), overrides);
   Scene scene;
   scene.name = file.stem().string();
@@ -176,6 +193,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     flatten_models(document, report);
     apply_overrides(overrides, document, report);
     Loader(document, scene, report).load();
+    check_size(file, text.size(), scene.limits.scene_file_mib);
   } catch (const SyntaxError& error) {
     report.add(error.at, error.what());
   }
@@ -184,7 +202,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
 }
 
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  return parse_scene(read_file(path), path, overrides);
+  return parse_scene(read_file(path, most_mib(overrides)), path, overrides);
 }
 
 std::vector<SceneInfo> list_scenes(const std::filesystem::path& folder) {

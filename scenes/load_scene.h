@@ -14,9 +14,6 @@
 
 namespace pneuma::scenes {
 
-/// Longer files are refused unread. The paper's scenes take about 2 KiB.
-inline constexpr std::size_t greatest_file_size = 1024 * 1024;
-
 /// One error. Line and column count from 1; a line of 0 means the file as a whole.
 struct Diagnostic {
   std::string file;  // the path, or "--set PATH=VALUE"

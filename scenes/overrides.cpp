@@ -205,4 +205,24 @@ void apply_overrides(std::span<const std::string> overrides, Table& document, Re
   }
 }
 
+std::optional<double> number_override(std::span<const std::string> overrides,
+                                      std::string_view path) {
+  std::optional<double> number;
+  for (const std::string& text : overrides) {
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos || trimmed(std::string_view(text).substr(0, equals)) != path) continue;
+    number.reset();
+    try {
+      const Value value = parse_value(trimmed(std::string_view(text).substr(equals + 1)), 0);
+      if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+        number = static_cast<double>(*whole);
+      } else if (const auto* real = std::get_if<double>(&value.data)) {
+        number = *real;
+      }
+    } catch (const Refusal&) {  // said when the overrides are applied
+    }
+  }
+  return number;
+}
+
 }  // namespace pneuma::scenes

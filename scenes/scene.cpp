@@ -1,5 +1,7 @@
 #include "scenes/scene.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace pneuma::scenes {
@@ -44,6 +46,10 @@ double estimated_memory_gib(std::int64_t vertices, std::int64_t copies) {
   constexpr double copy_bytes = 500.0;
   return static_cast<double>(vertices) * (mesh_bytes + copy_bytes * static_cast<double>(copies)) /
          bytes_per_gib;
+}
+
+std::string memory_text(double gib) {
+  return fmt::format("{:.2f} GiB", std::ceil(100.0 * gib) / 100.0);
 }
 
 double estimated_memory_gib(const Scene& scene) {

@@ -97,10 +97,21 @@ struct PictureScene {
 struct Limits {
   int bodies = 20'000;  // counted with copies
   int vertices_per_body = 100'000;
-  int vertices = 2'000'000;  // of all bodies, counted with copies
-  int frames = 36'000;       // twenty minutes at 30 frames per second
-  double memory_gib = 4.0;   // GiB, as estimated by estimated_memory_gib
+  int vertices = 2'000'000;      // of all bodies, counted with copies
+  int frames = 36'000;           // twenty minutes at 30 frames per second
+  double memory_gib = 4.0;       // GiB, as estimated by estimated_memory_gib
+  int picture_side = 8192;       // pixels
+  double model_file_mib = 64.0;  // MiB, of each model with the files that belong to it
+  // MiB, of the scene file itself; the paper's take about 2 KiB. It is enforced before the file's
+  // own keys are read, so only an override can raise it, and the file only lower it.
+  double scene_file_mib = 1.0;
 };
+
+/// Pixels along a side of the largest picture that the renderer makes.
+inline constexpr int greatest_picture_side = 16384;
+
+/// MiB to which the limit of scene files can be raised.
+inline constexpr double greatest_scene_file_mib = 1024.0;
 
 struct Scene {
   std::string name;  // the file's name without its ending: frames are called NAME_00042.png
@@ -133,5 +144,8 @@ double estimated_memory_gib(const Scene& scene);
 
 /// The part of one body of so many vertices and copies.
 double estimated_memory_gib(std::int64_t vertices, std::int64_t copies);
+
+/// For messages: two decimals, rounded up, so that what is above a limit reads as above it.
+std::string memory_text(double gib);
 
 }  // namespace pneuma::scenes

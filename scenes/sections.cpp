@@ -189,8 +189,8 @@ Section picture_section(PictureScene& picture) {
       .table = "picture",
       .what = "the picture",
       .keys = {
-          {"width", &picture.width, between(16, 8192), "pixels", "of a frame"},
-          {"height", &picture.height, between(16, 8192), "pixels", "of a frame"},
+          {"width", &picture.width, between(16, greatest_picture_side), "pixels", "of a frame"},
+          {"height", &picture.height, between(16, greatest_picture_side), "pixels", "of a frame"},
           {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
            "of simulated time; divides steps_per_second"},
           {"samples", &picture.samples, one_of({1, 2, 4}), "",
@@ -212,6 +212,12 @@ Section limits_section(Limits& limits) {
           {"vertices", &limits.vertices, between(1, 2e9), "", "of all bodies, with copies"},
           {"frames", &limits.frames, between(1, 1e9), "", "of the run, at most"},
           {"memory_gib", &limits.memory_gib, above(0), "GiB", "estimated, at most"},
+          {"picture_side", &limits.picture_side, between(16, greatest_picture_side), "pixels",
+           "width and height at most"},
+          {"model_file_mib", &limits.model_file_mib, above_to(0, 2048), "MiB",
+           "of a model with its files, at most"},
+          {"scene_file_mib", &limits.scene_file_mib, above_to(0, greatest_scene_file_mib), "MiB",
+           "of the scene file; raised by --set only, because it is read before its keys"},
       }};
 }
 

@@ -194,6 +194,34 @@ TEST_P(BrokenModelTest, IsRefusedWithAReason) {
   }
 }
 
+TEST_P(BrokenModelTest, EndsTheProgramWithAReasonAndNothingElse) {
+  const TemporaryFolder folder;
+  const auto path = folder / GetParam().file, errors = folder / "errors", out = folder / "out";
+  write_text(path, GetParam().content);
+  write_text(folder / "it.bin", gltf_buffer(cube()));
+  for (const std::string& arguments :
+       {fmt::format("check --json '{}'", path.string()),
+        fmt::format("render model --quiet --out '{}' --set model.file='{}'", out.string(),
+                    path.string())}) {
+    const ProgramResult said = run_pneuma(fmt::format("{} 2>'{}'", arguments, errors.string()));
+    EXPECT_EQ(said.exit_code, 3) << arguments;
+    EXPECT_EQ(said.output, "") << arguments;
+    expect_message(read_text(errors), path, GetParam().expected);
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+/// Of what may be wrong with a model, this alone can be mended without a guess.
+TEST(BrokenModel, InsideOutIsMendedAndSaid) {
+  const TemporaryFolder folder;
+  sim::TriangleMesh mesh = cube();
+  for (sim::Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  write_text(folder / "inside_out.ply", ply_text(mesh));
+  const ProgramResult said = run_pneuma("check '" + (folder / "inside_out.ply").string() + "'");
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_NE(said.output.find("12 triangles turned"), said.output.npos) << said.output;
+}
+
 TEST(BrokenModel, FilesThatCannotBeRead) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "folder.ply");
@@ -210,25 +238,6 @@ TEST(BrokenModel, FilesThatCannotBeRead) {
   expect_message(refusal("gone.ply"), folder / "gone.ply", {"cannot be opened: No such file"});
   expect_message(refusal("cube.txt"), folder / "cube.txt",
                  {"'.txt'", "obj, ply, stl, off, gltf, glb, 3ds, dae or fbx"});
-}
-
-TEST(BrokenModel, FilesThatAreTooLarge) {
-  const TemporaryFolder folder;
-  write_text(folder / "a.obj", obj_text(cube()));
-  const std::size_t size = std::filesystem::file_size(folder / "a.obj");
-  ImportLimits limits;
-  limits.bytes = size;
-  EXPECT_NO_THROW(import_model(folder / "a.obj", limits));
-  limits.bytes = size - 1;
-  EXPECT_THROW(import_model(folder / "a.obj", limits), ModelError);
-  // The default limit, on a file that takes no room on the disk.
-  std::filesystem::resize_file(folder / "a.obj", (std::size_t{64} << 20) + 1);
-  try {
-    load_model(folder / "a.obj");
-    FAIL() << "accepted";
-  } catch (const ModelError& error) {
-    expect_message(error.what(), folder / "a.obj", {"larger than 67108864 bytes"});
-  }
 }
 
 TEST(BrokenModel, TheProgramSaysSoAndNothingElse) {

@@ -1,4 +1,5 @@
 // Models in scenes: where they are found, limits, runs that are continued.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -92,6 +93,12 @@ TEST_F(ModelScene, KeepsToTheScenesLimits) {
             std::string::npos);
   EXPECT_NE(refused({"limits.memory_gib=0.001", "body.copies=[400, 1, 1]"}).find("GiB"),
             std::string::npos);
+  const double mib = static_cast<double>(std::filesystem::file_size(folder_ / "it.ply")) / 1048576;
+  const auto size_limit = [&](double share) {
+    return Strings{fmt::format("limits.model_file_mib={}", share * mib)};
+  };
+  EXPECT_EQ(refused(size_limit(1.01)), "accepted");
+  EXPECT_NE(refused(size_limit(0.99)).find("more than the limit of"), std::string::npos);
 }
 
 TEST_F(ModelScene, SaysWhichModelItHas) {

@@ -194,7 +194,7 @@ const std::vector<BrokenScene> out_of_range = {
     {"two_slices", sphere("slices = 2"), 2, 10, {"allowed: 3 <= slices"}},
     {"negative_size", rigid("size = [1, -2, 3]"), 3, 12, {"size y = -2 m", "allowed: 0 < size"}},
     {"three_samples", before_body("[picture]\nsamples = 3"), 2, 11, {"samples = 1, 2 or 4"}},
-    {"picture_too_wide", before_body("[picture]\nwidth = 8193"), 2, 9, {"16 <= width <= 8192"}},
+    {"picture_too_wide", before_body("[picture]\nwidth = 16385"), 2, 9, {"16 <= width <= 16384"}},
     {"endless_gravity",
      before_body("[simulation]\ngravity = [0, 0, -inf]"),
      2,

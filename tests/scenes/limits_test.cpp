@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
 #include "scenes/load_scene.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pneuma::scenes {
 namespace {
 
-std::string refusal(const std::string& text) {
+using Strings = std::vector<std::string>;
+
+std::string refusal(const std::string& text, const Strings& overrides = {}) {
   try {
-    parse_scene(text, "x.toml");
+    parse_scene(text, "x.toml", overrides);
   } catch (const SceneError& error) {
     return error.what();
   }
@@ -72,7 +75,8 @@ TEST(Limits, Frames) {
 
 TEST(Limits, Memory) {
   expect_limit("[picture]\nwidth = 8192\nheight = 8192\nsamples = 4", "",
-               "GiB of memory are needed", "memory_gib = 64");
+               "about 4.01 GiB of memory are needed, more than the limit of 4 GiB",
+               "memory_gib = 64");  // the picture takes just 4 GiB, the body next to nothing
 }
 
 TEST(Limits, CountsBeyondAnyIntegerAreRefusedNotWrapped) {
@@ -91,12 +95,73 @@ TEST(Limits, CountsBeyondAnyIntegerAreRefusedNotWrapped) {
   EXPECT_NE(refusal(many).find("bodies are more than"), std::string::npos);
 }
 
-TEST(Limits, FileSize) {
-  const std::string body = "[[body]]\n#";
-  EXPECT_EQ(refusal(body + std::string(greatest_file_size - body.size(), 'x')), "");
-  EXPECT_NE(refusal(body + std::string(greatest_file_size - body.size() + 1, 'x'))
-                .find("larger than 1048576 bytes"),
+TEST(Limits, PictureSides) {
+  for (const std::string side : {"width", "height"}) {
+    expect_limit("[picture]\n" + side + " = 8193", "",
+                 "x.toml:2:" + std::to_string(side.size() + 4) + ": " + side +
+                     " = 8193 pixels are more than the limit of 8192; make the picture smaller, or "
+                     "raise picture_side in [limits]",
+                 "picture_side = 8193");
+  }
+  // A lower limit blames the size that breaks it, where it is not given, too.
+  EXPECT_NE(refusal("[limits]\npicture_side = 1000\n[[body]]\n").find("2:16: width = 1280"),
             std::string::npos);
+}
+
+/// A scene of so many bytes.
+std::string scene_of(std::size_t bytes) {
+  const std::string body = "[[body]]\n#";
+  return body + std::string(bytes - body.size(), 'x');
+}
+
+constexpr std::size_t mib = 1024 * 1024;
+
+TEST(Limits, FileSize) {
+  EXPECT_EQ(refusal(scene_of(mib)), "");
+  EXPECT_EQ(refusal(scene_of(mib + 1)),
+            "x.toml: 1048577 bytes are more than the limit of 1 MiB for a scene file; make many "
+            "bodies of one [[body]] with copies, or raise the limit with --set "
+            "limits.scene_file_mib=2");
+}
+
+TEST(Limits, FileSizeIsRaisedByAnOverride) {
+  const std::string text = scene_of(mib + 1);
+  EXPECT_EQ(refusal(text, {"limits.scene_file_mib=2"}), "");
+  EXPECT_EQ(refusal(text, {" limits.scene_file_mib = 1.5"}), "");
+  EXPECT_EQ(refusal(text, {"limits.scene_file_mib=1", "limits.scene_file_mib=2"}), "");
+  EXPECT_NE(refusal(text, {"limits.scene_file_mib=2", "limits.scene_file_mib=1"}), "");
+  // What is no size raises nothing, and is refused itself where the file is not.
+  for (const std::string value : {"1025", "0", "-1", "nan", "inf", "much", "[2", ""}) {
+    const Strings overrides = {"limits.scene_file_mib=" + value};
+    EXPECT_NE(refusal(text, overrides).find("limit of 1 MiB"), std::string::npos) << value;
+    EXPECT_NE(refusal("[[body]]\n", overrides).find("--set " + overrides[0]), std::string::npos);
+  }
+}
+
+TEST(Limits, AFileMayLowerTheLimitOfItsSizeButNotRaiseIt) {
+  const std::string raised = "[limits]\nscene_file_mib = 2\n";
+  EXPECT_EQ(refusal(raised + scene_of(mib - raised.size())), "");
+  EXPECT_NE(refusal(raised + scene_of(mib)).find("limit of 1 MiB"), std::string::npos);
+  const std::string lowered = "[limits]\nscene_file_mib = 0.5\n";
+  EXPECT_EQ(refusal(lowered + scene_of(mib / 2 - lowered.size())), "");
+  EXPECT_NE(refusal(lowered + scene_of(mib / 2)).find("limit of 0.5 MiB"), std::string::npos);
+}
+
+TEST(Limits, OfFileSizeNameTheSizeOfTheFile) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "long.toml";
+  write_text(path, scene_of(3 * mib));
+  const auto load = [&](const Strings& overrides) -> std::string {
+    try {
+      load_scene(path, overrides);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(load({}).find("long.toml: 3145728 bytes are more than"), std::string::npos) << load({});
+  EXPECT_NE(load({}).find("limits.scene_file_mib=3"), std::string::npos);
+  EXPECT_EQ(load({"limits.scene_file_mib=3"}), "");
 }
 
 }  // namespace

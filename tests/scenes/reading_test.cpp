@@ -241,7 +241,8 @@ TEST(Reading, AFileThatCannotBeReadSaysWhy) {
   EXPECT_EQ(message("/nowhere/x.toml"),
             "/nowhere/x.toml: cannot be opened: No such file or directory");
   EXPECT_EQ(message("/tmp"), "/tmp: is a folder; name a scene file in it");
-  EXPECT_NE(message("/dev/zero").find("larger than 1048576 bytes"), std::string::npos);
+  EXPECT_NE(message("/dev/zero").find("1048577 bytes and more are more than the limit of 1 MiB"),
+            std::string::npos);
 }
 
 }  // namespace

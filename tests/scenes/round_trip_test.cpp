@@ -100,7 +100,10 @@ void make_consistent(Scene& scene) {
                   .vertices_per_body = 99'999'999,
                   .vertices = 1'999'999'999,
                   .frames = 999'999,
-                  .memory_gib = 1e6};
+                  .memory_gib = 1e6,
+                  .picture_side = *rc::gen::inRange(1000, 9000),
+                  .model_file_mib = 0.25 * *rc::gen::inRange(1, 100),
+                  .scene_file_mib = 0.25 * *rc::gen::inRange(1, 100)};
   scene.picture.frames_per_second = *rc::gen::element(1, 2, 10, 60);
   scene.settings.steps_per_second = scene.picture.frames_per_second * *rc::gen::inRange(1, 100);
   scene.duration =

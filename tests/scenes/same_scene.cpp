@@ -143,12 +143,16 @@ void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {
 }
 
 void compare(Comparison& c, const Limits& a, const Limits& b) {
-  const auto& [bodies, vertices_per_body, vertices, frames, memory_gib] = a;
+  const auto& [bodies, vertices_per_body, vertices, frames, memory_gib, picture_side,
+               model_file_mib, scene_file_mib] = a;
   c.member("limits.bodies", bodies, b.bodies);
   c.member("limits.vertices_per_body", vertices_per_body, b.vertices_per_body);
   c.member("limits.vertices", vertices, b.vertices);
   c.member("limits.frames", frames, b.frames);
   c.member("limits.memory_gib", memory_gib, b.memory_gib);
+  c.member("limits.picture_side", picture_side, b.picture_side);
+  c.member("limits.model_file_mib", model_file_mib, b.model_file_mib);
+  c.member("limits.scene_file_mib", scene_file_mib, b.scene_file_mib);
 }
 
 }  // namespace
