@@ -7,12 +7,7 @@ Bounds bounds(const VertexArray& positions) {
   return result;
 }
 
-Vec3 mean(const VertexArray& values) {
-  // By columns: Eigen's rowwise() takes half columns, which it then finds not to be aligned.
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-  for (int i = 0; i < values.size(); ++i) sum += values.rows().col(i);
-  return sum.head<3>() / values.size();
-}
+Vec3 mean(const VertexArray& values) { return values.rows().rowwise().mean().head<3>(); }
 
 double volume(const MeshTopology& topology, const VertexArray& positions) {
   const Vec3 centre = mean(positions);
