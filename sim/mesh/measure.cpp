@@ -7,7 +7,10 @@ Bounds bounds(const VertexArray& positions) {
   return result;
 }
 
-Vec3 mean(const VertexArray& values) { return values.rows().rowwise().mean().head<3>(); }
+Vec3 mean(const VertexArray& values) {
+  const Eigen::Vector4d sum = values.rows().rowwise().sum();
+  return sum.head<3>() / values.size();
+}
 
 double volume(const MeshTopology& topology, const VertexArray& positions) {
   const Vec3 centre = mean(positions);

@@ -29,9 +29,13 @@ inline SoftBody make_body(const TriangleMesh& mesh, const Vec3& offset = Vec3::Z
 inline void perturb(SoftBody& body, double amount, unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-amount, amount);
+  const auto draw = [&] {  // one by one: compilers differ in the order of a call's arguments
+    const double z = uniform(random), y = uniform(random), x = uniform(random);
+    return Vec3(x, y, z);
+  };
   for (int v = 0; v < body.positions.size(); ++v) {
-    body.positions[v] += Vec3(uniform(random), uniform(random), uniform(random));
-    body.velocities[v] += Vec3(uniform(random), uniform(random), uniform(random));
+    body.positions[v] += draw();
+    body.velocities[v] += draw();
   }
 }
 
