@@ -1,0 +1,164 @@
+#include "benchmarks/peer/bullet_world.h"
+
+#include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/soft/pressure_force.h"
+
+namespace pneuma::benchmarks {
+namespace {
+
+/// Bullet keeps the distance to boxes and ground on a sparse grid of voxels (0.25 m by default),
+/// which bodies of several metres wander through faster than it pays. The distance to a plane face
+/// is linear, so that larger ones are as good.
+constexpr double voxel_size = 1.0;  // m
+
+btScalar scalar(double value) { return static_cast<btScalar>(value); }
+btVector3 vector(const sim::Vec3& v) { return {scalar(v.x()), scalar(v.y()), scalar(v.z())}; }
+
+}  // namespace
+
+/// Members are destroyed from the last to the first: bodies before the world, the world before what
+/// it was made of.
+struct BulletWorld::Parts {
+  btSoftBodyRigidBodyCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  btSequentialImpulseConstraintSolver solver;
+  btSoftRigidDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  std::vector<std::unique_ptr<btMotionState>> motion_states;
+  std::vector<std::unique_ptr<btRigidBody>> rigid;
+  std::vector<std::unique_ptr<btSoftBody>> soft;
+
+  double step_seconds;
+
+  explicit Parts(const sim::Settings& settings);
+  ~Parts();
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  void add(const sim::SoftBody& body, const BulletOptions& options);
+  void add(const sim::RigidBox& box);
+  void add_ground();
+  btRigidBody& add_rigid(std::unique_ptr<btCollisionShape> shape, double mass,
+                         const btTransform& place);
+};
+
+BulletWorld::Parts::Parts(const sim::Settings& settings) : step_seconds(sim::time_step(settings)) {
+  world.setGravity(vector(settings.gravity));
+  btSoftBodyWorldInfo& info = world.getWorldInfo();
+  info.m_gravity = vector(settings.gravity);
+  info.air_density = 0;
+  info.water_density = 0;
+  info.m_dispatcher = &dispatcher;
+  info.m_broadphase = &broadphase;
+  info.m_sparsesdf.Initialize();
+  info.m_sparsesdf.setDefaultVoxelsz(scalar(voxel_size));
+}
+
+BulletWorld::Parts::~Parts() {
+  for (const auto& body : soft) world.removeSoftBody(body.get());
+  for (const auto& body : rigid) world.removeRigidBody(body.get());
+}
+
+void BulletWorld::Parts::add(const sim::SoftBody& body, const BulletOptions& options) {
+  std::vector<btVector3> positions;
+  for (int v = 0; v < body.positions.size(); ++v) positions.push_back(vector(body.positions[v]));
+  const std::vector<btScalar> masses(positions.size(), scalar(body.material.vertex_mass));
+  auto made = std::make_unique<btSoftBody>(
+      &world.getWorldInfo(), static_cast<int>(positions.size()), positions.data(), masses.data());
+  made->m_materials[0]->m_kLST = scalar(options.link_stiffness);
+  const sim::MeshTopology& topology = body.mesh->topology;
+  for (const auto& [a, b] : topology.edges()) made->appendLink(a, b);
+  for (const auto& [a, b, c] : topology.triangles()) made->appendFace(a, b, c);
+  made->m_cfg.collisions = btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::VF_SS;
+  made->m_cfg.piterations = options.position_iterations;
+  // A share of the velocity per step, where rho_g is one per 1/60 s.
+  made->m_cfg.kDP = scalar(1.0 - std::pow(1.0 - body.material.rho_g, 60.0 * step_seconds));
+  made->m_cfg.kPR = scalar(sim::gas_strength(body.material));  // pressure: kPR / V
+  for (int v = 0; v < body.velocities.size(); ++v) {
+    made->m_nodes[v].m_v = vector(body.velocities[v]);
+  }
+  world.addSoftBody(made.get());
+  soft.push_back(std::move(made));
+}
+
+btRigidBody& BulletWorld::Parts::add_rigid(std::unique_ptr<btCollisionShape> shape, double mass,
+                                           const btTransform& place) {
+  btVector3 inertia(0, 0, 0);
+  if (mass > 0.0) shape->calculateLocalInertia(scalar(mass), inertia);
+  motion_states.push_back(std::make_unique<btDefaultMotionState>(place));
+  const btRigidBody::btRigidBodyConstructionInfo info(scalar(mass), motion_states.back().get(),
+                                                      shape.get(), inertia);
+  rigid.push_back(std::make_unique<btRigidBody>(info));
+  shapes.push_back(std::move(shape));
+  world.addRigidBody(rigid.back().get());
+  return *rigid.back();
+}
+
+void BulletWorld::Parts::add(const sim::RigidBox& box) {
+  const auto& q = box.orientation;
+  const btTransform place(btQuaternion(scalar(q.x()), scalar(q.y()), scalar(q.z()), scalar(q.w())),
+                          vector(box.position));
+  btRigidBody& body =
+      add_rigid(std::make_unique<btBoxShape>(vector(0.5 * box.size)), box.mass, place);
+  body.setLinearVelocity(vector(box.velocity));
+  body.setAngularVelocity(vector(box.angular_velocity));
+}
+
+/// A box whose top is z = 0, as in Bullet's own demos: it tests nodes against a static plane, which
+/// it takes for a concave shape, ten times as slowly.
+void BulletWorld::Parts::add_ground() {
+  const btVector3 half_size(500, 500, 10);
+  btTransform place = btTransform::getIdentity();
+  place.setOrigin({0, 0, -half_size.z()});
+  add_rigid(std::make_unique<btBoxShape>(half_size), 0.0, place);
+}
+
+BulletWorld::BulletWorld(const sim::World& world, const BulletOptions& options)
+    : parts_(std::make_unique<Parts>(world.settings)) {
+  if (world.settings.ground) parts_->add_ground();
+  for (const sim::RigidBox& box : world.rigid) parts_->add(box);
+  for (const sim::SoftBody& body : world.soft) parts_->add(body, options);
+}
+
+BulletWorld::~BulletWorld() = default;
+BulletWorld::BulletWorld(BulletWorld&&) noexcept = default;
+BulletWorld& BulletWorld::operator=(BulletWorld&&) noexcept = default;
+
+void BulletWorld::step() {
+  parts_->world.stepSimulation(scalar(parts_->step_seconds), 0);  // 0: one step of just that length
+}
+
+std::size_t BulletWorld::contact_count() const {
+  int count = 0;
+  for (const auto& body : parts_->soft) {
+    count += body->m_rcontacts.size() + body->m_scontacts.size();
+  }
+  for (int i = 0; i < parts_->dispatcher.getNumManifolds(); ++i) {
+    count += parts_->dispatcher.getManifoldByIndexInternal(i)->getNumContacts();
+  }
+  return static_cast<std::size_t>(count);
+}
+
+double BulletWorld::volume(int body) const {
+  return static_cast<double>(parts_->soft[static_cast<std::size_t>(body)]->getVolume());
+}
+
+sim::Vec3 BulletWorld::mean_velocity(int body) const {
+  const btSoftBody& soft = *parts_->soft[static_cast<std::size_t>(body)];
+  sim::Vec3 sum = sim::Vec3::Zero();
+  for (int v = 0; v < soft.m_nodes.size(); ++v) {
+    const btVector3& velocity = soft.m_nodes[v].m_v;
+    sum += sim::Vec3(velocity.x(), velocity.y(), velocity.z());
+  }
+  return sum / soft.m_nodes.size();
+}
+
+}  // namespace pneuma::benchmarks

@@ -1,0 +1,46 @@
+// One world stepped by us and by Bullet, in turns, in one process.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/world.h"
+
+namespace pneuma::benchmarks {
+
+/// What one side took, and what it simulated for that.
+struct SideResult {
+  int steps_per_second = 60;
+  double seconds_per_second = 0.0;  // run time per simulated second, least of the repeats
+  double contacts_per_step = 0.0;   // mean; ours are regions, Bullet's nodes
+  double volume_ratio = 1.0;        // of all soft bodies at the end / at the start
+
+  /// What the work of 1/60 s takes: one step, unless it needs shorter ones.
+  double frame_seconds() const { return seconds_per_second / 60.0; }
+};
+
+struct PairedRun {
+  std::string name;
+  SideResult bullet;
+  SideResult rk4;
+  SideResult velocity_verlet;
+};
+
+struct PairedRunOptions {
+  double seconds = 10.0;  // simulated; the second half, when bodies have met, is measured
+  int repeats = 5;
+  int threads = 1;  // of ours; Bullet's soft bodies know one
+};
+
+/// Both start from `world`, with its steps per second; an integrator of ours that diverges at those
+/// takes twice as many, up to eight times. The time of every piece of a few steps is the least of
+/// all repeats, which are taken in turns: whatever else the machine does strikes both sides alike,
+/// and drops out. Throws app::DivergenceError.
+PairedRun run_paired(const std::string& name, const sim::World& world,
+                     const PairedRunOptions& options);
+
+/// Volume of all soft bodies, m^3.
+double soft_volume(const sim::World& world);
+
+}  // namespace pneuma::benchmarks
