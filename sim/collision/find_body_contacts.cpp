@@ -51,7 +51,8 @@ void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& cont
   }
 }
 
-void find_soft_rigid(const World& world, int soft, int rigid, std::vector<Contact>& contacts) {
+void find_soft_rigid(const World& world, int soft, int rigid, const TriangleColumns& columns,
+                     std::vector<Contact>& contacts) {
   const SoftBody& body = world.soft[at(soft)];
   const OrientedBox box = oriented_box(world.rigid[at(rigid)]);
   const double squared_radius = box.half.squaredNorm();
@@ -64,10 +65,9 @@ void find_soft_rigid(const World& world, int soft, int rigid, std::vector<Contac
     }
   }
   const SurfaceView surface{body.mesh->topology, body.positions};
-  const Bounds surface_bounds = bounds(body.positions);
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = box.corner(i);
-    if (const auto exit = find_surface_exit(surface, surface_bounds, corner)) {
+    if (const auto exit = find_surface_exit(surface, columns, corner)) {
       contacts.push_back({box_side(rigid),
                           {BodyKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
                           corner,

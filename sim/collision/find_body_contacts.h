@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/collision/contact.h"
+#include "sim/collision/triangle_columns.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
@@ -28,8 +29,9 @@ void find_soft_ground(const World& world, int soft, std::vector<Contact>& contac
 void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& contacts);
 
 /// Vertices of the soft body inside the box, then corners of the box inside the soft body. Each is
-/// to come out through the nearest face or triangle.
-void find_soft_rigid(const World& world, int soft, int rigid, std::vector<Contact>& contacts);
+/// to come out through the nearest face or triangle. `columns` filled from the soft body's surface.
+void find_soft_rigid(const World& world, int soft, int rigid, const TriangleColumns& columns,
+                     std::vector<Contact>& contacts);
 
 /// The points in which two boxes touch along their axis of least penetration.
 void find_rigid_rigid(const World& world, int first, int second, std::vector<Contact>& contacts);

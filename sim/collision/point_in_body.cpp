@@ -85,11 +85,23 @@ bool is_inside(const SurfaceView& surface, const Vec3& point) {
   return inside;
 }
 
-std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface, const Bounds& bounds,
-                                             const Vec3& point) {
+bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point) {
+  const Bounds& bounds = columns.bounds();
   const bool in_bounds =
       (point.array() >= bounds.low.array()).all() && (point.array() <= bounds.high.array()).all();
-  if (!in_bounds || !is_inside(surface, point)) return {};
+  if (!in_bounds) return false;
+  bool inside = false;
+  for (const int t : columns.at_line_through(point)) {
+    if (crosses_above(surface.positions, surface.topology.triangles()[at(t)], point)) {
+      inside = !inside;
+    }
+  }
+  return inside;
+}
+
+std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
+                                             const TriangleColumns& columns, const Vec3& point) {
+  if (!is_inside(surface, columns, point)) return {};
 
   SurfaceExit exit;
   exit.depth = distance_to_vertices(surface.positions, point);

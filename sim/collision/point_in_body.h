@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "sim/collision/surface_view.h"
-#include "sim/mesh/measure.h"
+#include "sim/collision/triangle_columns.h"
 
 namespace pneuma::sim {
 
@@ -12,6 +12,9 @@ namespace pneuma::sim {
 /// times (ERRATA row 17). Wrong at most for points within rounding of the surface: 8 units in the
 /// last place of the largest coordinate.
 bool is_inside(const SurfaceView& surface, const Vec3& point);
+/// The same, looking only at the triangles above and below the point: `columns` filled from the
+/// surface.
+bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point);
 
 /// How far inside a body a point is, and through which triangle it gets out soonest.
 struct SurfaceExit {
@@ -21,9 +24,8 @@ struct SurfaceExit {
   double depth = 0.0;          // m from there to the inside point
 };
 
-/// None for a point outside. `bounds` are the surface's own, from bounds(positions): most points
-/// are settled by them.
-std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface, const Bounds& bounds,
-                                             const Vec3& point);
+/// None for a point outside. `columns` filled from the surface.
+std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
+                                             const TriangleColumns& columns, const Vec3& point);
 
 }  // namespace pneuma::sim

@@ -14,8 +14,8 @@ struct Shapes {
   explicit Shapes(const World& world) {
     for (const SoftBody& body : world.soft) {
       surfaces.push_back({body.mesh->topology, body.positions});
-      surface_bounds.push_back(bounds(body.positions));
-      spheres.push_back(bounding_sphere(body.positions, surface_bounds.back(), 0.0));
+      columns.emplace_back().fill(surfaces.back());
+      spheres.push_back(bounding_sphere(body.positions, columns.back().bounds(), 0.0));
     }
     for (const RigidBox& box : world.rigid) {
       boxes.push_back({box.position, box.orientation.toRotationMatrix(), 0.5 * box.size});
@@ -24,14 +24,13 @@ struct Shapes {
   }
 
   std::vector<SurfaceView> surfaces;
-  std::vector<Bounds> surface_bounds;
+  std::vector<TriangleColumns> columns;
   std::vector<OrientedBox> boxes;
   std::vector<BoundingSphere> spheres;  // of the soft bodies, then of the boxes
 };
 
 double depth_in_soft(const Shapes& shapes, int soft, const Vec3& point) {
-  const auto exit =
-      find_surface_exit(shapes.surfaces[at(soft)], shapes.surface_bounds[at(soft)], point);
+  const auto exit = find_surface_exit(shapes.surfaces[at(soft)], shapes.columns[at(soft)], point);
   return exit ? exit->depth : 0.0;
 }
 

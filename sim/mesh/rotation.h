@@ -1,4 +1,4 @@
-// Rotations as people write them.
+// Rotations as people write them, and the cross product as a matrix.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,6 +14,13 @@ inline Eigen::Quaterniond rotation_of_degrees(const Vec3& degrees) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) *
                             Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
                             Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
+}
+
+/// m with m u = w x u.
+inline Mat3 cross_matrix(const Vec3& w) {
+  Mat3 m;
+  m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
+  return m;
 }
 
 }  // namespace pneuma::sim

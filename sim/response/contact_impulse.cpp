@@ -4,25 +4,30 @@
 #include <cmath>
 
 namespace pneuma::sim {
+namespace {
+
+Mat3 contact_axes(const Vec3& normal) {
+  Mat3 axes;
+  axes.col(0) = normal;
+  axes.col(1) = normal.unitOrthogonal();
+  axes.col(2) = normal.cross(axes.col(1));
+  return axes;
+}
+
+}  // namespace
+
 ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
                                const Contact& contact, double start_approach, double& work)
     : first_(world, masses, contact.first, contact.point),
       second_(world, masses, contact.second, contact.point),
-      normal_(contact.normal),
+      axes_(contact_axes(contact.normal)),
+      mobility_(axes_.transpose() * (first_.mobility() + second_.mobility()) * axes_),
       depth_(contact.depth),
-      start_gap_(first_.place() - second_.place()),
+      start_gap_((first_.place() - second_.place()).dot(normal())),
       work_(&work) {
-  const auto mass_along = [this](const Vec3& direction) {
-    return 1.0 / (first_.inverse_mass_along(direction) + second_.inverse_mass_along(direction));
-  };
-  tangents_[0] = normal_.unitOrthogonal();
-  tangents_[1] = normal_.cross(tangents_[0]);
-  normal_mass_ = mass_along(normal_);
-  tangent_masses_ = {mass_along(tangents_[0]), mass_along(tangents_[1])};
-
   const Surface pair = combine(surface(world, contact.first), surface(world, contact.second));
   friction_ = pair.friction;
-  const double approach = std::max(0.0, -relative_velocity().dot(normal_));
+  const double approach = std::max(0.0, -relative_velocity().x());
   const double closing =
       contact.gap / time_step(world.settings);  // m/s that close the gap in a step
   if (start_approach <= closing && contact.gap > 0.0) {
@@ -33,49 +38,57 @@ ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
   }
 }
 
+Vec3 ContactImpulse::relative_velocity() const {
+  return axes_.transpose() * (first_.velocity() - second_.velocity());
+}
+
 void ContactImpulse::apply(const Vec3& impulse) const {
-  first_.apply(impulse);
-  second_.apply(-impulse);
+  const Vec3 in_world = axes_ * impulse;
+  first_.apply(in_world);
+  second_.apply(-in_world);
 }
 
 void ContactImpulse::start_from(const Vec3& impulse) {
-  const double along = impulse.dot(normal_);
-  const double normal = std::max(0.0, along);
+  Vec3 start = axes_.transpose() * impulse;
+  start.x() = std::max(0.0, start.x());
   // The normal may have turned since, so that the old impulse has more across it than friction may.
-  Vec3 friction = impulse - along * normal_;
-  const double limit = friction_ * normal;
-  const double size = friction.norm();
-  if (size > limit) friction *= limit / size;
+  const double limit = friction_ * start.x();
+  const double size = start.tail<2>().norm();
+  if (size > limit) start.tail<2>() *= limit / size;
   const Vec3 before = relative_velocity();
-  impulse_.normal += normal;
-  impulse_.friction += friction;
-  apply(normal * normal_ + friction);
-  *work_ += 0.5 * (normal * normal_ + friction).dot(before + relative_velocity());
+  impulse_.normal += start.x();
+  impulse_.friction += start.tail<2>();
+  apply(start);
+  *work_ += start.dot(before + 0.5 * mobility_ * start);
 }
 
 double ContactImpulse::correct() {
-  const double normal_change = correct_normal();
-  return normal_change + (friction_ > 0.0 ? correct_friction() : 0.0);
+  Vec3 velocity = relative_velocity();
+  Vec3 change = Vec3::Zero();
+  correct_normal(velocity, change);
+  if (friction_ > 0.0) correct_friction(velocity, change);
+  if (change.isZero(0.0)) return 0.0;
+  apply(change);
+  return std::abs(change.x()) + change.tail<2>().norm();
 }
 
-double ContactImpulse::correct_normal() {
-  const double parting = relative_velocity().dot(normal_);
+void ContactImpulse::correct_normal(Vec3& velocity, Vec3& change) {
+  const double parting = velocity.x();
   const double before = impulse_.normal;
-  double change = normal_mass_ * (target_ - parting);
-  if (target_ > 0.0) change = std::min(change, most_without_gain(parting));
-  impulse_.normal = std::max(0.0, before + change);
-  change = impulse_.normal - before;
-  if (change == 0.0) return 0.0;
-  apply(change * normal_);
-  *work_ += change * (parting + 0.5 * change / normal_mass_);
-  return std::abs(change);
+  double wanted = (target_ - parting) / mobility_(0, 0);
+  if (target_ > 0.0) wanted = std::min(wanted, most_without_gain(parting));
+  impulse_.normal = std::max(0.0, before + wanted);
+  change.x() = impulse_.normal - before;
+  velocity += change.x() * mobility_.col(0);
+  *work_ += change.x() * (parting + 0.5 * change.x() * mobility_(0, 0));
 }
 
 /// The work of an impulse j on sides that part with v is j (v + j / 2m): at most what has been
 /// taken from them.
 double ContactImpulse::most_without_gain(double parting) const {
   const double taken = std::max(0.0, -*work_);
-  return normal_mass_ * (std::sqrt(parting * parting + 2.0 * taken / normal_mass_) - parting);
+  const double mobility = mobility_(0, 0);
+  return (std::sqrt(parting * parting + 2.0 * taken * mobility) - parting) / mobility;
 }
 
 bool ContactImpulse::bounce() {
@@ -83,46 +96,43 @@ bool ContactImpulse::bounce() {
   return bounce_speed_ > 0.0 && impulse_.normal > 0.0;
 }
 
-double ContactImpulse::correct_friction() {
+void ContactImpulse::correct_friction(Vec3& velocity, Vec3& change) {
   const double limit = friction_ * impulse_.normal;
-  const Vec3 before = impulse_.friction;
+  const Eigen::Vector2d before = impulse_.friction;
   sticks_ = false;
-  if (limit == 0.0 && before.isZero(0.0)) return 0.0;  // sides that do not press are left alone
-  const Vec3 velocity_before = relative_velocity();
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Vec3 change = -tangent_masses_[i] * relative_velocity().dot(tangents_[i]) * tangents_[i];
-    impulse_.friction += change;
-    apply(change);
+  if (limit == 0.0 && before.isZero(0.0)) return;  // sides that do not press are left alone
+  // What stops the sliding along one tangent, then along the other.
+  Eigen::Vector2d stopping = before;
+  Vec3 stopped = velocity;
+  for (int i = 0; i < 2; ++i) {
+    const double along = -stopped[1 + i] / mobility_(1 + i, 1 + i);
+    stopping[i] += along;
+    stopped += along * mobility_.col(1 + i);
   }
   // Coulomb's limit on what would stop the sliding altogether.
-  const Vec3 stopping = impulse_.friction;
   const double size = stopping.norm();
   sticks_ = size <= limit;
-  if (!sticks_) {
-    impulse_.friction *= limit / size;
-    apply(impulse_.friction - stopping);
-  }
-  const Vec3 change = impulse_.friction - before;
-  const double gain = 0.5 * change.dot(velocity_before + relative_velocity());
+  if (!sticks_) stopping *= limit / size;
+  const Eigen::Vector2d difference = stopping - before;
+  const Vec3 after = velocity + mobility_.rightCols<2>() * difference;
+  const double gain = 0.5 * difference.dot((velocity + after).tail<2>());
   // Turning bodies answer to a force in one direction by a motion in another, so that friction cut
   // back to its limit may drive them a little. When they bounce, with no energy to spare, it is
   // then left as it was.
-  if (target_ > 0.0 && gain > 0.0 && before.norm() <= limit) {
-    apply(-change);
-    impulse_.friction = before;
-    return 0.0;
-  }
+  if (target_ > 0.0 && gain > 0.0 && before.norm() <= limit) return;
+  impulse_.friction = stopping;
+  change.tail<2>() = difference;
+  velocity = after;
   *work_ += gain;
-  return change.norm();
 }
 
 void ContactImpulse::separate(double share) const {
-  const double moved = (first_.place() - second_.place() - start_gap_).dot(normal_);
+  const double moved = (first_.place() - second_.place()).dot(normal()) - start_gap_;
   const double left = share * depth_ - moved;
   if (!(left > 0.0)) return;
   const double of_first = first_.inverse_mass() / (first_.inverse_mass() + second_.inverse_mass());
-  first_.displace(of_first * left * normal_);
-  second_.displace((of_first - 1.0) * left * normal_);
+  first_.displace(of_first * left * normal());
+  second_.displace((of_first - 1.0) * left * normal());
 }
 
 }  // namespace pneuma::sim

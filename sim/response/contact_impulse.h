@@ -7,8 +7,8 @@ namespace pneuma::sim {
 
 /// What a contact gave its first side so far in this step, N s. The second side got the opposite.
 struct Impulse {
-  double normal = 0.0;           // along the contact's normal, >= 0
-  Vec3 friction = Vec3::Zero();  // across it, at most mu times the normal one
+  double normal = 0.0;                                 // along the contact's normal, >= 0
+  Eigen::Vector2d friction = Eigen::Vector2d::Zero();  // across it, at most mu times the normal one
 };
 
 /// m/s. A body that would part more slowly, and rise by less than 5 um, does not bounce: a stack
@@ -44,7 +44,9 @@ class ContactImpulse {
   bool bounce();
 
   const Impulse& impulse() const { return impulse_; }
-  Vec3 total() const { return impulse_.normal * normal_ + impulse_.friction; }
+  Vec3 total() const {
+    return axes_ * Vec3(impulse_.normal, impulse_.friction.x(), impulse_.friction.y());
+  }
   bool sticks() const { return sticks_; }  // friction is below its limit
 
   /// Moves the sides apart, shared by their inverse masses, until they have moved by `share` of
@@ -52,20 +54,20 @@ class ContactImpulse {
   void separate(double share) const;
 
  private:
-  Vec3 relative_velocity() const { return first_.velocity() - second_.velocity(); }
+  Vec3 normal() const { return axes_.col(0); }
+  /// All within the contact's axes. An impulse changes the relative velocity through `mobility_`.
+  Vec3 relative_velocity() const;
   void apply(const Vec3& impulse) const;
-  double correct_normal();
+  void correct_normal(Vec3& velocity, Vec3& change);
   double most_without_gain(double parting) const;
-  double correct_friction();
+  void correct_friction(Vec3& velocity, Vec3& change);
 
   SideInContact first_;
   SideInContact second_;
-  Vec3 normal_;
+  Mat3 axes_;      // columns: the normal, and two tangents
+  Mat3 mobility_;  // of both sides, in these axes, 1/kg
   double depth_;
-  Vec3 start_gap_;  // first's place less second's when this was made
-  std::array<Vec3, 2> tangents_;
-  double normal_mass_;
-  std::array<double, 2> tangent_masses_;
+  double start_gap_;  // m along the normal, first's place less second's, when this was made
   double friction_;
   double target_ = 0.0;        // m/s with which the sides part; negative: may still approach
   double bounce_speed_ = 0.0;  // m/s, the target once they have been stopped

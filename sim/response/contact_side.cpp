@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mesh/rotation.h"
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
@@ -40,10 +41,13 @@ Vec3 SideInContact::velocity() const {
   return vertex_count_ > 1 ? Vec3(sum / vertex_count_) : sum;
 }
 
-double SideInContact::inverse_mass_along(const Vec3& direction) const {
-  if (!box_) return inverse_mass_;
-  const Vec3 turn = arm_.cross(direction);
-  return inverse_mass_ + turn.dot(*inverse_inertia_ * turn);
+Mat3 SideInContact::mobility() const {
+  Mat3 result = inverse_mass_ * Mat3::Identity();
+  if (box_) {
+    const Mat3 arm = cross_matrix(arm_);
+    result -= arm * *inverse_inertia_ * arm;
+  }
+  return result;
 }
 
 void SideInContact::apply(const Vec3& impulse) const {

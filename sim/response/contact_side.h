@@ -29,10 +29,10 @@ class SideInContact {
   /// zero.
   Vec3 velocity() const;
 
-  /// How much velocity along the unit vector, in m/s, one N s along it gives at the point: 1/m for
-  /// a soft feature, m the sum of its vertices' masses (5.3.1); 1/m + n . ((I^-1 (r x n)) x r) for
-  /// a box; 0 for the ground.
-  double inverse_mass_along(const Vec3& direction) const;
+  /// The velocity in m/s that an impulse of one N s gives at the point, as a symmetric matrix: 1/m
+  /// for a soft feature, m the sum of its vertices' masses (5.3.1); for a box
+  /// n . K n = 1/m + n . ((I^-1 (r x n)) x r) (5.3.3); 0 for the ground.
+  Mat3 mobility() const;
 
   /// 1/m without the rotational part: how displacements are shared between the sides.
   double inverse_mass() const { return inverse_mass_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mesh/rotation.h"
 #include "sim/soft/pressure_force.h"
 
 namespace pneuma::sim {
@@ -60,13 +61,6 @@ Mat3 spring_hessian(const Vec3& edge, double length, double stiffness, double re
   const double across = 1.0 - rest_length / length;
   const Vec3 d = edge / length;
   return stiffness * (across * Mat3::Identity() + (1.0 - across) * d * d.transpose());
-}
-
-/// m with m u = w x u.
-Mat3 cross_matrix(const Vec3& w) {
-  Mat3 m;
-  m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
-  return m;
 }
 
 }  // namespace

@@ -21,6 +21,19 @@ void find_between_soft(const World& world, StepWorkspace& workspace) {
   }
 }
 
+/// The pairs of one soft body follow each other.
+void find_between_soft_and_rigid(const World& world, StepWorkspace& workspace) {
+  int filled_with = -1;
+  for (const auto& [soft, rigid] : workspace.soft_rigid_pairs) {
+    if (soft != filled_with) {
+      const SoftBody& body = world.soft[at(soft)];
+      workspace.columns.fill({body.mesh->topology, body.positions});
+      filled_with = soft;
+    }
+    find_soft_rigid(world, soft, rigid, workspace.columns, workspace.contacts);
+  }
+}
+
 }  // namespace
 
 void find_contacts(const World& world, StepWorkspace& workspace) {
@@ -38,9 +51,7 @@ void find_contacts(const World& world, StepWorkspace& workspace) {
     find_between_soft(world, workspace);
   }
   if (plan.runs(ContactKind::soft_rigid)) {
-    for (const BodyPair& pair : workspace.soft_rigid_pairs) {
-      find_soft_rigid(world, pair.first, pair.second, contacts);
-    }
+    find_between_soft_and_rigid(world, workspace);
   }
   if (plan.runs(ContactKind::rigid_rigid)) {
     for (const BodyPair& pair : workspace.rigid_pairs) {

@@ -41,10 +41,6 @@ double start_approach(const World& world, const StepWorkspace& workspace, const 
   return -relative.dot(contact.normal);
 }
 
-bool is_soft_ground(const Contact& contact) {
-  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::ground;
-}
-
 /// Whether the contact is between boxes, or a box and the ground: one that can rest.
 bool is_rigid(const Contact& contact) {
   return contact.first.kind == BodyKind::rigid && contact.second.kind != BodyKind::soft;
@@ -126,23 +122,21 @@ void start_from_last_step(const World& world, StepWorkspace& workspace) {
   }
 }
 
-/// Vertices on the ground do not know of each other: one sweep is exact for them. Everything else
-/// is corrected until the corrections have died away.
-void correct_all(const Settings& settings, StepWorkspace& workspace) {
-  const bool coupled =
-      !std::all_of(workspace.contacts.begin(), workspace.contacts.end(), is_soft_ground);
-  const int sweeps = coupled ? settings.impulse_sweeps : 1;
-  for (int i = 0; i < sweeps; ++i) {
+/// Coupled contacts are corrected until the corrections have died away.
+void correct_all(const Settings& settings, const ContactCoupling& coupling) {
+  for (ContactImpulse* impulse : coupling.alone()) impulse->correct();
+  const std::span<ContactImpulse* const> coupled = coupling.coupled();
+  for (int i = 0; i < settings.impulse_sweeps; ++i) {
     double change = 0.0, total = 0.0;
-    const auto correct = [&](ContactImpulse& impulse) {
-      change += impulse.correct();
-      total += impulse.impulse().normal;
+    const auto correct = [&](ContactImpulse* impulse) {
+      change += impulse->correct();
+      total += impulse->impulse().normal;
     };
     // There and back, so that what holds a stack travels up it as fast as down.
     if (i % 2 == 0) {
-      std::for_each(workspace.impulses.begin(), workspace.impulses.end(), correct);
+      std::for_each(coupled.begin(), coupled.end(), correct);
     } else {
-      std::for_each(workspace.impulses.rbegin(), workspace.impulses.rend(), correct);
+      std::for_each(coupled.rbegin(), coupled.rend(), correct);
     }
     if (change <= 1e-6 * total) return;
   }
@@ -150,10 +144,11 @@ void correct_all(const Settings& settings, StepWorkspace& workspace) {
 
 /// First what stops bodies from approaching, then what makes them bounce.
 void apply_impulses(const Settings& settings, StepWorkspace& workspace) {
-  correct_all(settings, workspace);
+  workspace.coupling.part(workspace.contacts, workspace.impulses);
+  correct_all(settings, workspace.coupling);
   bool bounces = false;
   for (ContactImpulse& impulse : workspace.impulses) bounces |= impulse.bounce();
-  if (bounces) correct_all(settings, workspace);
+  if (bounces) correct_all(settings, workspace.coupling);
 }
 
 /// A vertex is put back onto the ground (3.1.4). One that friction holds is also put where it would

@@ -76,7 +76,8 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       soft(make_soft_scratch(world, options.threads)),
       soft_start(world.soft.size()),
       rigid_start(world.rigid.size()),
-      soft_outcome(world.soft.size()) {}
+      soft_outcome(world.soft.size()),
+      coupling(world) {}
 
 Stepper::Stepper(const World& world, StepperOptions options)
     : workspace_(std::make_unique<StepWorkspace>(world, std::move(options))) {}

@@ -10,7 +10,8 @@
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
 #include "sim/collision/particles.h"
-#include "sim/response/contact_impulse.h"
+#include "sim/collision/triangle_columns.h"
+#include "sim/response/contact_coupling.h"
 #include "sim/soft/integrators.h"
 #include "sim/step/stepper.h"
 #include "sim/step/workers.h"
@@ -51,10 +52,12 @@ struct StepWorkspace {
   ParticleScratch particles;
   SoftSoftScratch soft_soft;
   ExactScratch exact;
+  TriangleColumns columns;  // of the soft body that boxes are tested against
   std::vector<Contact> contacts;
   std::vector<BoxMass> box_masses;
   std::vector<double> pair_work;         // J, by the contacts of each pair of bodies
   std::vector<ContactImpulse> impulses;  // per contact
+  ContactCoupling coupling;
   StageTimes stage_times{};
 };
 

@@ -230,7 +230,10 @@ TEST(Friction, StaysWithinCoulombsLimitAndAcrossTheNormal) {
     resolve(impulse);
     const auto& [normal, friction] = impulse.impulse();
     ASSERT_LE(friction.norm(), mu * normal * (1.0 + 1e-14));  // scaled down to it: rounding
-    ASSERT_LE(std::abs(friction.dot(contact.normal)), 1e-14 * friction.norm());
+    // Nothing of it is along the normal.
+    ASSERT_NEAR(impulse.total().dot(contact.normal), normal, 1e-14 * impulse.total().norm());
+    ASSERT_NEAR(impulse.total().squaredNorm(), normal * normal + friction.squaredNorm(),
+                1e-14 * impulse.total().squaredNorm());
     if (normal > 0.0) ++(impulse.sticks() ? sticking : slipping);
   }
   EXPECT_GT(sticking, trials / 20);
@@ -310,7 +313,7 @@ TEST(Friction, RepeatedCorrectionsOfBoxesEndInSticksOrSlips) {
     } else {
       ++slipping;
       ASSERT_NEAR(friction.norm() / normal, pair_surface(world, contact).friction, 1e-13) << trial;
-      ASSERT_LT(friction.dot(velocity), 0.0) << trial;
+      ASSERT_LT((impulse.total() - normal * contact.normal).dot(velocity), 0.0) << trial;
     }
   }
   EXPECT_GT(sticking, 300);

@@ -71,8 +71,17 @@ struct Tally {
   int on_surface = 0;
 };
 
-/// Compares is_inside with the winding number at one point. On the surface both may say anything.
+TriangleColumns columns_of(const SurfaceBody& body) {
+  TriangleColumns columns;
+  columns.fill(body.surface());
+  return columns;
+}
+
+/// Compares is_inside with the winding number at one point. On the surface both may say anything,
+/// but is_inside says the same with columns and without.
 void compare(const SurfaceBody& body, const Vec3& point, Tally& tally) {
+  ASSERT_EQ(is_inside(body.surface(), columns_of(body), point), is_inside(body.surface(), point))
+      << point.transpose();
   const bool inside = winding_number(body, point) > 0.5;
   if (is_inside(body.surface(), point) == inside) {
     ++(inside ? tally.inside : tally.outside);
@@ -183,6 +192,7 @@ TEST(PointInBody, IsRightDownToRoundingOfTheSurface) {
 
 TEST(SurfaceExit, IsTheNearestPointOfTheSurface) {
   const SurfaceBody torus = deformed_torus();
+  const TriangleColumns columns = columns_of(torus);
   const Bounds around = bounds(torus.positions);
   Uniform uniform(6);
   int exits = 0;
@@ -190,7 +200,7 @@ TEST(SurfaceExit, IsTheNearestPointOfTheSurface) {
   for (int i = 0; i < 6'000; ++i) {
     Vec3 point;
     for (int k = 0; k < 3; ++k) point[k] = uniform(around.low[k] - 0.5, around.high[k] + 0.5);
-    const auto exit = find_surface_exit(torus.surface(), around, point);
+    const auto exit = find_surface_exit(torus.surface(), columns, point);
     ASSERT_EQ(exit.has_value(), is_inside(torus.surface(), point));
     if (!exit) continue;
     ++exits;
@@ -228,9 +238,9 @@ TEST(SurfaceExit, IsTheNearestPointOfTheSurface) {
 TEST(SurfaceExit, IsNoneInABodyWithoutVolume) {
   SurfaceBody box(make_box({2.0, 2.0, 2.0}, 2));
   for (int i = 0; i < box.positions.size(); ++i) box.positions[i].z() = 0.0;
-  EXPECT_FALSE(find_surface_exit(box.surface(), bounds(box.positions), Vec3(0.1, 0.2, 0.0)));
+  EXPECT_FALSE(find_surface_exit(box.surface(), columns_of(box), Vec3(0.1, 0.2, 0.0)));
   for (int i = 0; i < box.positions.size(); ++i) box.positions[i].setZero();
-  EXPECT_FALSE(find_surface_exit(box.surface(), bounds(box.positions), Vec3::Zero()));
+  EXPECT_FALSE(find_surface_exit(box.surface(), columns_of(box), Vec3::Zero()));
 }
 
 }  // namespace
