@@ -22,6 +22,8 @@ ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
       second_(world, masses, contact.second, contact.point),
       axes_(contact_axes(contact.normal)),
       mobility_(axes_.transpose() * (first_.mobility() + second_.mobility()) * axes_),
+      normal_mass_(1.0 / mobility_(0, 0)),
+      tangent_masses_{1.0 / mobility_(1, 1), 1.0 / mobility_(2, 2)},
       depth_(contact.depth),
       start_gap_((first_.place() - second_.place()).dot(normal())),
       work_(&work) {
@@ -65,30 +67,30 @@ void ContactImpulse::start_from(const Vec3& impulse) {
 double ContactImpulse::correct() {
   Vec3 velocity = relative_velocity();
   Vec3 change = Vec3::Zero();
-  correct_normal(velocity, change);
+  change.x() = correct_normal(velocity);
   if (friction_ > 0.0) correct_friction(velocity, change);
-  if (change.isZero(0.0)) return 0.0;
-  apply(change);
-  return std::abs(change.x()) + change.tail<2>().norm();
+  const double size = change.lpNorm<1>();
+  if (size > 0.0) apply(change);
+  return size;
 }
 
-void ContactImpulse::correct_normal(Vec3& velocity, Vec3& change) {
+double ContactImpulse::correct_normal(Vec3& velocity) {
   const double parting = velocity.x();
   const double before = impulse_.normal;
-  double wanted = (target_ - parting) / mobility_(0, 0);
+  double wanted = (target_ - parting) * normal_mass_;
   if (target_ > 0.0) wanted = std::min(wanted, most_without_gain(parting));
   impulse_.normal = std::max(0.0, before + wanted);
-  change.x() = impulse_.normal - before;
-  velocity += change.x() * mobility_.col(0);
-  *work_ += change.x() * (parting + 0.5 * change.x() * mobility_(0, 0));
+  const double change = impulse_.normal - before;
+  velocity += change * mobility_.col(0);
+  *work_ += change * (parting + 0.5 * change * mobility_(0, 0));
+  return change;
 }
 
 /// The work of an impulse j on sides that part with v is j (v + j / 2m): at most what has been
 /// taken from them.
 double ContactImpulse::most_without_gain(double parting) const {
   const double taken = std::max(0.0, -*work_);
-  const double mobility = mobility_(0, 0);
-  return (std::sqrt(parting * parting + 2.0 * taken * mobility) - parting) / mobility;
+  return normal_mass_ * (std::sqrt(parting * parting + 2.0 * taken * mobility_(0, 0)) - parting);
 }
 
 bool ContactImpulse::bounce() {
@@ -96,33 +98,37 @@ bool ContactImpulse::bounce() {
   return bounce_speed_ > 0.0 && impulse_.normal > 0.0;
 }
 
-void ContactImpulse::correct_friction(Vec3& velocity, Vec3& change) {
+// In scalars: the time goes into a chain of operations each of which waits for the last.
+void ContactImpulse::correct_friction(const Vec3& velocity, Vec3& change) {
   const double limit = friction_ * impulse_.normal;
-  const Eigen::Vector2d before = impulse_.friction;
+  const double before_1 = impulse_.friction.x(), before_2 = impulse_.friction.y();
+  const double before_squared = before_1 * before_1 + before_2 * before_2;
   sticks_ = false;
-  if (limit == 0.0 && before.isZero(0.0)) return;  // sides that do not press are left alone
+  if (limit == 0.0 && before_squared == 0.0) return;  // sides that do not press are left alone
   // What stops the sliding along one tangent, then along the other.
-  Eigen::Vector2d stopping = before;
-  Vec3 stopped = velocity;
-  for (int i = 0; i < 2; ++i) {
-    const double along = -stopped[1 + i] / mobility_(1 + i, 1 + i);
-    stopping[i] += along;
-    stopped += along * mobility_.col(1 + i);
-  }
+  const double along_1 = -velocity.y() * tangent_masses_[0];
+  const double along_2 = -(velocity.z() + along_1 * mobility_(2, 1)) * tangent_masses_[1];
+  double after_1 = before_1 + along_1, after_2 = before_2 + along_2;
   // Coulomb's limit on what would stop the sliding altogether.
-  const double size = stopping.norm();
-  sticks_ = size <= limit;
-  if (!sticks_) stopping *= limit / size;
-  const Eigen::Vector2d difference = stopping - before;
-  const Vec3 after = velocity + mobility_.rightCols<2>() * difference;
-  const double gain = 0.5 * difference.dot((velocity + after).tail<2>());
+  const double squared = after_1 * after_1 + after_2 * after_2;
+  sticks_ = squared <= limit * limit;
+  if (!sticks_) {
+    const double share = limit / std::sqrt(squared);
+    after_1 *= share;
+    after_2 *= share;
+  }
+  const double change_1 = after_1 - before_1, change_2 = after_2 - before_2;
+  // From the speeds before and after: 2 v + K j.
+  const double gain = 0.5 * (change_1 * (2.0 * velocity.y() + mobility_(1, 1) * change_1) +
+                             change_2 * (2.0 * velocity.z() + mobility_(2, 2) * change_2)) +
+                      mobility_(2, 1) * change_1 * change_2;
   // Turning bodies answer to a force in one direction by a motion in another, so that friction cut
   // back to its limit may drive them a little. When they bounce, with no energy to spare, it is
   // then left as it was.
-  if (target_ > 0.0 && gain > 0.0 && before.norm() <= limit) return;
-  impulse_.friction = stopping;
-  change.tail<2>() = difference;
-  velocity = after;
+  if (target_ > 0.0 && gain > 0.0 && before_squared <= limit * limit) return;
+  impulse_.friction = {after_1, after_2};
+  change.y() = change_1;
+  change.z() = change_2;
   *work_ += gain;
 }
 

@@ -33,7 +33,7 @@ class ContactImpulse {
   /// happened to them so far: j = -v_rel . n / (1/m0 + 1/m1 + ...), and friction that stops the
   /// sliding with at most mu j. Called again and again, over all contacts of a step; j never
   /// becomes negative, also between boxes, which 5.3.3 leaves open. Returns the size of the
-  /// correction, N s.
+  /// correction: the sum of its components, N s.
   double correct();
 
   /// To be called once the sides no longer approach. From now on `correct` makes them part with the
@@ -58,14 +58,16 @@ class ContactImpulse {
   /// All within the contact's axes. An impulse changes the relative velocity through `mobility_`.
   Vec3 relative_velocity() const;
   void apply(const Vec3& impulse) const;
-  void correct_normal(Vec3& velocity, Vec3& change);
+  double correct_normal(Vec3& velocity);
   double most_without_gain(double parting) const;
-  void correct_friction(Vec3& velocity, Vec3& change);
+  void correct_friction(const Vec3& velocity, Vec3& change);
 
   SideInContact first_;
   SideInContact second_;
-  Mat3 axes_;      // columns: the normal, and two tangents
-  Mat3 mobility_;  // of both sides, in these axes, 1/kg
+  Mat3 axes_;                             // columns: the normal, and two tangents
+  Mat3 mobility_;                         // of both sides, in these axes, 1/kg
+  double normal_mass_;                    // kg, 1 / mobility along the normal
+  std::array<double, 2> tangent_masses_;  // kg
   double depth_;
   double start_gap_;  // m along the normal, first's place less second's, when this was made
   double friction_;

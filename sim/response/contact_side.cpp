@@ -36,9 +36,9 @@ SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, cons
 
 Vec3 SideInContact::velocity() const {
   if (box_) return box_->velocity + box_->angular_velocity.cross(arm_);
-  Vec3 sum = Vec3::Zero();
-  for (int i = 0; i < vertex_count_; ++i) sum += soft_->velocities[vertices_[at(i)]];
-  return vertex_count_ > 1 ? Vec3(sum / vertex_count_) : sum;
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (int i = 0; i < vertex_count_; ++i) sum += soft_->velocities.rows().col(vertices_[at(i)]);
+  return vertex_count_ > 1 ? Vec3(sum.head<3>() / vertex_count_) : Vec3(sum.head<3>());
 }
 
 Mat3 SideInContact::mobility() const {
