@@ -50,9 +50,10 @@ bool crosses_above(const VertexArray& positions, const Triangle& triangle, const
 
 /// The nearest vertex: no triangle that is farther away than it can hold the nearest point.
 double distance_to_vertices(const VertexArray& positions, const Vec3& point) {
+  const Eigen::Vector4d row(point.x(), point.y(), point.z(), 0.0);
   double squared = std::numeric_limits<double>::infinity();
   for (int i = 0; i < positions.size(); ++i) {
-    squared = std::min(squared, (positions[i] - point).squaredNorm());
+    squared = std::min(squared, (positions.rows().col(i) - row).squaredNorm());
   }
   return std::sqrt(squared);
 }
@@ -106,19 +107,19 @@ std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
   SurfaceExit exit;
   exit.depth = distance_to_vertices(surface.positions, point);
   double facing = 0.0;
-  for (int i = 0; i < surface.topology.triangle_count(); ++i) {
-    const Corners corners = triangle_corners(surface, i);
-    const double reach = exit.depth * (1.0 + same_distance);
-    if (is_beyond(corners, point, reach)) continue;
-    const auto near = test_vertex_triangle(point, corners, reach);
-    if (!near) continue;
-    const Vec3 normal = feature_normal(surface, {FeatureKind::triangle, i});
+  const auto reach = [&] { return exit.depth * (1.0 + same_distance); };  // shrinks
+  columns.for_each_near(point, reach(), [&](int triangle) {
+    const Corners corners = triangle_corners(surface, triangle);
+    if (is_beyond(corners, point, reach())) return;
+    const auto near = test_vertex_triangle(point, corners, reach());
+    if (!near) return;
+    const Vec3 normal = feature_normal(surface, {FeatureKind::triangle, triangle});
     const double height = (near->second_point - point).dot(normal);
     if (near->distance < exit.depth * (1.0 - same_distance) || height > facing) {
-      exit = {i, normal, near->second_point, near->distance};
+      exit = {triangle, normal, near->second_point, near->distance};
       facing = height;
     }
-  }
+  });
   if (exit.normal.isZero(0.0)) return {};  // nothing but triangles without area: no way out
   return exit;
 }

@@ -25,6 +25,19 @@ class TriangleColumns {
                                        at(starts_[column + 1] - starts_[column]));
   }
 
+  /// Calls visit(triangle) for all triangles that may come within `reach` (m) of the point, for
+  /// some of them more than once.
+  template <class Visit>
+  void for_each_near(const Vec3& point, double reach, const Visit& visit) const {
+    const int last_x = column_along(0, point.x() + reach);
+    const int last_y = column_along(1, point.y() + reach);
+    const int first_x = column_along(0, point.x() - reach);
+    for (int y = column_along(1, point.y() - reach); y <= last_y; ++y) {
+      const int end = starts_[index_of(last_x, y) + 1];
+      for (int i = starts_[index_of(first_x, y)]; i < end; ++i) visit(entries_[at(i)]);
+    }
+  }
+
  private:
   int column_along(int axis, double coordinate) const;
   std::size_t index_of(int x, int y) const { return at(x + side_ * y); }
