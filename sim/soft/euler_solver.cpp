@@ -76,7 +76,7 @@ bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& gu
     effort_.factorizations += report.factorizations;
     effort_.converged &= report.converged;
     minimiser_.update_gradient(energy_);
-    if (round == greatest_friction_rounds || !correct_friction()) break;
+    if (!report.converged || round == greatest_friction_rounds || !correct_friction()) break;
   }
   positions_.rows() = minimiser_.point().positions.rows();
   keep_momentum();

@@ -1,9 +1,10 @@
-// The explicit integrators of one soft body over one step. (The others: implicit_step.h.)
+// One step of one soft body by the explicit integrators. (By the implicit ones: implicit_step.h.)
 #pragma once
 
 #include <memory>
 
 #include "sim/soft/acceleration.h"
+#include "sim/soft/explicit_step.h"
 #include "sim/soft/implicit_step.h"
 #include "sim/soft/soft_state.h"
 
@@ -15,7 +16,7 @@ struct IntegratorScratch {
   IntegratorScratch(const SoftMesh& mesh, Integrator integrator);
 
   AccelerationScratch acceleration;
-  VertexArray stage_acceleration, sum_a, sum_v;
+  ExplicitScratch explicit_step;
   std::unique_ptr<ImplicitScratch> implicit;  // of implicit integrators
 };
 
