@@ -1,35 +1,18 @@
 #include "sim/soft/acceleration.h"
 
+#include <algorithm>
+
 #include "sim/soft/damping.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
 
 namespace pneuma::sim {
-namespace {
-
-/// acceleration_v += inverse_mass * sum over the ring of coefficient (neighbour - v). Each edge's
-/// coefficient is used once from either end, so that internal forces cancel to the last bit but
-/// sums.
-void add_edge_forces(const MeshTopology& topology, const VertexArray& positions,
-                     const std::vector<double>& coefficients, double inverse_mass,
-                     VertexArray& acceleration) {
-  for (int v = 0; v < topology.vertex_count(); ++v) {
-    const Eigen::Vector4d centre = positions.rows().col(v);
-    Eigen::Vector4d force = Eigen::Vector4d::Zero();
-    for (const auto& spoke : topology.ring(v)) {
-      force += coefficients[at(spoke.edge)] * (positions.rows().col(spoke.vertex) - centre);
-    }
-    acceleration.rows().col(v) += inverse_mass * force;
-  }
-}
-
-}  // namespace
 
 SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& material,
                                    const Vec3& gravity, AccelerationScratch& scratch)
     : mesh_(mesh),
       scratch_(scratch),
-      gravity_(gravity.x(), gravity.y(), gravity.z(), 0.0),
+      gravity_{gravity.x(), gravity.y(), gravity.z(), 0.0},
       inverse_mass_(1.0 / material.vertex_mass),
       k_(material.k),
       dashpot_(dashpot_constant(material)),
@@ -37,33 +20,39 @@ SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& mat
       gas_(gas_strength(material)),
       valence_(material.pressure == PressureWeighting::valence) {}
 
-double SoftAcceleration::operator()(const VertexArray& positions, const VertexArray& velocities,
-                                    VertexArray& acceleration) const {
-  auto& a = acceleration.rows();
-  a.noalias() = (-drag_) * velocities.rows();
-  a.colwise() += gravity_;
-
+Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
+                                         const VertexArray& velocities) const {
+  std::vector<double>& coefficients = scratch_.coefficients;
+  RingForces& forces = scratch_.forces;
   if (k_ > 0.0) {
-    spring_coefficients(mesh_, positions, k_, scratch_.coefficients);
-    if (dashpot_ > 0.0) {
-      add_dashpot_coefficients(mesh_, positions, velocities, dashpot_, scratch_.coefficients);
-    }
-    add_edge_forces(mesh_.topology, positions, scratch_.coefficients, inverse_mass_, acceleration);
+    spring_coefficients(mesh_, positions, velocities, k_, dashpot_, coefficients);
+  } else {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
   }
-
-  if (gas_ == 0.0) return 1.0;
-  volume_gradient(mesh_.topology, positions, scratch_.gradient);
-  const double body_volume = volume(positions, scratch_.gradient);
-  const double pressure_over_mass = gas_ / body_volume * inverse_mass_;
+  const double volume = gather_rings(mesh_.tables, positions, coefficients, forces);
   if (valence_) {
     for (int v = 0; v < positions.size(); ++v) {
-      a.col(v) +=
-          mesh_.valence_weights[at(v)] * pressure_over_mass * scratch_.gradient.rows().col(v);
+      forces.rows()[RingForces::six_volume_gradients(v)] *= mesh_.valence_weights[at(v)];
     }
-  } else {
-    a.noalias() += pressure_over_mass * scratch_.gradient.rows();
   }
-  return body_volume;
+
+  Accelerations result(forces, velocities);
+  result.gravity_ = gravity_;
+  result.drag_ = drag_;
+  result.inverse_mass_ = inverse_mass_;
+  if (gas_ > 0.0) {
+    result.volume_ = volume;
+    result.sixth_pressure_over_mass_ = gas_ / volume * inverse_mass_ / 6.0;
+  }
+  return result;
+}
+
+double SoftAcceleration::operator()(const VertexArray& positions, const VertexArray& velocities,
+                                    VertexArray& acceleration) const {
+  const Accelerations a = evaluate(positions, velocities);
+  const RowWriter out(acceleration);
+  for (int v = 0; v < positions.size(); ++v) out.put(v, a[v]);
+  return a.volume();
 }
 
 }  // namespace pneuma::sim

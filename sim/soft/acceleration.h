@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "sim/mesh/row.h"
+#include "sim/soft/ring_forces.h"
 #include "sim/soft/soft_mesh.h"
 #include "sim/world.h"
 
@@ -15,10 +17,40 @@ namespace pneuma::sim {
 struct AccelerationScratch {
   explicit AccelerationScratch(const SoftMesh& mesh)
       : coefficients(static_cast<std::size_t>(mesh.topology.edge_count())),
-        gradient(mesh.topology.vertex_count()) {}
+        forces(mesh.topology.vertex_count()) {}
 
   std::vector<double> coefficients;
-  VertexArray gradient;
+  RingForces forces;
+};
+
+/// The accelerations at one state, put together vertex by vertex, so that an integrator takes each
+/// straight into its own sums. Valid until the scratch is used again or a velocity changes; the
+/// velocity of a vertex may change once its acceleration has been read.
+class Accelerations {
+ public:
+  /// dv/dt in m/s^2.
+  Row operator[](int vertex) const {
+    return gravity_ - drag_ * velocities_[vertex] +
+           inverse_mass_ * forces_[RingForces::springs(vertex)] +
+           sixth_pressure_over_mass_ * forces_[RingForces::six_volume_gradients(vertex)];
+  }
+
+  /// m^3 when the body has gas, else 1. Not above zero, or not a number: the body turned inside out
+  /// and the accelerations mean nothing.
+  double volume() const { return volume_; }
+
+ private:
+  friend class SoftAcceleration;
+  Accelerations(const RingForces& forces, const VertexArray& velocities)
+      : forces_(forces.rows()), velocities_(velocities) {}
+
+  RowReader forces_;
+  RowReader velocities_;
+  Row gravity_{};
+  double drag_ = 0.0;
+  double inverse_mass_ = 0.0;
+  double sixth_pressure_over_mass_ = 0.0;
+  double volume_ = 1.0;
 };
 
 class SoftAcceleration {
@@ -26,6 +58,9 @@ class SoftAcceleration {
   /// Refers to the mesh and the scratch, which must outlive it.
   SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& material, const Vec3& gravity,
                    AccelerationScratch& scratch);
+
+  /// The scratch holds what the result reads.
+  Accelerations evaluate(const VertexArray& positions, const VertexArray& velocities) const;
 
   /// Writes dv/dt in m/s^2. Returns the volume in m^3 when the body has gas, else 1: a result that
   /// is not above zero (or not a number) says that the body turned inside out and the force means
@@ -36,7 +71,7 @@ class SoftAcceleration {
  private:
   const SoftMesh& mesh_;
   AccelerationScratch& scratch_;
-  Eigen::Vector4d gravity_;
+  Row gravity_;
   double inverse_mass_;
   double k_;
   double dashpot_;

@@ -30,17 +30,4 @@ double literal_share(const SoftMaterial& material) {
   return material.rho_g + (1.0 - material.rho_g) * spring_share(material);
 }
 
-void add_dashpot_coefficients(const SoftMesh& mesh, const VertexArray& positions,
-                              const VertexArray& velocities, double dashpot,
-                              std::span<double> coefficients) {
-  const auto& edges = mesh.topology.edges();
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto& [a, b] = edges[e];
-    const Vec3 edge = positions[b] - positions[a];
-    const double squared_length = edge.squaredNorm();
-    const double s = dashpot * (velocities[b] - velocities[a]).dot(edge) / squared_length;
-    coefficients[e] += squared_length > 0.0 ? s : 0.0;
-  }
-}
-
 }  // namespace pneuma::sim

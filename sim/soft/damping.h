@@ -9,9 +9,6 @@
 // the step, and the springs' part conserves momentum, so it does not hold a falling body back.
 #pragma once
 
-#include <span>
-
-#include "sim/soft/soft_mesh.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
@@ -28,11 +25,5 @@ double dashpot_constant(const SoftMaterial& material);
 
 /// The paper's rho, at most 1. Zero under `dashpot`.
 double literal_share(const SoftMaterial& material);
-
-/// Adds to each edge's coefficient c (v_rel . e) / |e|^2, so that spring and dashpot act together
-/// as coefficient times e; e is the edge vector. An edge of no length has no direction and adds 0.
-void add_dashpot_coefficients(const SoftMesh& mesh, const VertexArray& positions,
-                              const VertexArray& velocities, double dashpot,
-                              std::span<double> coefficients);
 
 }  // namespace pneuma::sim

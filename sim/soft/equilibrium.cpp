@@ -9,6 +9,7 @@
 
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
+#include "sim/soft/spring_force.h"
 
 namespace pneuma::sim {
 namespace {
@@ -152,7 +153,7 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
   Equilibrium result{{}, tensions.residual};
   for (int e = 0; e < topology.edge_count(); ++e) {
     const auto& [a, b] = topology.edges()[at(e)];
-    const double length = (positions[b] - positions[a]).norm();
+    const double length = edge_length(positions[b] - positions[a]);
     const double tension = tensions.values[e];
     result.rest_lengths.push_back(
         tension == 0.0 ? length : rest_length(topology, e, length, tension, material.k));

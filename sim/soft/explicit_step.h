@@ -3,22 +3,25 @@
 //
 // `acceleration(positions, velocities, result)` writes dv/dt and returns the volume at which it was
 // evaluated (SoftAcceleration). Each step returns the least of these, not a number if one is not.
+// An acceleration may also have `evaluate(positions, velocities)`, which gives one vertex's dv/dt
+// at a time (Accelerations): then nothing is stored in between.
 #pragma once
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "sim/mesh/row.h"
 #include "sim/soft/soft_state.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
 
-/// Memory for a step of `count` vertices.
+/// Memory for a step of `count` vertices, of accelerations in m/s^2.
 struct ExplicitScratch {
-  explicit ExplicitScratch(int count) : stage_acceleration(count), sum_a(count), sum_v(count) {}
+  explicit ExplicitScratch(int count) : stage(count), first(count), sum(count) {}
 
-  VertexArray stage_acceleration, sum_a, sum_v;
+  VertexArray stage, first, sum;
 };
 
 /// The least volume met so far; a NaN, once met, stays.
@@ -33,83 +36,122 @@ class LeastVolume {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
+/// Evaluates the acceleration and calls take(vertex, dv/dt) for every vertex in turn, in which the
+/// velocity of that vertex, but no other, may be changed. Returns the volume.
+template <class Acceleration, class Take>
+double for_each_acceleration(const Acceleration& acceleration, const VertexArray& positions,
+                             const VertexArray& velocities, ExplicitScratch& scratch,
+                             const Take& take) {
+  const int count = positions.size();
+  if constexpr (requires { acceleration.evaluate(positions, velocities); }) {
+    const auto a = acceleration.evaluate(positions, velocities);
+    for (int i = 0; i < count; ++i) take(i, a[i]);
+    return a.volume();
+  } else {
+    const double volume = acceleration(positions, velocities, scratch.stage);
+    const RowReader a(scratch.stage);
+    for (int i = 0; i < count; ++i) take(i, a[i]);
+    return volume;
+  }
+}
+
 /// Section 3.2 as written (ERRATA row 7): the stages of RK4 for the velocity, each position
 /// advanced from the start with the stage's new velocity. First order, because the position moves
 /// with the velocity of the step's end.
 template <class Acceleration>
-double martin(const Acceleration& acceleration, double h, const SoftState& start, VertexArray& x,
-              VertexArray& v, ExplicitScratch& s) {
+double martin(const Acceleration& acceleration, double h, const SoftState& start,
+              VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
   LeastVolume least;
-  const auto& x0 = start.positions.rows();
-  const auto& v0 = start.velocities.rows();
-  const auto& a = s.stage_acceleration.rows();
-  auto& sum = s.sum_a.rows();
+  const RowReader x0(start.positions), v0(start.velocities), sum(s.sum);
+  const RowWriter x(positions), v(velocities), new_sum(s.sum);
+  /// Sums so far and the velocity to come: a0, then a1, a2 twice each.
+  const auto stage = [=](double share, double weight) {
+    return [=](int i, Row a) {
+      const Row v_i = v0[i] + share * h * a;
+      v.put(i, v_i);
+      x.put(i, x0[i] + share * h * v_i);
+      new_sum.put(i, sum[i] + weight * a);
+    };
+  };
+  const auto end = [=](int i, Row a) {
+    const Row v_i = v0[i] + h / 6.0 * (sum[i] + a);
+    v.put(i, v_i);
+    x.put(i, x0[i] + h * v_i);
+  };
 
-  least.meet(acceleration(start.positions, start.velocities, s.stage_acceleration));  // a0
-  sum = a;
-  for (const double share : {0.5, 0.5, 1.0}) {  // a1, a2, a3
-    v.rows().noalias() = v0 + (share * h) * a;
-    x.rows().noalias() = x0 + (share * h) * v.rows();
-    least.meet(acceleration(x, v, s.stage_acceleration));
-    sum += (share < 1.0 ? 2.0 : 1.0) * a;
-  }
-  v.rows().noalias() = v0 + (h / 6.0) * sum;
-  x.rows().noalias() = x0 + h * v.rows();
+  s.sum.rows().setZero();
+  least.meet(for_each_acceleration(acceleration, start.positions, start.velocities, s,
+                                   stage(0.5, 1.0)));                                          // a0
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, stage(0.5, 2.0)));  // a1
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, stage(1.0, 2.0)));  // a2
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, end));              // a3
   return least.value();
 }
 
 template <class Acceleration>
 double symplectic_euler(const Acceleration& acceleration, double h, const SoftState& start,
-                        VertexArray& x, VertexArray& v, ExplicitScratch& s) {
-  const double volume = acceleration(start.positions, start.velocities, s.stage_acceleration);
-  v.rows().noalias() = start.velocities.rows() + h * s.stage_acceleration.rows();
-  x.rows().noalias() = start.positions.rows() + h * v.rows();
-  return volume;
+                        VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
+  const RowReader x0(start.positions), v0(start.velocities);
+  const RowWriter x(positions), v(velocities);
+  return for_each_acceleration(acceleration, start.positions, start.velocities, s,
+                               [=](int i, Row a) {
+                                 const Row v_i = v0[i] + h * a;
+                                 v.put(i, v_i);
+                                 x.put(i, x0[i] + h * v_i);
+                               });
 }
 
 /// Kick, drift, kick. Damping makes the force depend on the velocity at the end of the step, which
-/// is predicted with the first force: an error of order h^2 in it leaves the method second order.
+/// is predicted with the first force, p = v0 + h a0: an error of order h^2 in it leaves the method
+/// second order. The end, v0 + h/2 (a0 + a1), is (v0 + p + h a1) / 2.
 template <class Acceleration>
 double velocity_verlet(const Acceleration& acceleration, double h, const SoftState& start,
-                       VertexArray& x, VertexArray& v, ExplicitScratch& s) {
+                       VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
   LeastVolume least;
-  const auto& v0 = start.velocities.rows();
-  const auto& a0 = s.sum_a.rows();
-  const auto& a1 = s.stage_acceleration.rows();
-
-  least.meet(acceleration(start.positions, start.velocities, s.sum_a));
-  x.rows().noalias() = start.positions.rows() + h * v0 + (0.5 * h * h) * a0;
-  v.rows().noalias() = v0 + h * a0;
-  least.meet(acceleration(x, v, s.stage_acceleration));
-  v.rows().noalias() = v0 + (0.5 * h) * (a0 + a1);
+  const RowReader x0(start.positions), v0(start.velocities), predicted(velocities);
+  const RowWriter x(positions), v(velocities);
+  least.meet(
+      for_each_acceleration(acceleration, start.positions, start.velocities, s, [=](int i, Row a) {
+        x.put(i, x0[i] + h * (v0[i] + 0.5 * h * a));
+        v.put(i, v0[i] + h * a);
+      }));
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
+    v.put(i, 0.5 * (v0[i] + predicted[i] + h * a));
+  }));
   return least.value();
 }
 
-/// The classical fourth-order Runge-Kutta method on (x, v).
+/// The classical fourth-order Runge-Kutta method on (x, v). Its velocities are v1 = v0 + h/2 a0, v2
+/// = v0 + h/2 a1 and v3 = v0 + h a2, so that v0 + 2 v1 + 2 v2 + v3 = 6 v0 + h (a0 + a1 + a2): with
+/// a0 and this sum, all sums are known.
 template <class Acceleration>
-double rk4(const Acceleration& acceleration, double h, const SoftState& start, VertexArray& x,
-           VertexArray& v, ExplicitScratch& s) {
+double rk4(const Acceleration& acceleration, double h, const SoftState& start,
+           VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
   LeastVolume least;
-  const auto& x0 = start.positions.rows();
-  const auto& v0 = start.velocities.rows();
-  const auto& a = s.stage_acceleration.rows();
-  auto& sum_a = s.sum_a.rows();
-  auto& sum_v = s.sum_v.rows();
+  const RowReader x0(start.positions), v0(start.velocities), last_v(velocities);
+  const RowReader a0(s.first), sum(s.sum);
+  const RowWriter x(positions), v(velocities), new_a0(s.first), new_sum(s.sum);
 
-  least.meet(acceleration(start.positions, start.velocities, s.stage_acceleration));
-  v.rows() = v0;
-  sum_v = v0;
-  sum_a = a;
-  for (const double share : {0.5, 0.5, 1.0}) {
-    const double weight = share < 1.0 ? 2.0 : 1.0;
-    x.rows().noalias() = x0 + (share * h) * v.rows();  // v is still the last stage's
-    v.rows().noalias() = v0 + (share * h) * a;
-    least.meet(acceleration(x, v, s.stage_acceleration));
-    sum_v += weight * v.rows();
-    sum_a += weight * a;
-  }
-  x.rows().noalias() = x0 + (h / 6.0) * sum_v;
-  v.rows().noalias() = v0 + (h / 6.0) * sum_a;
+  least.meet(
+      for_each_acceleration(acceleration, start.positions, start.velocities, s, [=](int i, Row a) {
+        x.put(i, x0[i] + 0.5 * h * v0[i]);
+        v.put(i, v0[i] + 0.5 * h * a);
+        new_a0.put(i, a);
+      }));
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
+    x.put(i, x0[i] + 0.5 * h * last_v[i]);
+    v.put(i, v0[i] + 0.5 * h * a);
+    new_sum.put(i, a0[i] + a);
+  }));
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
+    x.put(i, x0[i] + h * last_v[i]);
+    v.put(i, v0[i] + h * a);
+    new_sum.put(i, sum[i] + a);
+  }));
+  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
+    x.put(i, x0[i] + h * (v0[i] + h / 6.0 * sum[i]));
+    v.put(i, v0[i] + h / 6.0 * (2.0 * sum[i] - a0[i] + a));
+  }));
   return least.value();
 }
 

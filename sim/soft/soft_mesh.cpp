@@ -4,21 +4,19 @@
 #include <stdexcept>
 
 #include "sim/mesh/measure.h"
+#include "sim/soft/spring_force.h"
 
 namespace pneuma::sim {
 
 std::shared_ptr<const SoftMesh> make_soft_mesh(const TriangleMesh& mesh) {
-  SoftMesh result{MeshTopology(static_cast<int>(mesh.vertices.size()), mesh.triangles),
-                  to_vertex_array(mesh.vertices),
-                  {},
-                  {}};
-  const MeshTopology& topology = result.topology;
+  const MeshTopology topology(static_cast<int>(mesh.vertices.size()), mesh.triangles);
+  SoftMesh result{topology, ForceTables(topology), to_vertex_array(mesh.vertices), {}, {}};
   for (const auto& [a, b] : topology.edges()) {
-    const double length = (result.rest_positions[b] - result.rest_positions[a]).norm();
-    if (!(length > 0.0)) {
+    const Vec3 edge = result.rest_positions[b] - result.rest_positions[a];
+    if (!(edge.norm() > 0.0)) {
       throw TopologyError("edge " + std::to_string(a) + "-" + std::to_string(b) + " has no length");
     }
-    result.rest_lengths.push_back(length);
+    result.rest_lengths.push_back(edge_length(edge));
   }
   const double mean_springs = 2.0 * topology.edge_count() / topology.vertex_count();
   for (int v = 0; v < topology.vertex_count(); ++v) {

@@ -7,12 +7,14 @@
 #include "sim/mesh/topology.h"
 #include "sim/mesh/triangle_mesh.h"
 #include "sim/mesh/vertex_array.h"
+#include "sim/soft/force_tables.h"
 
 namespace pneuma::sim {
 
 /// Immutable. Every unique edge of the mesh is a spring at its rest length (paper 3.1.1).
 struct SoftMesh {
   MeshTopology topology;
+  ForceTables tables;                   // of the topology
   VertexArray rest_positions;           // m, about the mesh's own origin
   std::vector<double> rest_lengths;     // m, per edge
   std::vector<double> valence_weights;  // springs of a vertex / mean springs (paper 3.1.2)

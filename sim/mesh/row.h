@@ -1,0 +1,78 @@
+// Four doubles that are added and multiplied at once: a vertex, x y z 0, in a register.
+//
+// GCC's and Clang's vector types, in which + - * / and products with a double act on every lane:
+// one AVX register where there is AVX, several smaller ones elsewhere. For the loops over springs
+// and rings; Eigen 3.4 cannot permute the lanes of four doubles, which cross products and turning
+// rows into columns need.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstring>
+
+#include "sim/mesh/vertex_array.h"
+
+// Without AVX, GCC remarks that code compiled with it would pass a Row in another way. Here nothing
+// does: all functions that take one are inline.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace pneuma::sim {
+
+typedef double Row __attribute__((vector_size(32)));
+
+inline Row load_row(const double* from) {
+  Row row;
+  std::memcpy(&row, from, sizeof row);
+  return row;
+}
+
+inline void store_row(Row row, double* to) { std::memcpy(to, &row, sizeof row); }
+
+/// The vertices of an array, read in a loop: a pointer and no more, which stays in a register.
+class RowReader {
+ public:
+  explicit RowReader(const VertexArray& values) : first_(values.rows().data()) {}
+  Row operator[](int i) const { return load_row(first_ + 4 * static_cast<std::ptrdiff_t>(i)); }
+
+ private:
+  const double* first_;
+};
+
+/// The same to be written.
+class RowWriter {
+ public:
+  explicit RowWriter(VertexArray& values) : first_(values.rows().data()) {}
+  void put(int i, Row row) const { store_row(row, first_ + 4 * static_cast<std::ptrdiff_t>(i)); }
+
+ private:
+  double* first_;
+};
+
+/// x y z 0 as y z x 0.
+inline Row turned(Row row) { return __builtin_shufflevector(row, row, 1, 2, 0, 3); }
+
+inline Row square_root(Row row) {
+  Eigen::Array4d lanes;
+  store_row(row, lanes.data());
+  lanes = lanes.sqrt();
+  return load_row(lanes.data());
+}
+
+inline double sum_of_lanes(Row row) { return row[0] + row[1] + row[2] + row[3]; }
+
+/// The coordinates of four vertices.
+struct Columns {
+  Row x, y, z;
+};
+
+inline Columns columns(Row a, Row b, Row c, Row d) {
+  const Row xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Row xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Row yw_ab = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Row yw_cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return {__builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(yw_ab, yw_cd, 0, 1, 4, 5),
+          __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7)};
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,33 @@
+// A mesh as the loops over its springs and rings read it. What they wait for is loads: a vertex is
+// therefore given by where its row begins (four times its index), and what they need of it stands
+// together.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/mesh/topology.h"
+
+namespace pneuma::sim {
+
+/// Of a vertex: where its row begins, in doubles.
+using RowStart = std::uint32_t;
+
+struct ForceTables {
+  explicit ForceTables(const MeshTopology& topology);
+
+  struct Ends {
+    RowStart from, to;
+  };
+  /// One step around a vertex: the neighbour, and the edge that leads to it.
+  struct Spoke {
+    RowStart neighbour;
+    std::uint32_t edge;
+  };
+
+  std::vector<Ends> edges;     // in the order of MeshTopology::edges
+  std::vector<Spoke> spokes;   // ring after ring, each in the order of MeshTopology::ring
+  std::vector<int> rings_end;  // per vertex, into spokes
+};
+
+}  // namespace pneuma::sim
