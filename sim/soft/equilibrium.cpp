@@ -2,14 +2,13 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
+#include "sim/text.h"
 
 namespace pneuma::sim {
 namespace {
@@ -25,12 +24,6 @@ constexpr double least_softening = 1e-9;
 
 /// Net force and torque up to which they are rounding, as a share of the sum of all forces.
 constexpr double rounding = 1e-9;
-
-std::string text(double value) {
-  std::array<char, 32> buffer;
-  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
-  return buffer.data();
-}
 
 /// The pressure force on every vertex in N, as one column x0 y0 z0 x1 ...
 Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& positions,
