@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
+#include "sim/step/find_divergence.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
@@ -196,30 +196,6 @@ void separate(World& world, const StepWorkspace& workspace) {
   }
 }
 
-/// The last look at a step: what its contacts made is finite, and what holds gas has a volume.
-std::optional<Divergence> find_not_finite(const World& world) {
-  const auto divergence = [&](const std::string& body) {
-    return Divergence{Stage::resolve_contacts, world.steps + 1, body,
-                      "its contacts gave it a position or velocity that is not a finite number"};
-  };
-  for (const SoftBody& body : world.soft) {
-    // A sum is finite only if all its terms are, and far quicker to look at.
-    const double sum = body.positions.rows().sum() + body.velocities.rows().sum();
-    if (!std::isfinite(sum)) return divergence(body.name);
-    if (gas_strength(body.material) > 0.0 && !(volume(body.mesh->topology, body.positions) > 0.0)) {
-      return Divergence{
-          Stage::resolve_contacts, world.steps + 1, body.name,
-          "its contacts pressed its volume to nothing: it came too fast for this step"};
-    }
-  }
-  for (const RigidBox& box : world.rigid) {
-    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
-                       box.orientation.coeffs().sum();
-    if (!std::isfinite(sum)) return divergence(box.name);
-  }
-  return std::nullopt;
-}
-
 void remember(World& world, const StepWorkspace& workspace) {
   world.resting_impulses.clear();
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
@@ -246,7 +222,7 @@ std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspac
   start_from_last_step(world, workspace);
   apply_impulses(world.settings, workspace);
   separate(world, workspace);
-  if (auto divergence = find_not_finite(world)) return divergence;
+  if (auto divergence = find_divergence(world)) return divergence;
   remember(world, workspace);
   return std::nullopt;
 }

@@ -17,13 +17,15 @@ namespace pneuma::sim {
 /// Seconds spent in each stage since the stepper was made.
 using StageTimes = std::array<double, stage_count>;
 
-/// A step that did not end in a sound state: a value that is not finite, or a volume at or below
-/// zero. Found in the step in which it happens.
+/// A step that did not end in a sound state: something is not finite, a volume is not above zero, a
+/// vertex is faster than anything, or energy came from nowhere (find_divergence.h). Found in the
+/// step in which it happens.
 struct Divergence {
   Stage stage;
   std::int64_t step;  // the step that failed, counted from 1
   std::string body;
-  std::string what;  // the quantity and its value, and the likely cause
+  std::string what;  // happened, with its values
+  int vertex = -1;   // of a soft body: in which it shows, or its fastest; -1: none
 };
 
 struct StepperOptions {

@@ -117,7 +117,6 @@ TEST(Step, DivergenceIsReportedInTheStepInWhichItHappens) {
   EXPECT_EQ(divergence->stage, Stage::integrate_soft);
   EXPECT_EQ(divergence->step, before.steps + 1);
   EXPECT_GT(volume(before.soft[0].mesh->topology, before.soft[0].positions), 0.0);
-  EXPECT_NE(divergence->what.find("too long"), std::string::npos);
   EXPECT_EQ(state_hash(world), state_hash(before)) << "the last sound state";
 }
 

@@ -1,0 +1,182 @@
+#include "sim/step/find_divergence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/mesh/measure.h"
+#include "sim/soft/pressure_force.h"
+#include "sim/soft/spring_force.h"
+#include "sim/text.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of the energy of springs at twice their length, and of nRT: what is gained below is rounding.
+constexpr double energy_rounding = 1e-9;
+
+/// What says so in a report.
+constexpr const char* flat_or_inside_out = "so that it is flat or inside out";
+constexpr const char* pressed_flat = "its contacts pressed it flat";
+
+Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
+                   const std::string& what) {
+  return {stage, world.steps + 1, body.name, what, vertex};
+}
+
+int fastest_vertex(const SoftBody& body) {
+  Eigen::Index vertex = 0;
+  body.velocities.rows().colwise().squaredNorm().maxCoeff(&vertex);
+  return static_cast<int>(vertex);
+}
+
+std::string fastest_text(const SoftBody& body, int vertex) {
+  return "; vertex " + std::to_string(vertex) + " is its fastest, at " +
+         text(Vec3(body.velocities[vertex]).norm()) + " m/s";
+}
+
+std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body) {
+  // A sum is finite only if all its terms are, and far quicker to look at; likewise the squares.
+  const double squares = body.velocities.rows().squaredNorm();
+  if (std::isfinite(body.positions.rows().sum()) && squares <= greatest_speed * greatest_speed) {
+    return std::nullopt;
+  }
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const std::string name = "vertex " + std::to_string(v);
+    if (!Vec3(body.positions[v]).allFinite() || !Vec3(body.velocities[v]).allFinite()) {
+      return failure(world, stage, body, v,
+                     name + " has a position or velocity that is not a finite number");
+    }
+    const double speed = Vec3(body.velocities[v]).norm();
+    if (speed > greatest_speed) {
+      return failure(
+          world, stage, body, v,
+          name + " moves at " + text(speed) + " m/s, faster than " + text(greatest_speed) + " m/s");
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Divergence> find_lost_volume(const World& world, Stage stage, const SoftBody& body,
+                                           const SoftState& start, double least_volume) {
+  if (gas_strength(body.material) == 0.0) return std::nullopt;
+  const MeshTopology& topology = body.mesh->topology;
+  const double end = volume(topology, body.positions);
+  const double least = least_volume < end || std::isnan(least_volume) ? least_volume : end;
+  const int vertex = fastest_vertex(body);
+  const auto report = [&](const std::string& what) {
+    return failure(world, stage, body, vertex,
+                   "its volume " + what + text(volume(topology, start.positions)) +
+                       " m^3 before the step" + fastest_text(body, vertex));
+  };
+  if (!(least > 0.0)) {
+    return report("is " + text(least) + " m^3, " + flat_or_inside_out + ", after ");
+  }
+  if (end > greatest_growth * least_volume) {
+    return report("grew to " + text(end) + " m^3 by a force that it had at " + text(least_volume) +
+                  " m^3, after ");
+  }
+  return std::nullopt;
+}
+
+/// J, what gas and gravity have added to motion and springs.
+double work(const World& world, const SoftBody& body, const SoftState& start) {
+  const MeshTopology& topology = body.mesh->topology;
+  const Vec3 way = mean(body.positions) - mean(start.positions);
+  const double by_gravity =
+      body.material.vertex_mass * body.positions.size() * world.settings.gravity.dot(way);
+  const double by_gas = gas_energy(body.material, volume(topology, start.positions)) -
+                        gas_energy(body.material, volume(topology, body.positions));
+  return std::max(0.0, by_gravity) + std::max(0.0, by_gas);
+}
+
+double least_energy(const SoftBody& body) {
+  double squares = 0.0;
+  for (const double length : body.mesh->rest_lengths) squares += length * length;
+  return energy_rounding * (0.5 * body.material.k * squares + gas_strength(body.material));
+}
+
+std::optional<Divergence> find_gained_energy(const World& world, const SoftBody& body,
+                                             const SoftState& start) {
+  const SoftMaterial& material = body.material;
+  const auto kinetic = [&](const VertexArray& velocities) {
+    return 0.5 * material.vertex_mass * velocities.rows().squaredNorm();
+  };
+  const double after =
+      kinetic(body.velocities) + spring_energy(*body.mesh, body.positions, material.k);
+  const double moving = kinetic(start.velocities);
+  if (after <= greatest_gain * moving) return std::nullopt;
+  const double before = moving + spring_energy(*body.mesh, start.positions, material.k);
+  if (after <= greatest_gain * before) return std::nullopt;
+  const double added = work(world, body, start);
+  if (after <= greatest_gain * (before + added) + least_energy(body)) return std::nullopt;
+  const int vertex = fastest_vertex(body);
+  return failure(world, Stage::integrate_soft, body, vertex,
+                 "its energy of motion and springs jumped from " + text(before) + " to " +
+                     text(after) + " J, to which gas and gravity added " + text(added) + " J" +
+                     fastest_text(body, vertex));
+}
+
+/// No body can have strained its springs much without having moved much.
+///
+/// With E the energy of motion K and springs S, E1 > 100 E0 takes K1 > 50 K0, or S1 > 50 S0 and
+/// S1 > 50 K0. In the latter case sqrt S1 - sqrt S0 > 0.85 sqrt S1, while lengths change by no more
+/// than their ends move: (sqrt S1 - sqrt S0)^2 <= k/2 sum (|dx_a| + |dx_b|)^2 <= k sum d |dx|^2,
+/// where d is the number of springs of a vertex.
+bool may_have_gained_energy(const SoftBody& body, const SoftState& start) {
+  const double kinetic_before = start.velocities.rows().squaredNorm();
+  if (body.velocities.rows().squaredNorm() > 0.5 * greatest_gain * kinetic_before) return true;
+  const SoftMesh& mesh = *body.mesh;
+  const double mean_springs = 2.0 * mesh.topology.edge_count() / mesh.topology.vertex_count();
+  const Eigen::Map<const Eigen::RowVectorXd> share(mesh.valence_weights.data(),
+                                                   body.positions.size());
+  const double moved = (body.positions.rows() - start.positions.rows())
+                           .colwise()
+                           .squaredNorm()
+                           .cwiseProduct(share)
+                           .sum();
+  const double strained = body.material.k * mean_springs * moved;
+  return strained > 0.36 * greatest_gain * 0.5 * body.material.vertex_mass * kinetic_before;
+}
+
+}  // namespace
+
+std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
+                                          const SoftState& start, double least_volume) {
+  constexpr Stage stage = Stage::integrate_soft;
+  if (auto wild = find_wild_vertex(world, stage, body)) return wild;
+  if (auto lost = find_lost_volume(world, stage, body, start, least_volume)) return lost;
+  // Of the implicit integrators no energy is asked: they look at it themselves.
+  if (is_implicit(world.settings.integrator) || !may_have_gained_energy(body, start)) {
+    return std::nullopt;
+  }
+  return find_gained_energy(world, body, start);
+}
+
+std::optional<Divergence> find_divergence(const World& world) {
+  constexpr Stage stage = Stage::resolve_contacts;
+  for (const SoftBody& body : world.soft) {
+    if (auto wild = find_wild_vertex(world, stage, body)) return wild;
+    if (gas_strength(body.material) > 0.0 && !(volume(body.mesh->topology, body.positions) > 0.0)) {
+      const int vertex = fastest_vertex(body);
+      return failure(world, stage, body, vertex,
+                     std::string(pressed_flat) + ", to a volume of " +
+                         text(volume(body.mesh->topology, body.positions)) + " m^3" +
+                         fastest_text(body, vertex));
+    }
+  }
+  for (const RigidBox& box : world.rigid) {
+    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
+                       box.orientation.coeffs().sum();
+    if (std::isfinite(sum)) continue;
+    return Divergence{stage, world.steps + 1, box.name,
+                      "its contacts gave it a position or velocity that is not a finite number"};
+  }
+  return std::nullopt;
+}
+
+bool is_inversion(const Divergence& divergence) {
+  return divergence.what.find(flat_or_inside_out) != std::string::npos ||
+         divergence.what.find(pressed_flat) != std::string::npos;
+}
+
+}  // namespace pneuma::sim

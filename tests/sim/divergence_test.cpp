@@ -1,0 +1,158 @@
+// What find_divergence finds, and what it lets pass.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/inspect/inspect.h"
+#include "sim/soft/spring_force.h"
+#include "sim/soft/stability_limit.h"
+#include "sim/step/find_divergence.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+World one_sphere(double height = 4.0) {
+  World world;
+  world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, height}));
+  world.soft[0].name = "ball";
+  return world;
+}
+
+/// The divergence of the first step that has one, within a second. The world must be as before it.
+std::optional<Divergence> first_divergence(World& world) {
+  Stepper stepper(world);
+  for (int i = 0; i < world.settings.steps_per_second; ++i) {
+    const World before = world;
+    const auto divergence = stepper.step(world);
+    if (!divergence) continue;
+    EXPECT_EQ(state_hash(world), state_hash(before)) << "the last sound state";
+    EXPECT_EQ(divergence->step, before.steps + 1);
+    return divergence;
+  }
+  return std::nullopt;
+}
+
+void expect_words(const Divergence& divergence, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(divergence.what.find(word), std::string::npos) << word << " in: " << divergence.what;
+  }
+}
+
+TEST(Divergence, AValueThatIsNotFiniteIsNamedWithItsVertex) {
+  World world = one_sphere();
+  world.soft[0].velocities[17].y() = std::numeric_limits<double>::quiet_NaN();
+  Stepper stepper(world);
+  const auto divergence = stepper.step(world);
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->body, "ball");
+  EXPECT_GE(divergence->vertex, 0);  // the springs have carried it on
+  expect_words(*divergence, {"vertex", "not a finite number"});
+}
+
+TEST(Divergence, ASpeedBeyondTheBoundIsNamedWithItsVertex) {
+  World world = one_sphere(1e5);
+  world.soft[0].material.k = world.soft[0].material.n = 0.0;
+  world.soft[0].velocities[17] = Vec3(0.0, 1.5e8, 0.0);
+  const auto divergence = first_divergence(world);
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->vertex, 17);
+  EXPECT_EQ(divergence->stage, Stage::integrate_soft);
+  expect_words(*divergence, {"vertex 17", "e+08 m/s", "faster than 1e+08"});
+}
+
+TEST(Divergence, ALostVolumeIsNamedWithTheOneBefore) {
+  World world = one_sphere(1e5);
+  for (int v = 0; v < 29; ++v) world.soft[0].velocities[v].z() = -3000.0;  // through the others
+  const auto divergence = first_divergence(world);
+  ASSERT_TRUE(divergence);
+  expect_words(*divergence, {"its volume is -", "97.9 m^3 before the step", "fastest"});
+}
+
+TEST(Divergence, EnergyFromNowhereIsFoundInItsStep) {
+  // Without gas nothing else would tell, until the numbers overflow.
+  for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
+                                      Integrator::velocity_verlet, Integrator::rk4}) {
+    World world = one_sphere(1e5);
+    world.settings.integrator = integrator;
+    world.settings.gravity.setZero();
+    SoftMaterial& material = world.soft[0].material;
+    material.n = 0.0;
+    material.k = 1e5;
+    undamp(material);
+    perturb(world.soft[0], 1e-5, 1);
+    const auto divergence = first_divergence(world);
+    ASSERT_TRUE(divergence);
+    EXPECT_EQ(divergence->step, 1);
+    expect_words(*divergence, {"energy of motion and springs jumped from", "gravity added"});
+  }
+}
+
+TEST(Divergence, ABodyPressedFlatByTheGroundIsFoundInItsStep) {
+  World world = one_sphere(30.0);
+  for (int v = 0; v < 58; ++v) world.soft[0].velocities[v].z() = -2000.0;
+  const auto divergence = first_divergence(world);
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->stage, Stage::resolve_contacts);
+  expect_words(*divergence, {"pressed it flat", "fastest"});
+}
+
+TEST(Divergence, NothingIsFoundUpToTheLimitOfStability) {
+  // At 0.95 of it the energy of the fastest motion swings by a factor of 40 in symplectic_euler.
+  for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
+                                      Integrator::velocity_verlet, Integrator::rk4}) {
+    World world = one_sphere(1e5);
+    world.settings.integrator = integrator;
+    SoftBody& body = world.soft[0];
+    undamp(body.material);
+    body.material.n = 0.0;
+    const StabilityLimit limit =
+        stability_limit(integrator, *body.mesh, body.material, body.positions);
+    world.settings.steps_per_second = 1000;
+    body.material.k *= std::pow(0.95 * limit.step * 1000.0, 2);
+    perturb(body, 1e-6, 1);
+    EXPECT_FALSE(run(world, 5.0));
+  }
+}
+
+TEST(Divergence, NothingIsFoundInABodyAtRest) {
+  // Energies of 1e-30 J that rounding makes a thousand times as great.
+  World world = one_sphere();
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.soft[0].material.n = 0.0;
+  EXPECT_FALSE(run(world, 10.0));
+  world.soft[0].velocities[0].x() = 1e-12;
+  EXPECT_FALSE(run(world, 10.0));
+}
+
+TEST(Divergence, TheQuickLookMissesNoJumpOfEnergy) {
+  // Any two states, against the definition: more than a hundred times the energy.
+  World world = one_sphere();
+  world.settings.gravity.setZero();
+  SoftBody& body = world.soft[0];
+  body.material.n = 0.0;
+  const auto moving = [&](const VertexArray& positions, const VertexArray& velocities) {
+    return 0.5 * body.material.vertex_mass * velocities.rows().squaredNorm() +
+           spring_energy(*body.mesh, positions, body.material.k);
+  };
+  int jumps = 0;
+  for (unsigned seed = 0; seed < 2000; ++seed) {
+    SoftBody start = body, end = body;
+    perturb(start, std::pow(10.0, -1.5 + 0.001 * seed), seed);
+    start.velocities.rows() *= std::pow(10.0, -2.0 + (seed % 7) * 0.5);
+    end = start;
+    perturb(end, std::pow(10.0, -1.5 + 0.001 * (seed * 7 % 2000)), seed + 1);
+    end.velocities.rows() *= std::pow(10.0, -4.0 + (seed % 5));
+    const bool jump = moving(end.positions, end.velocities) >
+                      greatest_gain * moving(start.positions, start.velocities);
+    const auto found = find_divergence(world, end, {start.positions, start.velocities}, 1.0);
+    EXPECT_EQ(found.has_value(), jump) << seed;
+    jumps += jump;
+  }
+  EXPECT_GT(jumps, 200);
+  EXPECT_LT(jumps, 1800);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
