@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/response/keep_volume.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/stages.h"
@@ -196,6 +197,20 @@ void separate(World& world, const StepWorkspace& workspace) {
   }
 }
 
+/// What an implicit integrator promises, contacts keep: a body that holds gas has a volume.
+void separate_with_volume(World& world, StepWorkspace& workspace) {
+  workspace.before_contacts.resize(world.soft.size());
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    workspace.before_contacts[i] = world.soft[i].positions;
+  }
+  separate(world, workspace);
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    SoftBody& body = world.soft[i];
+    if (gas_strength(body.material) == 0.0) continue;
+    keep_volume(body.mesh->topology, workspace.before_contacts[i], body.positions);
+  }
+}
+
 void remember(World& world, const StepWorkspace& workspace) {
   world.resting_impulses.clear();
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
@@ -221,7 +236,11 @@ std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspac
   prepare(world, workspace);
   start_from_last_step(world, workspace);
   apply_impulses(world.settings, workspace);
-  separate(world, workspace);
+  if (is_implicit(world.settings.integrator)) {
+    separate_with_volume(world, workspace);
+  } else {
+    separate(world, workspace);
+  }
   if (auto divergence = find_divergence(world)) return divergence;
   remember(world, workspace);
   return std::nullopt;

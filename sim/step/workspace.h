@@ -54,6 +54,7 @@ struct StepWorkspace {
   ExactScratch exact;
   TriangleColumns columns;  // of the soft body that boxes are tested against
   std::vector<Contact> contacts;
+  std::vector<VertexArray> before_contacts;  // positions per soft body, of implicit integrators
   std::vector<BoxMass> box_masses;
   std::vector<double> pair_work;         // J, by the contacts of each pair of bodies
   std::vector<ContactImpulse> impulses;  // per contact
