@@ -59,6 +59,12 @@ ExitCode check(const CheckOptions& options) {
   const sim::World world = build_world(report.scene);
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
+  report.steps = step_advices(world);
+  for (const StepAdvice& advice : report.steps) {
+    if (advice.too_long()) {
+      fmt::print(stderr, "{}: warning: {}\n", report.scene.name, step_warning(advice));
+    }
+  }
   if (options.run) report.run = run_statistics(report.scene, options.threads);
 
   fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));

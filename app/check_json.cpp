@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/check_report.h"
@@ -63,6 +64,19 @@ json contacts_json(const ContactTally& contacts) {
   return result;
 }
 
+json steps_json(const std::vector<StepAdvice>& steps) {
+  json result = json::array();
+  for (const StepAdvice& advice : steps) {
+    // JSON has no infinity: null says that no step is too long.
+    const json limit = std::isinf(advice.limit) ? json(nullptr) : json(advice.limit);
+    result.push_back({{"body", advice.body},
+                      {"step_s", advice.step},
+                      {"stable_up_to_s", limit},
+                      {"too_long", advice.too_long()}});
+  }
+  return result;
+}
+
 }  // namespace
 
 json run_statistics_json(const RunStatistics& run) {
@@ -105,6 +119,7 @@ json check_json(const CheckReport& report) {
           {"effective_scene", scenes::print_scene(report.scene)},
           {"plan", plan_json(report.plan)},
           {"size", size_json(report.size)},
+          {"steps", steps_json(report.steps)},
           {"run", report.run ? run_statistics_json(*report.run) : json(nullptr)}};
 }
 

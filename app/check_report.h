@@ -4,8 +4,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/run_statistics.h"
+#include "app/step_advice.h"
 #include "app/world_size.h"
 #include "scenes/scene.h"
 #include "sim/step/plan.h"
@@ -16,6 +18,7 @@ struct CheckReport {
   scenes::Scene scene;
   sim::Plan plan;
   WorldSize size;
+  std::vector<StepAdvice> steps;
   std::optional<RunStatistics> run;
 };
 

@@ -71,6 +71,20 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
   return text;
 }
 
+std::string steps_text(const std::vector<StepAdvice>& steps) {
+  if (steps.empty()) return "";
+  std::string text = "\nSteps of soft bodies\n";
+  text += named_line("step", fmt::format("{:.4g} s", steps.front().step));
+  for (const StepAdvice& advice : steps) {
+    text += named_line(advice.body,
+                       std::isinf(advice.limit)
+                           ? "no step is too long"
+                           : fmt::format("small motions stay stable up to {:.3g} s{}", advice.limit,
+                                         advice.too_long() ? ": THE STEP IS TOO LONG" : ""));
+  }
+  return text;
+}
+
 std::string penetration_text(const RunStatistics& run, double skin_thickness) {
   if (run.penetration.value == 0.0) return named_line("penetration", "none");
   return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
@@ -161,7 +175,8 @@ std::string run_statistics_text(const RunStatistics& run, double skin_thickness)
 }
 
 std::string check_text(const CheckReport& report) {
-  std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene);
+  std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
+                     steps_text(report.steps);
   if (report.run) {
     text += '\n' + run_statistics_text(*report.run, report.scene.settings.skin_thickness);
   }

@@ -1,5 +1,8 @@
 #include "app/draw_frames.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -100,11 +103,37 @@ class FrameWriter {
   Background finishing_{1};  // the last member: it ends before what its jobs use
 };
 
+/// Says that steps which diverged were done in parts: at the first of them, and in the end.
+class DividedSteps {
+ public:
+  void add(const Simulation& simulation, Progress& progress) {
+    const std::vector<int>& parts = simulation.step_parts();
+    if (parts.empty()) return;
+    if (count_ == 0) {
+      progress.say(fmt::format("a step before t = {:.4f} s diverged; it was done again in {} parts",
+                               sim::time(simulation.world()), parts.front()));
+    }
+    count_ += static_cast<std::int64_t>(parts.size());
+    most_ = std::max(most_, *std::max_element(parts.begin(), parts.end()));
+  }
+
+  void summarise(Progress& progress) const {
+    if (count_ == 0) return;
+    progress.say(
+        fmt::format("{} steps diverged and were done in parts, up to {} of them", count_, most_));
+  }
+
+ private:
+  std::int64_t count_ = 0;
+  int most_ = 0;
+};
+
 }  // namespace
 
 void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
                  const FrameOutput& output, Progress& progress) {
   FrameWriter writer(output);
+  DividedSteps divided;
   Stopwatch watch;
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
@@ -130,10 +159,12 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
     progress.show(progress_line(state));
     if (state.frame >= last) break;
     advance();
+    divided.add(simulation, progress);
   }
   writer.wait();
   state.elapsed += watch.lap();
   progress.say(summary_line(state));
+  divided.summarise(progress);
 }
 
 }  // namespace pneuma::app

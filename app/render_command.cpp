@@ -25,6 +25,7 @@ struct Typed {
   std::string overlay;
   std::string size;
   std::string sheet;
+  std::string on_divergence;
   bool no_caption = false;
   bool overwrite = false;
   bool resume = false;
@@ -40,6 +41,7 @@ RenderRequest read(const Typed& typed) {
   if (!typed.sheet.empty()) request.sheet = parse_grid("--sheet", typed.sheet, greatest_sheet);
   if (typed.overwrite) request.existing = ExistingRun::overwrite;
   if (typed.resume) request.existing = ExistingRun::resume;
+  if (typed.on_divergence == "substep") request.on_divergence = OnDivergence::substep;
   // What the scene can say itself becomes part of the scene, and so of the run's record.
   if (!typed.size.empty()) {
     const GridSize size = parse_grid("--size", typed.size, scenes::greatest_picture_side);
@@ -75,6 +77,13 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       command->add_flag("--overwrite", typed->overwrite, "Replace the run in the folder");
   command->add_flag("--resume", typed->resume, "Continue the interrupted run in the folder")
       ->excludes(overwrite);
+  command
+      ->add_option(
+          "--on-divergence", typed->on_divergence,
+          fmt::format("What to do about a step that diverges: stop, or substep, which does "
+                      "it again in up to {} parts [stop]",
+                      greatest_step_parts))
+      ->check(CLI::IsMember({"stop", "substep"}));
   command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");
   command->add_option("--video", request.video, "Also a video, by ffmpeg")->type_name("FILE");
   add_threads_option(*command, request.threads);

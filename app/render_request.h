@@ -7,6 +7,7 @@
 
 #include "app/build_frame.h"
 #include "app/frame_range.h"
+#include "app/simulation.h"
 
 namespace pneuma::app {
 
@@ -25,6 +26,7 @@ struct RenderRequest {
   FrameRange frames;
   Pictures pictures;
   ExistingRun existing = ExistingRun::refuse;
+  OnDivergence on_divergence = OnDivergence::stop;
   std::optional<GridSize> sheet;
   std::string video;  // file; empty: none
   int threads = 1;

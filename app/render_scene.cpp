@@ -17,6 +17,7 @@
 #include "app/resume.h"
 #include "app/run_command.h"
 #include "app/run_record.h"
+#include "app/step_advice.h"
 #include "app/video.h"
 #include "render/image/file.h"
 #include "scenes/load_scene.h"
@@ -72,14 +73,28 @@ void warn_of_missing_particles(const Pictures& pictures, const scenes::Scene& sc
                            plan.stages[stage].reason));
 }
 
+/// The command that continues a run.
+std::string resume_command(std::vector<std::string> command_line) {
+  std::erase_if(command_line, [](const std::string& argument) {
+    return argument == "--overwrite" || argument == "--resume";
+  });
+  command_line.emplace_back("--resume");
+  return shell_line(command_line);
+}
+
 void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
                  const RunFolder& folder, Progress& progress) {
   const sim::World start = build_world(scene);
+  for (const StepAdvice& advice : step_advices(start)) {
+    if (advice.too_long()) {
+      progress.say(fmt::format("{}: warning: {}", scene.name, step_warning(advice)));
+    }
+  }
   render::Renderer renderer(picture_options(scene.picture));
   warn_of_missing_particles(request.pictures, scene, start, progress);
 
-  const Json identity = run_identity(scene, start, frames.first, frames.last, request.pictures,
-                                     renderer.description());
+  const Json identity =
+      run_identity(scene, start, frames.first, frames.last, request, renderer.description());
   const OpenedFolder opened =
       open_folder(folder, request.existing, identity, scenes::print_scene(scene));
   if (opened.finished) return progress.say("the run is finished already");
@@ -88,16 +103,28 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   const Json header =
       old ? old->header
           : run_header(identity, scene, choose_camera(scene, start, request.threads, progress));
-  const Continuation from = old ? find_continuation(folder, *old, start, frames.first)
-                                : Continuation{frames.first, start, 0};
+  const int steps_per_frame = scene.settings.steps_per_second / scene.picture.frames_per_second;
+  const Continuation from =
+      old ? find_continuation(folder, *old, identity, start, frames.first, steps_per_frame)
+          : Continuation{frames.first, start, 0, ""};
   Journal journal(folder.journal(), from.journal_bytes);
   if (!old) journal.append(header);
+  if (!from.change.empty()) {
+    journal.append(change_line(identity, scene, from.next_frame, from.change));
+  }
   journal.append(launch_line(request.command_line, request.threads, from.next_frame));
 
-  Simulation simulation(scene, from.world, request.threads);
+  Simulation simulation(scene, from.world, request.threads, request.on_divergence);
   const FrameBuilder builder(scene, from.world, camera_of(header));
-  draw_frames(simulation, from.next_frame, frames.last,
-              {builder, request.pictures, renderer, folder, journal}, progress);
+  try {
+    draw_frames(simulation, from.next_frame, frames.last,
+                {builder, request.pictures, renderer, folder, journal}, progress);
+  } catch (const DivergenceError& error) {
+    journal.append(divergence_line(error.what()));
+    throw DivergenceError(fmt::format(
+        "{}\nThe frames so far are whole. To go on from the last of them with other steps: {}",
+        error.what(), resume_command(request.command_line)));
+  }
   close_run(folder);
 }
 
@@ -122,15 +149,6 @@ void make_video(const RunFolder& folder, std::int64_t first, int frames_per_seco
                "ffmpeg is not installed (apt-get install ffmpeg). The command for {}:\n{}\n", video,
                shell_line(command));
   }
-}
-
-/// The command that continues a run.
-std::string resume_command(std::vector<std::string> command_line) {
-  std::erase_if(command_line, [](const std::string& argument) {
-    return argument == "--overwrite" || argument == "--resume";
-  });
-  command_line.emplace_back("--resume");
-  return shell_line(command_line);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ void advance(sim::Stepper& stepper, sim::World& world, std::int64_t steps,
   for (std::int64_t i = 0; i < steps; ++i) {
     throw_if_interrupted();
     const auto divergence = stepper.step(world);
-    if (divergence) throw divergence_error(scene_name, *divergence, world.settings);
+    if (divergence) throw divergence_error(scene_name, *divergence, world);
   }
 }
 

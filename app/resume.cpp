@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -46,39 +47,73 @@ bool is_whole(const RunFolder& folder, const Json& line, std::int64_t frame) {
          has_size(folder.overlay(frame), line.value("overlay_png_bytes", none));
 }
 
-/// The lines of two scenes that differ, up to three: scenes with the same bodies print alike.
-std::string scene_differences(const std::string& then, const std::string& now) {
+/// The lines of two scenes that differ, by the table they are in. Scenes with the same bodies print
+/// alike.
+struct SceneDifferences {
+  std::string text;        // up to three
+  bool only_steps = true;  // none outside of [simulation]
+};
+
+SceneDifferences scene_differences(const std::string& then, const std::string& now) {
   std::istringstream old_lines(then), new_lines(now);
-  std::string differences;
+  SceneDifferences differences;
+  std::string table;
   int count = 0;
-  for (std::string a, b; std::getline(old_lines, a) && std::getline(new_lines, b);) {
+  for (std::string a, b;;) {
+    const bool more_old = static_cast<bool>(std::getline(old_lines, a));
+    const bool more_new = static_cast<bool>(std::getline(new_lines, b));
+    if (!more_old && !more_new) return differences;
+    if (!more_old || !more_new) differences.only_steps = false;
+    if (b.starts_with('[')) table = b.substr(0, b.find(']'));
     if (a == b) continue;
-    if (++count > 3) return differences + "\n  ...";
-    differences += fmt::format("\n  was  {}\n  is   {}", a, b);
+    differences.only_steps &= table.starts_with("[simulation");
+    if (++count <= 3) differences.text += fmt::format("\n  was  {}\n  is   {}", a, b);
+    if (count == 4) differences.text += "\n  ...";
   }
-  return differences;
 }
 
-/// Throws unless a run of the identity `now` continues the one of the header `then`.
+std::set<std::string> keys_of(const Json& a, const Json& b) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : a.items()) keys.insert(key);
+  for (const auto& [key, value] : b.items()) keys.insert(key);
+  return keys;
+}
+
+/// Why the run could not go on; empty when it was merely interrupted.
+std::string divergence_of(const JournalContents& journal) {
+  for (auto line = journal.lines.rbegin(); line != journal.lines.rend(); ++line) {
+    if (line->contains("frame")) return "";
+    if (line->contains("diverged")) return line->value("diverged", "");
+  }
+  return "";
+}
+
+/// Throws unless a run of the identity `now` continues the one of the header `then`. When that has
+/// diverged, its steps may become others.
 void require_same_run(const RunFolder& folder, const Json& then, const Json& now,
-                      const std::string& scene_now) {
+                      const std::string& scene_now, bool diverged) {
   const Json old = then.value("run", Json::object());
   if (old == now) return;
   std::string differences;
-  for (const auto& [key, value] : now.items()) {
-    const Json was = old.value(key, Json());
-    if (was == value) continue;
+  bool only_steps = true;
+  for (const std::string& key : keys_of(old, now)) {
+    const Json was = old.value(key, Json()), is = now.value(key, Json());
+    if (was == is) continue;
     if (key == "fingerprint") {
-      differences += "\nthe scene or its settings:";
-      differences += scene_differences(then.value("scene_toml", ""), scene_now);
+      const SceneDifferences scenes = scene_differences(then.value("scene_toml", ""), scene_now);
+      differences += "\nthe scene or its settings:" + scenes.text;
+      only_steps &= scenes.only_steps;
     } else {
-      differences += fmt::format("\n{}: was {}, is {}", key, was.dump(), value.dump());
+      differences += fmt::format("\n{}: was {}, is {}", key, was.dump(), is.dump());
+      only_steps &= key == "on_divergence";
     }
   }
+  if (diverged && only_steps) return;
   throw render::IoError(
       fmt::format("the run in {} cannot be continued, because it differs from this one in{}\n"
-                  "give the options it was started with, or --overwrite to start anew",
-                  folder.path().string(), differences));
+                  "give the options it was started with{}, or --overwrite to start anew",
+                  folder.path().string(), differences,
+                  diverged ? " but for simulation.* and --on-divergence" : ""));
 }
 
 [[noreturn]] void refuse(const RunFolder& folder, const std::string& holds,
@@ -100,13 +135,14 @@ OpenedFolder continue_run(const RunFolder& folder, const Json& identity,
                           const std::string& scene_toml) {
   folder.remove_temporary_files();
   if (auto journal = read_journal(folder.journal())) {
-    require_same_run(folder, journal->header, identity, scene_toml);
+    const bool diverged = !divergence_of(*journal).empty();
+    require_same_run(folder, present_header(*journal), identity, scene_toml, diverged);
     return {false, std::move(journal)};
   }
   if (fs::exists(folder.record())) {
     const auto bytes = render::read_file(folder.record().string());
     const Json record = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
-    require_same_run(folder, record, identity, scene_toml);
+    require_same_run(folder, record, identity, scene_toml, false);
     require_frames(folder, record);
     std::error_code ignored;
     fs::remove(folder.state(), ignored);  // when the run was killed between its last two acts
@@ -122,21 +158,35 @@ OpenedFolder continue_run(const RunFolder& folder, const Json& identity,
 }  // namespace
 
 Continuation find_continuation(const RunFolder& folder, const JournalContents& journal,
-                               const sim::World& start, std::int64_t first_frame) {
-  const Continuation from_the_start{first_frame, start, journal.header_end};
+                               const Json& identity, const sim::World& start,
+                               std::int64_t first_frame, int steps_per_frame) {
+  // Settings that have changed already, after the frame from which the run now goes on, change
+  // again.
+  const auto change = [&](std::size_t lines) {
+    JournalContents kept = journal;
+    kept.lines.resize(lines);
+    if (present_header(kept).value("run", Json()) == identity) return std::string();
+    for (const Json& line : journal.lines) {
+      if (line.contains("change")) return line.value("reason", "");
+    }
+    return divergence_of(journal);
+  };
+  const Continuation from_the_start{first_frame, start, journal.header_end, change(0)};
   const std::optional<sim::World> world = saved_world(folder, start);
   if (!world) return from_the_start;
 
   std::int64_t frame = first_frame;
   for (std::size_t i = 0; i < journal.lines.size(); ++i) {
     const Json& line = journal.lines[i];
-    if (line.contains("launch")) continue;
+    if (!line.contains("frame")) continue;
     if (!is_whole(folder, line, frame)) break;
     ++frame;
     // The state is written after the line, so later lines may exist but no state for them.
     if (line.value("step", std::int64_t{-1}) != world->steps) continue;
     if (line.value("state_hash", "") != hex(sim::state_hash(*world))) break;
-    return {frame, *world, journal.ends[i]};
+    Continuation found{frame, *world, journal.ends[i], change(i + 1)};
+    found.world.steps = (frame - 1) * steps_per_frame;
+    return found;
   }
   return from_the_start;
 }

@@ -19,8 +19,9 @@ struct OpenedFolder {
 };
 
 /// Makes the folder, and room for a run of this identity in it: removes an old run or finds the one
-/// to continue, as `existing` says. Throws render::IoError when the folder holds another run, or
-/// one that is going on.
+/// to continue, as `existing` says. One that diverged may go on with another [simulation] than it
+/// had, and with other steps of those that diverge. Throws render::IoError when the folder holds
+/// another run, or one that is going on.
 OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Json& identity,
                          const std::string& scene_toml);
 
@@ -28,11 +29,14 @@ struct Continuation {
   std::int64_t next_frame = 0;      // the first that is still to be drawn
   sim::World world;                 // at the frame before, or at the start
   std::uint64_t journal_bytes = 0;  // of the journal that hold
+  std::string change;               // why the settings change here; empty: they do not
 };
 
 /// The last frame for which picture, journal and saved state agree, with all frames before it
-/// whole. Where there is none the run begins again: its frames come out the same.
+/// whole. Where there is none the run begins again: its frames come out the same. Steps are counted
+/// anew where there are others to a frame than before.
 Continuation find_continuation(const RunFolder& folder, const JournalContents& journal,
-                               const sim::World& start, std::int64_t first_frame);
+                               const Json& identity, const sim::World& start,
+                               std::int64_t first_frame, int steps_per_frame);
 
 }  // namespace pneuma::app

@@ -68,7 +68,8 @@ constexpr std::string_view units =
 std::string hex(std::uint64_t value) { return fmt::format("{:#018x}", value); }
 
 Json run_identity(const scenes::Scene& scene, const sim::World& start, std::int64_t first,
-                  std::int64_t last, const Pictures& pictures, const std::string& gl) {
+                  std::int64_t last, const RenderRequest& request, const std::string& gl) {
+  const Pictures& pictures = request.pictures;
   const Version built = version();
   const Json shown = shown_names(pictures.show);
   const Json overlay = pictures.overlay ? Json(shown_names(*pictures.overlay)) : Json();
@@ -81,6 +82,7 @@ Json run_identity(const scenes::Scene& scene, const sim::World& start, std::int6
                    {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
                                          built.compiler, built.build_type, built.flags)},
                    {"gl", gl}};
+  if (request.on_divergence == OnDivergence::substep) identity["on_divergence"] = "substep";
   for (const std::uint64_t model : model_fingerprints(scene, start)) {
     identity["models"].push_back(hex(model));
   }
@@ -121,6 +123,26 @@ render::Camera camera_of(const Json& header) {
   }
 }
 
+Json divergence_line(const std::string& message) { return {{"diverged", message}}; }
+
+Json change_line(const Json& identity, const scenes::Scene& scene, std::int64_t from,
+                 const std::string& reason) {
+  return {{"change",
+           {{"run", identity},
+            {"steps_per_second", scene.settings.steps_per_second},
+            {"scene_toml", scenes::print_scene(scene)}}},
+          {"first_frame", from},
+          {"reason", reason}};
+}
+
+Json present_header(const JournalContents& journal) {
+  Json header = journal.header;
+  for (const Json& line : journal.lines) {
+    if (line.contains("change")) header.update(line["change"]);
+  }
+  return header;
+}
+
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
   const Machine here = machine();
   return {{"launch",
@@ -151,6 +173,7 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"volumes", volumes_json(world)},
                {"contacts", contacts_json(simulation.stepper().contacts())},
                {"greatest_penetration", number_json<Json>(sim::greatest_penetration(world))}};
+  if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
   return {std::move(line), std::move(times)};
 }
 
@@ -168,17 +191,20 @@ Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds&
 }
 
 Json whole_record(const JournalContents& journal) {
-  Json record = journal.header;
+  Json record = present_header(journal);
   Json launches = Json::array();
+  Json changes = Json::array();
   Json frames = Json::array();
   double wall_seconds = 0.0;
   for (const Json& line : journal.lines) {
     if (line.contains("launch")) launches.push_back(line["launch"]);
+    if (line.contains("change")) changes.push_back(line);
     if (!line.contains("frame")) continue;
     frames.push_back(line);
     wall_seconds += line["seconds"]["total"].get<double>();
   }
   record["launches"] = launches;
+  if (!changes.empty()) record["changes"] = changes;
   record["wall_seconds"] = wall_seconds;
   record["frames"] = frames;
   return record;

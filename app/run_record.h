@@ -30,10 +30,10 @@ struct PictureBytes {
   std::optional<std::size_t> overlay;
 };
 
-/// What decides the bytes of a run's frames. Only a run of the same identity can be continued.
-/// `start` is the scene's world, in which its models are.
+/// What decides the bytes of a run's frames. Only a run of the same identity can be continued (but
+/// see resume.h). `start` is the scene's world, in which its models are.
 Json run_identity(const scenes::Scene& scene, const sim::World& start, std::int64_t first,
-                  std::int64_t last, const Pictures& pictures, const std::string& gl);
+                  std::int64_t last, const RenderRequest& request, const std::string& gl);
 
 /// The first line of a journal.
 Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera);
@@ -44,13 +44,24 @@ render::Camera camera_of(const Json& header);
 /// A line per time that the run is started or continued: where, when and how.
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);
 
+/// That the run has come to a step that diverges.
+Json divergence_line(const std::string& message);
+
+/// That a run that diverged, for this `reason`, goes on with other settings from a frame on: what
+/// of its header is different then.
+Json change_line(const Json& identity, const scenes::Scene& scene, std::int64_t from,
+                 const std::string& reason);
+
+/// The header as the last change has left it.
+Json present_header(const JournalContents& journal);
+
 /// What a line says of a frame's state, taken before the simulation goes on.
 struct FrameState {
   Json line;
   Json stage_seconds;
 };
 
-/// Makes a line per frame.
+/// Makes a line per frame; with the parts of the steps that were done in parts, if any.
 class FrameRecorder {
  public:
   FrameState state(const Simulation& simulation);

@@ -106,7 +106,7 @@ RunStatistics run_statistics(const scenes::Scene& scene, int threads) {
   while (world.steps < all_steps) {
     throw_if_interrupted();
     if (const auto divergence = stepper.step(world)) {
-      observer.diverged(divergence_error(scene.name, *divergence, world.settings).what());
+      observer.diverged(divergence_error(scene.name, *divergence, world).what());
       break;
     }
     observer.after_step(world, stepper);

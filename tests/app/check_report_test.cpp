@@ -27,6 +27,7 @@ CheckReport report_of(const char* text, bool with_run = false) {
   const sim::World world = build_world(report.scene);
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
+  report.steps = step_advices(world);
   if (with_run) report.run = run_statistics(report.scene, 1);
   return report;
 }

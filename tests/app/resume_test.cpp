@@ -49,7 +49,7 @@ class UnfinishedRun : public testing::Test {
   }
 
   Continuation found() const {
-    return find_continuation(folder_, *read_journal(folder_.journal()), start_, 0);
+    return find_continuation(folder_, *read_journal(folder_.journal()), identity_, start_, 0, 2);
   }
 
   void expect_continued_after(std::int64_t frame) const {

@@ -153,7 +153,7 @@ class Runner {
     while (world_.steps < steps) {
       throw_if_interrupted();
       if (const auto divergence = stepper.step(world_)) {
-        throw divergence_error(scene_.name, *divergence, world_.settings);
+        throw divergence_error(scene_.name, *divergence, world_);
       }
       look();
     }

@@ -131,7 +131,7 @@ void run(const ExtremeCase& extreme, const scenes::Scene& scene, sim::World& wor
     throw_if_interrupted();
     if (const auto divergence = stepper.step(world)) {
       result.outcome = Outcome::diverged;
-      result.message = divergence_error(scene.name, *divergence, world.settings).what();
+      result.message = divergence_error(scene.name, *divergence, world).what();
       break;
     }
     if (world.steps % steps_per_look(steps) != 0) continue;
