@@ -1,8 +1,12 @@
 #include "sim/collision/particles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <limits>
+#include <span>
+
+#include "sim/mesh/row.h"
 
 namespace pneuma::sim {
 namespace {
@@ -52,31 +56,57 @@ class Walk {
   }
 
  private:
+  /// Where it is and where it may go are looked at four at a time. Of equal costs the first wins,
+  /// so that a particle without reason to go stays.
   bool move(std::size_t particle) {
-    int best = features_[particle];
-    double least = cost(particle, own_[particle]);
-    for (const int neighbour : surface_.topology.feature_neighbours(best)) {
-      const Vec3 there = feature_centre(surface_, neighbour);
-      const double neighbour_cost = cost(particle, there);
-      if (neighbour_cost < least) {
-        least = neighbour_cost;
-        best = neighbour;
-        own_[particle] = there;
+    const int here = features_[particle];
+    const auto neighbours = surface_.topology.feature_neighbours(here);
+    const auto option = [&](std::size_t i) { return i == 0 ? here : neighbours[i - 1]; };
+    const std::size_t count = 1 + neighbours.size();
+    int best = here;
+    Vec3 best_place = own_[particle];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t first = 0; first < count; first += 4) {
+      std::array<Row, 4> places;
+      for (std::size_t i = 0; i < 4; ++i)
+        places[i] = centre(option(std::min(first + i, count - 1)));
+      const Row costs = cost(particle, columns(places[0], places[1], places[2], places[3]));
+      for (std::size_t i = 0; i < std::min<std::size_t>(4, count - first); ++i) {
+        const double option_cost = costs[static_cast<int>(i)];
+        if (!(option_cost < least)) continue;
+        least = option_cost;
+        best = option(first + i);
+        best_place = {places[i][0], places[i][1], places[i][2]};
       }
     }
-    return std::exchange(features_[particle], best) != best;
+    features_[particle] = best;
+    own_[particle] = best_place;
+    return best != here;
   }
 
-  double nearness(const Vec3& a, const Vec3& b) const {
-    return 1.0 / std::max((a - b).squaredNorm(), least_squared_);
+  Row centre(int feature_id) const {
+    const MeshTopology& topology = surface_.topology;
+    const auto vertices = topology.feature_vertices(topology.feature(feature_id));
+    const RowReader positions(surface_.positions);
+    Row sum{};
+    for (const int v : vertices) sum += positions[v];
+    return sum / static_cast<double>(vertices.size());
   }
 
-  double cost(std::size_t particle, const Vec3& place) const {
-    double sum = 0.0;
+  Row nearness(const Columns& places, const Vec3& other) const {
+    const Row x = places.x - other.x(), y = places.y - other.y(), z = places.z - other.z();
+    const Row squared = x * x + (y * y + z * z);
+    const Row bound = Row{} + least_squared_;
+    return 1.0 / (squared > bound ? squared : bound);
+  }
+
+  /// Of the particle in four places.
+  Row cost(std::size_t particle, const Columns& places) const {
+    Row sum{};
     for (std::size_t i = 0; i < own_.size(); ++i) {
-      if (i != particle) sum += nearness(place, own_[i]);
+      if (i != particle) sum += nearness(places, own_[i]);
     }
-    for (const Vec3& other : other_) sum -= attraction_ * nearness(place, other);
+    for (const Vec3& other : other_) sum -= attraction_ * nearness(places, other);
     return sum;
   }
 
