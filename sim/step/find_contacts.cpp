@@ -6,32 +6,53 @@ namespace pneuma::sim {
 
 namespace {
 
+/// Calls find(i, thread, contacts) for every i below `count`, in blocks over the threads, and
+/// appends what was found in the order of i, whatever the number of threads.
+template <class Find>
+void find_all(StepWorkspace& workspace, std::size_t count, const Find& find) {
+  std::vector<Contact>& contacts = workspace.contacts;
+  for (std::vector<Contact>& found : workspace.found) found.clear();
+  // Two references are all that std::function holds without allocating.
+  const auto block = [&workspace, &find](int begin, int end, int thread) {
+    auto& found = thread == 0 ? workspace.contacts : workspace.found[at(thread - 1)];
+    for (int i = begin; i < end; ++i) find(i, thread, found);
+  };
+  workspace.workers.for_blocks(static_cast<int>(count), block);
+  for (const std::vector<Contact>& found : workspace.found) {
+    contacts.insert(contacts.end(), found.begin(), found.end());
+  }
+}
+
 void find_between_soft(const World& world, StepWorkspace& workspace) {
   switch (world.settings.soft_search) {
     case SoftSearch::particles:
-      for (const ParticlePair& pair : world.particles) {
-        if (pair.near) find_soft_soft(world, pair, workspace.soft_soft, workspace.contacts);
-      }
+      find_all(workspace, world.particles.size(), [&](int i, int thread, auto& contacts) {
+        const ParticlePair& pair = world.particles[at(i)];
+        if (pair.near) find_soft_soft(world, pair, workspace.soft_soft[at(thread)], contacts);
+      });
       break;
     case SoftSearch::exact:
-      for (const auto& [first, second] : workspace.soft_pairs) {
-        find_exact(world, first, second, workspace.exact, workspace.contacts);
-      }
+      find_all(workspace, workspace.soft_pairs.size(), [&](int i, int thread, auto& contacts) {
+        const auto& [first, second] = workspace.soft_pairs[at(i)];
+        find_exact(world, first, second, workspace.exact[at(thread)], contacts);
+      });
       break;
   }
 }
 
-/// The pairs of one soft body follow each other.
+/// The pairs of one soft body follow each other, so that a thread seldom fills its columns anew.
 void find_between_soft_and_rigid(const World& world, StepWorkspace& workspace) {
-  int filled_with = -1;
-  for (const auto& [soft, rigid] : workspace.soft_rigid_pairs) {
-    if (soft != filled_with) {
+  for (SoftColumns& columns : workspace.columns) columns.body = -1;
+  find_all(workspace, workspace.soft_rigid_pairs.size(), [&](int i, int thread, auto& contacts) {
+    const auto& [soft, rigid] = workspace.soft_rigid_pairs[at(i)];
+    SoftColumns& columns = workspace.columns[at(thread)];
+    if (columns.body != soft) {
       const SoftBody& body = world.soft[at(soft)];
-      workspace.columns.fill({body.mesh->topology, body.positions});
-      filled_with = soft;
+      columns.triangles.fill({body.mesh->topology, body.positions});
+      columns.body = soft;
     }
-    find_soft_rigid(world, soft, rigid, workspace.columns, workspace.contacts);
-  }
+    find_soft_rigid(world, soft, rigid, columns.triangles, contacts);
+  });
 }
 
 }  // namespace
@@ -39,13 +60,14 @@ void find_between_soft_and_rigid(const World& world, StepWorkspace& workspace) {
 void find_contacts(const World& world, StepWorkspace& workspace) {
   const Plan& plan = workspace.plan;
   const bool ground = world.settings.ground.has_value();
-  std::vector<Contact>& contacts = workspace.contacts;
-  contacts.clear();
+  workspace.contacts.clear();
   if (plan.runs(ContactKind::soft_ground) && ground) {
-    for (int i = 0; i < std::ssize(world.soft); ++i) find_soft_ground(world, i, contacts);
+    find_all(workspace, world.soft.size(),
+             [&](int i, int, auto& contacts) { find_soft_ground(world, i, contacts); });
   }
   if (plan.runs(ContactKind::rigid_ground) && ground) {
-    for (int i = 0; i < std::ssize(world.rigid); ++i) find_rigid_ground(world, i, contacts);
+    find_all(workspace, world.rigid.size(),
+             [&](int i, int, auto& contacts) { find_rigid_ground(world, i, contacts); });
   }
   if (plan.runs(ContactKind::soft_soft)) {
     find_between_soft(world, workspace);
@@ -54,9 +76,10 @@ void find_contacts(const World& world, StepWorkspace& workspace) {
     find_between_soft_and_rigid(world, workspace);
   }
   if (plan.runs(ContactKind::rigid_rigid)) {
-    for (const BodyPair& pair : workspace.rigid_pairs) {
+    find_all(workspace, workspace.rigid_pairs.size(), [&](int i, int, auto& contacts) {
+      const BodyPair& pair = workspace.rigid_pairs[at(i)];
       find_rigid_rigid(world, pair.first, pair.second, contacts);
-    }
+    });
   }
 }
 

@@ -11,11 +11,16 @@ namespace {
 /// Of soft bodies first, then of boxes. Soft bodies are in contact at a distance of twice the skin,
 /// half of it each (ERRATA row 10). Boxes are in contact when something is inside them, or a
 /// resting gap before.
-void make_spheres(const World& world, std::vector<BoundingSphere>& spheres) {
-  spheres.clear();
-  for (const SoftBody& body : world.soft) {
-    spheres.push_back(bounding_sphere(body.positions, world.settings.skin_thickness));
-  }
+void make_spheres(const World& world, StepWorkspace& workspace) {
+  std::vector<BoundingSphere>& spheres = workspace.spheres;
+  spheres.resize(world.soft.size());
+  const auto block = [&world, &workspace](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) {
+      workspace.spheres[at(i)] =
+          bounding_sphere(world.soft[at(i)].positions, world.settings.skin_thickness);
+    }
+  };
+  workspace.workers.for_blocks(static_cast<int>(world.soft.size()), block);
   for (const RigidBox& box : world.rigid) {
     const double gap = resting_lengths(box.size.minCoeff()).gap;
     spheres.push_back({box.position, 0.5 * box.size.norm() + gap});
@@ -48,7 +53,7 @@ void mark_near(World& world, const std::vector<BodyPair>& soft_pairs) {
 
 void find_pairs(World& world, StepWorkspace& workspace) {
   workspace.particles_start = world.particles;
-  make_spheres(world, workspace.spheres);
+  make_spheres(world, workspace);
   workspace.pair_finder.find(workspace.spheres, workspace.pairs);
   workspace.soft_pairs.clear();
   workspace.soft_rigid_pairs.clear();

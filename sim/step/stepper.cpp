@@ -77,6 +77,11 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       soft_start(world.soft.size()),
       rigid_start(world.rigid.size()),
       soft_outcome(world.soft.size()),
+      particles(at(options.threads)),
+      soft_soft(at(options.threads)),
+      exact(at(options.threads)),
+      columns(at(options.threads)),
+      found(at(options.threads - 1)),
       coupling(world) {}
 
 Stepper::Stepper(const World& world, StepperOptions options)

@@ -32,6 +32,12 @@ struct RigidStart {
   Vec3 angular_velocity = Vec3::Zero();
 };
 
+/// The columns of the soft body that boxes were last tested against.
+struct SoftColumns {
+  int body = -1;
+  TriangleColumns triangles;
+};
+
 struct StepWorkspace {
   StepWorkspace(const World& world, StepperOptions options);
 
@@ -45,14 +51,15 @@ struct StepWorkspace {
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
   std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
   PairFinder pair_finder;
-  std::vector<BodyPair> pairs;             // of spheres
-  std::vector<BodyPair> soft_pairs;        // of soft bodies
-  std::vector<BodyPair> soft_rigid_pairs;  // first: soft body, second: box
-  std::vector<BodyPair> rigid_pairs;       // of boxes
-  ParticleScratch particles;
-  SoftSoftScratch soft_soft;
-  ExactScratch exact;
-  TriangleColumns columns;  // of the soft body that boxes are tested against
+  std::vector<BodyPair> pairs;              // of spheres
+  std::vector<BodyPair> soft_pairs;         // of soft bodies
+  std::vector<BodyPair> soft_rigid_pairs;   // first: soft body, second: box
+  std::vector<BodyPair> rigid_pairs;        // of boxes
+  std::vector<ParticleScratch> particles;   // per thread
+  std::vector<SoftSoftScratch> soft_soft;   // per thread
+  std::vector<ExactScratch> exact;          // per thread
+  std::vector<SoftColumns> columns;         // per thread
+  std::vector<std::vector<Contact>> found;  // per thread but the first, which fills `contacts`
   std::vector<Contact> contacts;
   std::vector<VertexArray> before_contacts;  // positions per soft body, of implicit integrators
   std::vector<BoxMass> box_masses;
