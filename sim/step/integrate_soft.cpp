@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "sim/soft/damping.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/stages.h"
@@ -5,11 +7,22 @@
 namespace pneuma::sim {
 namespace {
 
+/// The state becomes the start of the step. What explicit integrators write they never read before:
+/// the memory of the two states may change hands.
+void hand_over(SoftBody& body, SoftState& start, bool keep) {
+  if (keep || start.positions.size() != body.positions.size()) {
+    start.positions = body.positions;
+    start.velocities = body.velocities;
+    return;
+  }
+  std::swap(start.positions, body.positions);
+  std::swap(start.velocities, body.velocities);
+}
+
 std::optional<Divergence> integrate(const World& world, SoftBody& body, SoftState& start,
                                     IntegratorScratch& scratch) {
-  start.positions = body.positions;
-  start.velocities = body.velocities;
   const Settings& settings = world.settings;
+  hand_over(body, start, is_implicit(settings.integrator));
   double least_volume = 0.0;
   if (scratch.implicit) {
     least_volume = implicit_step(*body.mesh, body.material, settings, start, body.positions,
