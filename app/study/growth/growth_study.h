@@ -24,11 +24,12 @@ struct GrowthSeries {
 
 struct GrowthOptions {
   bool few = false;                // small sizes only
-  double seconds_per_point = 1.0;  // of measuring, and never fewer than ten steps
+  double seconds_per_point = 1.0;  // of measuring, and never less than one run
 };
 
 /// Vertices of one icosphere on the ground, soft spheres side by side on the ground, stacks of five
-/// cubes. Each runs half a second of its own time first. Throws DivergenceError and Interrupted.
+/// cubes. Of each, the second of its own time after the first half, again and again. Throws
+/// DivergenceError and Interrupted.
 std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
                                        const std::function<void(const std::string&)>& say);
 
