@@ -14,6 +14,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_collision_study(*study, action, command_line);
   add_growth_study(*study, action, command_line);
   add_extreme_study(*study, action, command_line);
+  add_stability_study(*study, action, command_line);
 }
 
 }  // namespace pneuma::app

@@ -21,4 +21,7 @@ void add_growth_study(CLI::App& study_command, Action& action,
 void add_extreme_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
 
+void add_stability_study(CLI::App& study_command, Action& action,
+                         std::span<const std::string> command_line);
+
 }  // namespace pneuma::app
