@@ -119,8 +119,9 @@ class DividedSteps {
 
   void summarise(Progress& progress) const {
     if (count_ == 0) return;
-    progress.say(
-        fmt::format("{} steps diverged and were done in parts, up to {} of them", count_, most_));
+    progress.say(fmt::format("{} diverged and {} done in parts, up to {} of them",
+                             count_ == 1 ? "1 step" : fmt::format("{} steps", count_),
+                             count_ == 1 ? "was" : "were", most_));
   }
 
  private:

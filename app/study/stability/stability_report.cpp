@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
@@ -134,7 +135,11 @@ Diagram stability_map(const StabilityStudy& study, sim::Integrator integrator) {
   }
   Diagram diagram;
   diagram.title = fmt::format("Stable steps of {}: {}", integrator_name(integrator), study.scene);
-  diagram.x = {.label = "spring constant k, N/m", .logarithmic = true};
+  const auto [least, greatest] = std::ranges::minmax(study.options.k);
+  diagram.x = {.label = "spring constant k, N/m",
+               .logarithmic = true,
+               .low = least / 2.0,  // so that no mark is on the border
+               .high = greatest * 2.0};
   diagram.y = {.label = "step, s", .logarithmic = true};
   diagram.series.assign(verdicts.begin(), verdicts.end());
   diagram.series.push_back(std::move(predicted));
