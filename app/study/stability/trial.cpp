@@ -18,6 +18,10 @@ constexpr double start_speed = 0.01;     // m/s
 constexpr double greatest_rise = 100.0;  // of the kinetic energy at the start
 constexpr double rate_precision = 1.02;
 
+/// An empty body that grows out of its shape may come to rest in another one, folded, that costs
+/// its springs no energy: it has to be looked at on the way.
+constexpr int steps_per_look = 16;
+
 /// Backward Euler takes from a motion of a frequency w all but 1 / sqrt(1 + w^2) of its size in
 /// each of these steps of a second.
 constexpr int settling_steps = 200;
@@ -85,17 +89,20 @@ Trial try_step(const sim::World& at_rest, sim::Integrator integrator, int steps_
       options.most_steps, static_cast<std::int64_t>(std::ceil(options.seconds * steps_per_second)));
   while (world.steps < steps) {
     throw_if_interrupted();
-    const auto divergence = stepper.step(world);
-    if (!divergence) continue;
-    trial.verdict = sim::is_inversion(*divergence) ? Verdict::inverted : Verdict::diverged;
-    trial.reason = fmt::format("step {}: {}", divergence->step, divergence->what);
+    if (const auto divergence = stepper.step(world)) {
+      trial.verdict = sim::is_inversion(*divergence) ? Verdict::inverted : Verdict::diverged;
+      trial.reason = fmt::format("step {}: {}", divergence->step, divergence->what);
+      return trial;
+    }
+    if (world.steps % steps_per_look != 0 && world.steps < steps) continue;
+    const double rise = sim::energy(world).total() - before.total();
+    if (rise <= greatest_rise * before.kinetic) continue;
+    trial.verdict = Verdict::diverged;
+    trial.reason =
+        fmt::format("step {}: its energy rose by {:.3g} J, {:.3g} times what it moved with",
+                    world.steps, rise, rise / before.kinetic);
     return trial;
   }
-  const double rise = sim::energy(world).total() - before.total();
-  if (rise <= greatest_rise * before.kinetic) return trial;
-  trial.verdict = Verdict::diverged;
-  trial.reason = fmt::format("its energy rose by {:.3g} J, {:.3g} times what it moved with", rise,
-                             rise / before.kinetic);
   return trial;
 }
 
