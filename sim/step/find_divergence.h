@@ -1,5 +1,5 @@
 // Whether a step ended in a sound state. Looked for in every step: on the paper's sphere by rk4 it
-// costs less than a hundredth of the step, the volume, which is also computed for it, three.
+// costs 5 % of the step's 10.2 us, of which the volume 3 % and all else 2 %.
 #pragma once
 
 #include <optional>
