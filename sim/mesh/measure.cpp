@@ -1,5 +1,7 @@
 #include "sim/mesh/measure.h"
 
+#include "sim/mesh/row.h"
+
 namespace pneuma::sim {
 Bounds bounds(const VertexArray& positions) {
   Bounds result;
@@ -13,15 +15,16 @@ Vec3 mean(const VertexArray& values) {
 }
 
 double volume(const MeshTopology& topology, const VertexArray& positions) {
-  const Vec3 centre = mean(positions);
-  double six_volumes = 0.0;
-  for (const auto& [a, b, c] : topology.triangles()) {
-    const Vec3 from_a = positions[a] - centre;
-    const Vec3 from_b = positions[b] - centre;
-    const Vec3 from_c = positions[c] - centre;
-    six_volumes += from_a.dot(from_b.cross(from_c));
+  Eigen::Vector4d centre = Eigen::Vector4d::Zero();
+  centre.head<3>() = mean(positions);
+  const Row origin = load_row(centre.data());
+  const RowReader x(positions);
+  Row six_volumes{};
+  for (const auto& [first, second, third] : topology.triangles()) {
+    const Row a = x[first] - origin, b = x[second] - origin, c = x[third] - origin;
+    six_volumes += a * turned(b * turned(c) - turned(b) * c);  // a . (b x c), lane by lane
   }
-  return six_volumes / 6.0;
+  return sum_of_lanes(six_volumes) / 6.0;
 }
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a); }
