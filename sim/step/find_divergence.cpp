@@ -152,26 +152,24 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   return find_gained_energy(world, body, start);
 }
 
-std::optional<Divergence> find_divergence(const World& world) {
+std::optional<Divergence> find_divergence(const World& world, const SoftBody& body) {
   constexpr Stage stage = Stage::resolve_contacts;
-  for (const SoftBody& body : world.soft) {
-    if (auto wild = find_wild_vertex(world, stage, body)) return wild;
-    if (gas_strength(body.material) > 0.0 && !(volume(body.mesh->topology, body.positions) > 0.0)) {
-      const int vertex = fastest_vertex(body);
-      return failure(world, stage, body, vertex,
-                     std::string(pressed_flat) + ", to a volume of " +
-                         text(volume(body.mesh->topology, body.positions)) + " m^3" +
-                         fastest_text(body, vertex));
-    }
-  }
-  for (const RigidBox& box : world.rigid) {
-    const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
-                       box.orientation.coeffs().sum();
-    if (std::isfinite(sum)) continue;
-    return Divergence{stage, world.steps + 1, box.name,
-                      "its contacts gave it a position or velocity that is not a finite number"};
-  }
-  return std::nullopt;
+  if (auto wild = find_wild_vertex(world, stage, body)) return wild;
+  if (gas_strength(body.material) == 0.0) return std::nullopt;
+  const double left = volume(body.mesh->topology, body.positions);
+  if (left > 0.0) return std::nullopt;
+  const int vertex = fastest_vertex(body);
+  return failure(world, stage, body, vertex,
+                 std::string(pressed_flat) + ", to a volume of " + text(left) + " m^3" +
+                     fastest_text(body, vertex));
+}
+
+std::optional<Divergence> find_divergence(const World& world, const RigidBox& box) {
+  const double sum = box.position.sum() + box.velocity.sum() + box.angular_velocity.sum() +
+                     box.orientation.coeffs().sum();
+  if (std::isfinite(sum)) return std::nullopt;
+  return Divergence{Stage::resolve_contacts, world.steps + 1, box.name,
+                    "its contacts gave it a position or velocity that is not a finite number"};
 }
 
 bool is_inversion(const Divergence& divergence) {

@@ -26,8 +26,9 @@ inline constexpr double greatest_growth = 64.0;
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
                                           const SoftState& start, double least_volume);
 
-/// After resolve_contacts: the first of all bodies.
-std::optional<Divergence> find_divergence(const World& world);
+/// After resolve_contacts.
+std::optional<Divergence> find_divergence(const World& world, const SoftBody& body);
+std::optional<Divergence> find_divergence(const World& world, const RigidBox& box);
 
 /// Whether it is that a body became flat or turned inside out.
 bool is_inversion(const Divergence& divergence);

@@ -226,6 +226,23 @@ void remember(World& world, const StepWorkspace& workspace) {
             [](const RestingImpulse& a, const RestingImpulse& b) { return boxes(a) < boxes(b); });
 }
 
+/// The last look at a step: the first of all bodies.
+std::optional<Divergence> find_first_divergence(const World& world, StepWorkspace& workspace) {
+  const auto block = [&world, &workspace](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) {
+      workspace.soft_outcome[at(i)] = find_divergence(world, world.soft[at(i)]);
+    }
+  };
+  workspace.workers.for_blocks(static_cast<int>(world.soft.size()), block);
+  for (const std::optional<Divergence>& outcome : workspace.soft_outcome) {
+    if (outcome) return outcome;
+  }
+  for (const RigidBox& box : world.rigid) {
+    if (auto divergence = find_divergence(world, box)) return divergence;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspace) {
@@ -241,7 +258,7 @@ std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspac
   } else {
     separate(world, workspace);
   }
-  if (auto divergence = find_divergence(world)) return divergence;
+  if (auto divergence = find_first_divergence(world, workspace)) return divergence;
   remember(world, workspace);
   return std::nullopt;
 }
