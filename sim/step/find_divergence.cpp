@@ -62,8 +62,8 @@ std::optional<Divergence> find_lost_volume(const World& world, Stage stage, cons
   const MeshTopology& topology = body.mesh->topology;
   const double end = volume(topology, body.positions);
   const double least = least_volume < end || std::isnan(least_volume) ? least_volume : end;
-  const int vertex = fastest_vertex(body);
   const auto report = [&](const std::string& what) {
+    const int vertex = fastest_vertex(body);
     return failure(world, stage, body, vertex,
                    "its volume " + what + text(volume(topology, start.positions)) +
                        " m^3 before the step" + fastest_text(body, vertex));
