@@ -1,8 +1,8 @@
 // Four doubles that are added and multiplied at once: a vertex, x y z 0, in a register.
 //
 // GCC's and Clang's vector types, in which + - * / and products with a double act on every lane:
-// one AVX register where there is AVX, several smaller ones elsewhere. For the loops over springs
-// and rings; Eigen 3.4 cannot permute the lanes of four doubles, which cross products and turning
+// one AVX register where there is AVX, several smaller ones elsewhere. For the loops over springs,
+// rings, triangles and particles; Eigen 3.4 cannot permute the lanes of four doubles, which cross products and turning
 // rows into columns need.
 #pragma once
 
