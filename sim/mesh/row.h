@@ -2,8 +2,8 @@
 //
 // GCC's and Clang's vector types, in which + - * / and products with a double act on every lane:
 // one AVX register where there is AVX, several smaller ones elsewhere. For the loops over springs,
-// rings, triangles and particles; Eigen 3.4 cannot permute the lanes of four doubles, which cross products and turning
-// rows into columns need.
+// rings, triangles and particles; Eigen 3.4 cannot permute the lanes of four doubles, which cross
+// products and turning rows into columns need.
 #pragma once
 
 #include <Eigen/Core>
