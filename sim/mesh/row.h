@@ -7,9 +7,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstring>
 
+#include "sim/mesh/triangle_mesh.h"
 #include "sim/mesh/vertex_array.h"
 
 // Without AVX, GCC remarks that code compiled with it would pass a Row in another way. Here nothing
@@ -59,6 +61,32 @@ inline Row square_root(Row row) {
 }
 
 inline double sum_of_lanes(Row row) { return row[0] + row[1] + row[2] + row[3]; }
+
+inline Row to_row(const Vec3& v) { return Row{v.x(), v.y(), v.z(), 0.0}; }
+inline Vec3 to_vec3(Row row) { return {row[0], row[1], row[2]}; }
+
+/// Of rows x y z 0.
+inline Row cross(Row a, Row b) { return turned(a * turned(b) - turned(a) * b); }
+inline double dot(Row a, Row b) {
+  const Row products = a * b;
+  return products[0] + products[1] + products[2];
+}
+
+/// A 3 x 3 matrix by its columns, each x y z 0.
+struct RowMatrix {
+  std::array<Row, 3> columns;
+
+  Row operator*(Row v) const { return columns[0] * v[0] + (columns[1] * v[1] + columns[2] * v[2]); }
+};
+
+inline RowMatrix row_matrix(const Mat3& matrix) {
+  return {{to_row(matrix.col(0)), to_row(matrix.col(1)), to_row(matrix.col(2))}};
+}
+
+inline RowMatrix transposed(const RowMatrix& m) {
+  const auto& [a, b, c] = m.columns;
+  return {{Row{a[0], b[0], c[0], 0.0}, Row{a[1], b[1], c[1], 0.0}, Row{a[2], b[2], c[2], 0.0}}};
+}
 
 /// The coordinates of four vertices.
 struct Columns {

@@ -15,8 +15,16 @@ struct Impulse {
 /// that always trembles a little rests better without.
 inline constexpr double least_bounce_speed = 0.01;
 
+/// What friction has to move: the inverse of the mobility across the normal, kg, and the least mass
+/// along any direction.
+struct TangentMass {
+  double first, across, second;  // of the symmetric 2 x 2 matrix
+  double least;
+};
+
 class ContactImpulse {
  public:
+  ContactImpulse() = default;  // for a place in a list
   /// `start_approach` (m/s): how fast the sides approached along the normal at the start of the
   /// step. They will part with the restitution's share of it: of what forces add within the step
   /// nothing comes back, or bodies at rest would bounce for ever.
@@ -45,35 +53,36 @@ class ContactImpulse {
 
   const Impulse& impulse() const { return impulse_; }
   Vec3 total() const {
-    return axes_ * Vec3(impulse_.normal, impulse_.friction.x(), impulse_.friction.y());
+    return to_vec3(axes_ * Row{impulse_.normal, impulse_.friction.x(), impulse_.friction.y(), 0.0});
   }
   bool sticks() const { return sticks_; }  // friction is below its limit
 
   /// Moves the sides apart, shared by their inverse masses, until they have moved by `share` of
-  /// the contact's depth since this was made.
-  void separate(double share) const;
+  /// the contact's depth since this was made. Returns whether that moved anything.
+  bool separate(double share) const;
 
  private:
-  Vec3 normal() const { return axes_.col(0); }
-  /// All within the contact's axes. An impulse changes the relative velocity through `mobility_`.
-  Vec3 relative_velocity() const;
-  void apply(const Vec3& impulse) const;
-  double correct_normal(Vec3& velocity);
-  double most_without_gain(double parting) const;
-  void correct_friction(const Vec3& velocity, Vec3& change);
+  /// All within the contact's axes: rows normal, first tangent, second tangent, 0. An impulse
+  /// changes the relative velocity through `mobility_`.
+  inline Row relative_velocity() const;
+  inline void apply(Row impulse) const;
+  inline double correct_normal(double parting);
+  inline double most_without_gain(double parting) const;
+  inline Row correct_friction(Row velocity);
 
   SideInContact first_;
   SideInContact second_;
-  Mat3 axes_;                             // columns: the normal, and two tangents
-  Mat3 mobility_;                         // of both sides, in these axes, 1/kg
-  double normal_mass_;                    // kg, 1 / mobility along the normal
-  std::array<double, 2> tangent_masses_;  // kg
-  double depth_;
-  double start_gap_;  // m along the normal, first's place less second's, when this was made
-  double friction_;
+  RowMatrix axes_{};          // columns: the normal, and two tangents
+  RowMatrix to_axes_{};       // transposed
+  RowMatrix mobility_{};      // of both sides, in these axes, 1/kg
+  double normal_mass_ = 0.0;  // kg, 1 / mobility along the normal
+  TangentMass tangent_mass_{};
+  double depth_ = 0.0;
+  double start_gap_ = 0.0;  // m along the normal, first's place less second's, when this was made
+  double friction_ = 0.0;
   double target_ = 0.0;        // m/s with which the sides part; negative: may still approach
   double bounce_speed_ = 0.0;  // m/s, the target once they have been stopped
-  double* work_;               // J, shared
+  double* work_ = nullptr;     // J, shared
   Impulse impulse_;
   bool sticks_ = false;
 };

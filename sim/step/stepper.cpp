@@ -82,7 +82,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       exact(at(options.threads)),
       columns(at(options.threads)),
       found(at(options.threads - 1)),
-      coupling(world) {}
+      islands(world) {}
 
 Stepper::Stepper(const World& world, StepperOptions options)
     : workspace_(std::make_unique<StepWorkspace>(world, std::move(options))) {}

@@ -11,7 +11,8 @@
 #include "sim/collision/find_soft_soft.h"
 #include "sim/collision/particles.h"
 #include "sim/collision/triangle_columns.h"
-#include "sim/response/contact_coupling.h"
+#include "sim/response/contact_impulse.h"
+#include "sim/response/contact_islands.h"
 #include "sim/soft/integrators.h"
 #include "sim/step/stepper.h"
 #include "sim/step/workers.h"
@@ -63,9 +64,10 @@ struct StepWorkspace {
   std::vector<Contact> contacts;
   std::vector<VertexArray> before_contacts;  // positions per soft body, of implicit integrators
   std::vector<BoxMass> box_masses;
-  std::vector<double> pair_work;         // J, by the contacts of each pair of bodies
-  std::vector<ContactImpulse> impulses;  // per contact
-  ContactCoupling coupling;
+  ContactIslands islands;
+  // At least as many as the islands have contacts, in their order.
+  std::vector<ContactImpulse> impulses;
+  std::vector<double> pair_work;  // J, by the contacts of each pair of bodies in an island
   StageTimes stage_times{};
 };
 

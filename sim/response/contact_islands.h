@@ -1,0 +1,62 @@
+// Which contacts of a step feel each other.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/collision/contact.h"
+#include "sim/world.h"
+
+namespace pneuma::sim {
+
+/// Of a vertex of a soft body on the ground.
+inline bool is_soft_ground(const Contact& contact) {
+  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::ground;
+}
+
+/// Contacts that share a box or a soft body's vertex, directly or through others, make an island:
+/// what happens in one does not reach another within the step, so that each is resolved for itself,
+/// for as long as it needs, by any thread. Most vertices that lie on the ground touch nothing else:
+/// they are kept apart, as what such a contact does is known in closed form
+/// (sim/response/vertex_on_ground.h).
+class ContactIslands {
+ public:
+  explicit ContactIslands(const World& world);
+
+  /// Contacts are known by their numbers in `contacts` from here on.
+  void divide(std::span<const Contact> contacts);
+
+  /// Soft vertices on the ground that touch nothing else.
+  std::span<const int> alone() const { return alone_; }
+
+  int count() const { return static_cast<int>(start_.size()) - 1; }
+  /// The contacts of an island in the order in which they were found: what `ordered` has from
+  /// begin(island) on.
+  std::span<const int> island(int island) const;
+  int begin(int island) const { return start_[at(island)]; }
+  /// All but those alone, island by island.
+  std::span<const int> ordered() const { return ordered_; }
+
+ private:
+  template <class Visit>
+  void for_nodes(const ContactSide& side, const Visit& visit);
+  void join(int contact, const ContactSide& side);
+  int root(int contact);
+  void collect_members(std::span<const Contact> contacts);
+  void sort_members();
+  void forget(std::span<const Contact> contacts);
+
+  std::vector<const MeshTopology*> topologies_;  // of the soft bodies
+  std::vector<std::vector<int>>
+      vertex_contact_;            // a contact at each vertex; -1, also between calls
+  std::vector<int> box_contact_;  // likewise
+  std::vector<int> parent_;       // per contact, towards the first contact of its island
+  std::vector<int> island_;       // per contact, of the first of an island
+  std::vector<int> members_;
+  std::vector<int> alone_;
+  std::vector<int> ordered_;
+  std::vector<int> start_{0};
+  std::vector<int> next_;
+};
+
+}  // namespace pneuma::sim

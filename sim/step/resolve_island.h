@@ -1,0 +1,40 @@
+// The contacts of one island: impulses, friction and separation. Private to sim/step.
+#pragma once
+
+#include <utility>
+
+#include "sim/step/workspace.h"
+
+namespace pneuma::sim {
+
+/// Whether the contact is between boxes, or a box and the ground: one that can rest.
+inline bool is_rigid(const Contact& contact) {
+  return contact.first.kind == BodyKind::rigid && contact.second.kind != BodyKind::soft;
+}
+
+/// Boxes of a resting contact; -1 for the ground.
+inline std::pair<int, int> boxes(const Contact& contact) {
+  return {contact.first.body, contact.second.kind == BodyKind::ground ? -1 : contact.second.body};
+}
+
+inline std::pair<int, int> boxes(const RestingImpulse& resting) {
+  return {resting.first, resting.second};
+}
+
+/// Where a resting contact acts, in the first box's own axes, m from its centre.
+inline Vec3 place_on_first(const World& world, const Contact& contact) {
+  const RigidBox& box = world.rigid[at(contact.first.body)];
+  return box.orientation.conjugate() * (contact.point - box.position);
+}
+
+/// Stops the sides of its contacts, lets them bounce, moves them apart. Islands do not touch each
+/// other's vertices and boxes.
+void resolve_island(World& world, StepWorkspace& workspace, int number);
+
+/// A vertex is put back onto the ground (3.1.4). One that friction holds is also put where it would
+/// be had it slowed down evenly over the step; left where the step's forces carried it, it would
+/// creep down the gentlest slope.
+void put_onto_ground(World& world, const StepWorkspace& workspace, const Contact& contact,
+                     bool sticks);
+
+}  // namespace pneuma::sim
