@@ -46,7 +46,8 @@ void add_body_particles(const sim::World& world, std::span<const sim::Contact> c
   const sim::MeshTopology& mesh = soft.mesh->topology;
   const Colour& hue = body_hues[sim::at(body) % body_hues.size()];
   for (const int id : features) {
-    const render::Vec3f place = sim::feature_centre({mesh, soft.positions}, id).cast<float>();
+    const render::Vec3f place =
+        sim::to_vec3(sim::feature_centre({mesh, soft.positions}, id)).cast<float>();
     const bool touching = touches(world, contacts, body, other, mesh.feature(id));
     if (touching) frame.points.push_back({place, white, ring_diameter});
     frame.points.push_back({place, hue, touching ? touching_diameter : free_diameter});

@@ -115,7 +115,7 @@ struct ParticlePair {
   int second = 0;
   std::vector<int> first_features;   // feature ids on `first`
   std::vector<int> second_features;  // feature ids on `second`
-  bool near = false;                 // their bounding spheres overlapped in the last step
+  bool near = false;                 // in the last step they might have touched
 };
 
 struct World {

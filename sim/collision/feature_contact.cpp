@@ -43,9 +43,8 @@ Feature part_of(const MeshTopology& topology, Feature feature, FeaturePart part)
   return {FeatureKind::edge, topology.triangle_edges()[at(feature.index)][i]};
 }
 
-/// Section 5.3.1, ERRATA row 20: away from the higher-order feature towards the lower-order one,
-/// and for equal orders away from the second. It is the surface's own normal, not the direction
-/// between the nearest points, so that it still points out of bodies that overlap.
+}  // namespace
+
 Vec3 contact_normal(const SurfaceView& first, const SurfaceView& second,
                     const FeatureContact& contact) {
   const bool away_from_second = contact.second.kind >= contact.first.kind;
@@ -57,23 +56,28 @@ Vec3 contact_normal(const SurfaceView& first, const SurfaceView& second,
   return contact.distance > 0.0 ? Vec3(apart / contact.distance) : Vec3::UnitZ();
 }
 
-}  // namespace
-
-std::optional<FeatureContact> find_feature_contact(const SurfaceView& first, Feature first_feature,
-                                                   const SurfaceView& second,
-                                                   Feature second_feature, double reach) {
+std::optional<FeatureContact> find_touching_parts(const SurfaceView& first, Feature first_feature,
+                                                  const SurfaceView& second, Feature second_feature,
+                                                  double reach) {
   const bool in_order = first_feature.kind <= second_feature.kind;
   auto near = in_order ? test_ordered(first, first_feature, second, second_feature, reach)
                        : test_ordered(second, second_feature, first, first_feature, reach);
   if (!near) return {};
   if (!in_order) near = mirrored(*near);
 
-  FeatureContact contact{.first = part_of(first.topology, first_feature, near->first),
-                         .second = part_of(second.topology, second_feature, near->second),
-                         .first_point = near->first_point,
-                         .second_point = near->second_point,
-                         .distance = near->distance};
-  contact.normal = contact_normal(first, second, contact);
+  return FeatureContact{.first = part_of(first.topology, first_feature, near->first),
+                        .second = part_of(second.topology, second_feature, near->second),
+                        .first_point = near->first_point,
+                        .second_point = near->second_point,
+                        .normal = Vec3::Zero(),
+                        .distance = near->distance};
+}
+
+std::optional<FeatureContact> find_feature_contact(const SurfaceView& first, Feature first_feature,
+                                                   const SurfaceView& second,
+                                                   Feature second_feature, double reach) {
+  auto contact = find_touching_parts(first, first_feature, second, second_feature, reach);
+  if (contact) contact->normal = contact_normal(first, second, *contact);
   return contact;
 }
 

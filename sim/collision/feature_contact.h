@@ -23,4 +23,15 @@ std::optional<FeatureContact> find_feature_contact(const SurfaceView& first, Fea
                                                    const SurfaceView& second,
                                                    Feature second_feature, double reach);
 
+/// The same but for the normal, which is zero.
+std::optional<FeatureContact> find_touching_parts(const SurfaceView& first, Feature first_feature,
+                                                  const SurfaceView& second, Feature second_feature,
+                                                  double reach);
+
+/// Section 5.3.1, ERRATA row 20: away from the higher-order feature towards the lower-order one,
+/// and for equal orders away from the second. It is the surface's own normal, not the direction
+/// between the nearest points, so that it still points out of bodies that overlap.
+Vec3 contact_normal(const SurfaceView& first, const SurfaceView& second,
+                    const FeatureContact& contact);
+
 }  // namespace pneuma::sim

@@ -129,6 +129,21 @@ void offer_edge_face(NearestPair& nearest, const NamedEdge& edge, double from_he
   nearest.offer(edge.interior(crossing), {crossing, {FeatureKind::triangle, 0}});
 }
 
+/// The point of the first edge where the lines are nearest, t along it, and what is nearest to that
+/// on the second; if that is an end, what is nearest to the end on the first. The squared distance
+/// is a convex function of where the points are on their edges, and this its least value (Ericson,
+/// Real-Time Collision Detection, 5.1.9). However inexact t is for nearly parallel edges, moving
+/// along them hardly changes the distance.
+void offer_skew_edges(NearestPair& nearest, const NamedEdge& first, const NamedEdge& second,
+                      double t) {
+  const PointOn start = t <= 0.0   ? first.start()
+                        : t >= 1.0 ? first.end()
+                                   : first.interior(first.from + t * (first.to - first.from));
+  const PointOn other = nearest_on_edge(start.position, second);
+  const bool at_end = other.part.kind == FeatureKind::vertex;
+  nearest.offer(at_end ? nearest_on_edge(other.position, first) : start, other);
+}
+
 /// Section 5.2.1.1.4. The line A + t n of the first edge meets the endless cylinder of the reach r
 /// about the second, P + s d, where a t^2 + 2 b t + c = 0 with m = A - P, a = (d x n)^2,
 /// b = (d x m).(d x n), c = (d x m)^2 - r^2 d^2. The middle of the two roots, t = -b / a, is where
@@ -146,12 +161,7 @@ void offer_edge_edge(NearestPair& nearest, const NamedEdge& first, const NamedEd
   const double gap = m.dot(across);
   const bool parallel = a <= squared_sine_of_parallel * n.squaredNorm() * d.squaredNorm();
   if (!parallel && gap * gap > nearest.squared_reach() * a) return;
-  // However inexact t is for nearly parallel edges, moving along them hardly changes the distance.
-  const double t = a > 0.0 ? -d.cross(m).dot(across) / a : 0.0;
-  if (t > 0.0 && t < 1.0) {
-    const Vec3 middle = first.from + t * n;
-    nearest.offer(first.interior(middle), nearest_on_edge(middle, second));
-  }
+  if (!parallel) return offer_skew_edges(nearest, first, second, -d.cross(m).dot(across) / a);
   nearest.offer(first.start(), nearest_on_edge(first.from, second));
   nearest.offer(first.end(), nearest_on_edge(first.to, second));
   nearest.offer(nearest_on_edge(second.from, first), second.start());

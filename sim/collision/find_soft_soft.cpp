@@ -11,13 +11,14 @@ namespace {
 using Ball = SoftSoftScratch::Ball;
 
 Ball feature_ball(const SurfaceView& surface, int feature_id) {
-  Ball ball{feature_centre(surface, feature_id), 0.0};
+  const Row centre = feature_centre(surface, feature_id);
+  const RowReader positions(surface.positions);
   double squared = 0.0;
-  for (const int v : surface.topology.feature_vertices(surface.topology.feature(feature_id))) {
-    squared = std::max(squared, (surface.positions[v] - ball.centre).squaredNorm());
+  for (const int v : surface.topology.feature_corners(feature_id).vertices) {
+    const Row offset = positions[v] - centre;
+    squared = std::max(squared, dot(offset, offset));
   }
-  ball.radius = std::sqrt(squared);
-  return ball;
+  return {to_vec3(centre), std::sqrt(squared)};
 }
 
 void make_balls(const SurfaceView& surface, const std::vector<int>& features,
@@ -72,14 +73,15 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
   for (std::size_t i = 0; i < scratch.first.size(); ++i) {
     for (std::size_t j = 0; j < scratch.second.size(); ++j) {
       if (!within(scratch.first[i], scratch.second[j], 2.0 * skin)) continue;
-      const auto found =
-          find_feature_contact(first, first.topology.feature(pair.first_features[i]), second,
-                               second.topology.feature(pair.second_features[j]), 2.0 * skin);
+      auto found =
+          find_touching_parts(first, first.topology.feature(pair.first_features[i]), second,
+                              second.topology.feature(pair.second_features[j]), 2.0 * skin);
       if (!found) continue;
       const auto known =
           std::find_if(contacts.begin() + start, contacts.end(),
                        [&](const Contact& contact) { return same_features(contact, *found); });
       if (known != contacts.end()) continue;
+      found->normal = contact_normal(first, second, *found);
       contacts.push_back(soft_soft_contact(pair.first, pair.second, *found, skin));
     }
   }

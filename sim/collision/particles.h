@@ -41,7 +41,4 @@ int settle_particles(const SurfaceView& first, const SurfaceView& second,
                      const ParticleSettings& settings, double least_distance, ParticlePair& pair,
                      ParticleScratch& scratch);
 
-/// The middle of a feature: the mean of its vertices.
-Vec3 feature_centre(const SurfaceView& surface, int feature_id);
-
 }  // namespace pneuma::sim

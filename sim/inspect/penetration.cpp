@@ -38,7 +38,7 @@ double depth_in_soft(const Shapes& shapes, int soft, const Vec3& point) {
 template <class Look>
 void sample_surface(const SurfaceView& surface, const Look& look) {
   for (int feature = 0; feature < surface.topology.feature_count(); ++feature) {
-    look(feature_centre(surface, feature));
+    look(to_vec3(feature_centre(surface, feature)));
   }
 }
 

@@ -152,6 +152,9 @@ void MeshTopology::link_features() {
   }
   vertex_indices_.resize(at(vertex_count_));
   std::iota(vertex_indices_.begin(), vertex_indices_.end(), 0);
+  for (const int v : vertex_indices_) feature_corners_.push_back({{v, v, v}, FeatureKind::vertex});
+  for (const auto& [a, b] : edges_) feature_corners_.push_back({{a, b, a}, FeatureKind::edge});
+  for (const Triangle& t : triangles_) feature_corners_.push_back({t, FeatureKind::triangle});
 }
 
 int MeshTopology::feature_id(Feature feature) const {

@@ -76,6 +76,13 @@ class MeshTopology {
   /// The one, two or three vertices of a feature.
   std::span<const int> feature_vertices(Feature feature) const;
 
+  /// The same for loops over all kinds of features, which then need not ask which they have.
+  struct FeatureCorners {
+    std::array<int, 3> vertices;  // the first again in the place of those it does not have
+    FeatureKind kind;
+  };
+  const FeatureCorners& feature_corners(int id) const { return feature_corners_[at(id)]; }
+
  private:
   template <class T>
   static std::span<const T> slice(const std::vector<T>& values, const std::vector<int>& start,
@@ -98,6 +105,7 @@ class MeshTopology {
   std::vector<int> vertex_triangles_;
   std::vector<int> feature_start_;
   std::vector<int> feature_neighbours_;
+  std::vector<FeatureCorners> feature_corners_;
   std::vector<int> vertex_indices_;  // 0, 1, 2, ...: what feature_vertices of a vertex points into
 };
 

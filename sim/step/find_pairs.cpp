@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/collision/approach.h"
 #include "sim/collision/find_body_contacts.h"
 #include "sim/collision/particles.h"
 #include "sim/step/stages.h"
@@ -25,6 +26,33 @@ void make_spheres(const World& world, StepWorkspace& workspace) {
     const double gap = resting_lengths(box.size.minCoeff()).gap;
     spheres.push_back({box.position, 0.5 * box.size.norm() + gap});
   }
+}
+
+/// So many steps before bodies touch their particles begin to walk. Bodies that are only neighbours
+/// cost no more than a look.
+constexpr double steps_ahead = 4.0;
+
+/// Leaves only the pairs of soft bodies that may touch.
+void leave_out_parted(const World& world, StepWorkspace& workspace) {
+  std::vector<BodyPair>& pairs = workspace.soft_pairs;
+  workspace.touches.resize(pairs.size());
+  const auto block = [&world, &workspace](int begin, int end, int) {
+    const double reach = 2.0 * world.settings.skin_thickness;
+    const double seconds = steps_ahead * time_step(world.settings);
+    for (int i = begin; i < end; ++i) {
+      const auto& [first, second] = workspace.soft_pairs[at(i)];
+      const Vec3 direction =
+          workspace.spheres[at(second)].centre - workspace.spheres[at(first)].centre;
+      workspace.touches[at(i)] =
+          may_touch(world.soft[at(first)], world.soft[at(second)], direction, reach, seconds);
+    }
+  };
+  workspace.workers.for_blocks(static_cast<int>(pairs.size()), block);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (workspace.touches[i]) pairs[left++] = pairs[i];
+  }
+  pairs.resize(left);
 }
 
 /// The particles of a pair, made when it meets for the first time.
@@ -68,6 +96,7 @@ void find_pairs(World& world, StepWorkspace& workspace) {
       workspace.rigid_pairs.push_back({first - soft, second - soft});
     }
   }
+  leave_out_parted(world, workspace);
   if (world.settings.soft_search == SoftSearch::particles) mark_near(world, workspace.soft_pairs);
 }
 

@@ -11,8 +11,8 @@ std::optional<Divergence> integrate_soft(World& world, StepWorkspace& workspace)
 /// Free motion of every box (4.1). Returns the first box's failure.
 std::optional<Divergence> integrate_rigid(World& world, StepWorkspace& workspace);
 
-/// Bodies whose bounding spheres overlap (5.1); soft pairs get their particles, if they are
-/// searched by them.
+/// Bodies whose bounding spheres overlap (5.1), of soft ones those that nothing plain keeps apart;
+/// soft pairs get their particles, if they are searched by them.
 void find_pairs(World& world, StepWorkspace& workspace);
 
 /// Lets the particles of all near pairs walk (5.2.1).

@@ -2,6 +2,7 @@
 // sim/step.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,6 +55,7 @@ struct StepWorkspace {
   PairFinder pair_finder;
   std::vector<BodyPair> pairs;              // of spheres
   std::vector<BodyPair> soft_pairs;         // of soft bodies
+  std::vector<std::uint8_t> touches;        // whether each of them may
   std::vector<BodyPair> soft_rigid_pairs;   // first: soft body, second: box
   std::vector<BodyPair> rigid_pairs;        // of boxes
   std::vector<ParticleScratch> particles;   // per thread
