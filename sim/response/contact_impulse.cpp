@@ -31,22 +31,23 @@ TangentMass tangent_mass(const RowMatrix& mobility) {
 }  // namespace
 
 Row ContactImpulse::relative_velocity() const {
-  return to_axes_ * (first_.velocity() - second_.velocity());
+  return to_axes_ * (first_.velocity() - second_.velocity()) +
+         (first_.turning_velocity() - second_.turning_velocity());
 }
 
 void ContactImpulse::apply(Row impulse) const {
   const Row in_world = axes_ * impulse;
-  first_.apply(in_world);
-  second_.apply(-in_world);
+  first_.apply(in_world, impulse);
+  second_.apply(-in_world, -impulse);
 }
 
 ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
                                const Contact& contact, double start_approach, double& work)
-    : first_(world, masses, contact.first, contact.point),
-      second_(world, masses, contact.second, contact.point),
-      axes_(contact_axes(contact.normal)),
+    : axes_(contact_axes(contact.normal)),
       to_axes_(transposed(axes_)),
-      mobility_(sum(first_.mobility(axes_), second_.mobility(axes_))),
+      first_(world, masses, contact.first, contact.point, axes_),
+      second_(world, masses, contact.second, contact.point, axes_),
+      mobility_(sum(first_.mobility(), second_.mobility())),
       normal_mass_(1.0 / mobility_.columns[0][0]),
       tangent_mass_(tangent_mass(mobility_)),
       depth_(contact.depth),

@@ -70,10 +70,10 @@ class ContactImpulse {
   inline double most_without_gain(double parting) const;
   inline Row correct_friction(Row velocity);
 
+  RowMatrix axes_{};     // columns: the normal, and two tangents
+  RowMatrix to_axes_{};  // transposed
   SideInContact first_;
   SideInContact second_;
-  RowMatrix axes_{};          // columns: the normal, and two tangents
-  RowMatrix to_axes_{};       // transposed
   RowMatrix mobility_{};      // of both sides, in these axes, 1/kg
   double normal_mass_ = 0.0;  // kg, 1 / mobility along the normal
   TangentMass tangent_mass_{};

@@ -12,7 +12,7 @@ BoxMass box_mass(const RigidBox& box) {
 }
 
 SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, const ContactSide& side,
-                             const Vec3& point) {
+                             const Vec3& point, const RowMatrix& axes) {
   switch (side.kind) {
     case BodyKind::soft: {
       soft_ = &world.soft[at(side.body)];
@@ -27,9 +27,15 @@ SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, cons
     }
     case BodyKind::rigid: {
       box_ = &world.rigid[at(side.body)];
-      mass_ = &masses[at(side.body)];
-      inverse_mass_ = mass_->inverse_mass;
-      arm_ = to_row(point - box_->position);
+      const BoxMass& mass = masses[at(side.body)];
+      inverse_mass_ = mass.inverse_mass;
+      const Row arm = to_row(point - box_->position);
+      RowMatrix moments;
+      for (std::size_t i = 0; i < 3; ++i) {
+        moments.columns[i] = cross(arm, axes.columns[i]);
+        turning_.columns[i] = mass.inverse_inertia * moments.columns[i];
+      }
+      moments_along_ = transposed(moments);
       break;
     }
     case BodyKind::ground:
@@ -37,16 +43,11 @@ SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, cons
   }
 }
 
-RowMatrix SideInContact::mobility(const RowMatrix& axes) const {
+RowMatrix SideInContact::mobility() const {
   RowMatrix result{{Row{inverse_mass_, 0.0, 0.0, 0.0}, Row{0.0, inverse_mass_, 0.0, 0.0},
                     Row{0.0, 0.0, inverse_mass_, 0.0}}};
   if (!box_) return result;
-  RowMatrix moments;
-  for (int i = 0; i < 3; ++i) moments.columns[at(i)] = cross(arm_, axes.columns[at(i)]);
-  const RowMatrix along = transposed(moments);
-  for (int i = 0; i < 3; ++i) {
-    result.columns[at(i)] += along * (mass_->inverse_inertia * moments.columns[at(i)]);
-  }
+  for (std::size_t i = 0; i < 3; ++i) result.columns[i] += moments_along_ * turning_.columns[i];
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "sim/mesh/row.h"
 
@@ -79,9 +80,8 @@ void make_impulses(World& world, StepWorkspace& workspace, const Island& island)
     const Contact& contact = island.contact(i);
     if (i > 0 && !are_of_same_bodies(island.contact(i - 1), contact)) pair = i;
     island.work(i) = 0.0;
-    island.impulse(i) =
-        ContactImpulse(world, workspace.box_masses, contact,
-                       start_approach(world, workspace, contact), island.work(pair));
+    std::construct_at(&island.impulse(i), world, workspace.box_masses, contact,
+                      start_approach(world, workspace, contact), island.work(pair));
   }
 }
 
