@@ -131,7 +131,9 @@ Section simulation_section(sim::Settings& settings) {
           {"separation_time", &settings.separation_time, at_least(0), "s",
            "in which soft features that overlap part by a factor e; 0: at once, as in the paper"},
           {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",
-           "over all contacts of a step"},
+           "over contacts that hang together; at most 3 if no box is among them that rests on "
+           "another or "
+           "the ground"},
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

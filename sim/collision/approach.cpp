@@ -8,9 +8,6 @@
 namespace pneuma::sim {
 namespace {
 
-/// Four lanes, so that the comparisons of a vertex need not wait for those of the last.
-Row lesser(Row a, Row b) { return a < b ? a : b; }
-
 double least_of(Row row) { return std::min({row[0], row[1], row[2], row[3]}); }
 
 /// How far a body reaches along an axis now and later, the lesser of the two.

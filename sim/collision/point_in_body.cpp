@@ -48,21 +48,30 @@ bool crosses_above(const VertexArray& positions, const Triangle& triangle, const
   return p.z + t * (q.z - p.z) > point.z();
 }
 
-/// The nearest vertex: no triangle that is farther away than it can hold the nearest point.
-double distance_to_vertices(const VertexArray& positions, const Vec3& point) {
-  const Eigen::Vector4d row(point.x(), point.y(), point.z(), 0.0);
+/// A vertex of those triangles above and below the point that is nearest to it: no triangle that is
+/// farther away can hold the nearest point of all.
+double distance_to_some_vertex(const SurfaceView& surface, std::span<const int> triangles,
+                               const Vec3& point) {
+  const RowReader positions(surface.positions);
+  const Row place = to_row(point);
   double squared = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < positions.size(); ++i) {
-    squared = std::min(squared, (positions.rows().col(i) - row).squaredNorm());
+  for (const int t : triangles) {
+    for (const int v : surface.topology.triangles()[at(t)]) {
+      const Row offset = positions[v] - place;
+      squared = std::min(squared, dot(offset, offset));
+    }
   }
   return std::sqrt(squared);
 }
 
 /// Whether the triangle's bounding box is farther from the point than `reach` along some axis.
-bool is_beyond(const Corners& t, const Vec3& point, double reach) {
-  const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]);
-  const Vec3 high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
-  return (low - point).cwiseMax(point - high).maxCoeff() > reach;
+bool is_beyond(const SurfaceView& surface, int triangle, Row point, double reach) {
+  const auto& [v0, v1, v2] = surface.topology.triangles()[at(triangle)];
+  const RowReader positions(surface.positions);
+  const Row a = positions[v0] - point, b = positions[v1] - point, c = positions[v2] - point;
+  const Row above = lesser(lesser(a, b), c) - reach, below = lesser(lesser(-a, -b), -c) - reach;
+  const Row outside = lesser(-above, -below);
+  return outside[0] < 0.0 || outside[1] < 0.0 || outside[2] < 0.0;
 }
 
 }  // namespace
@@ -105,13 +114,12 @@ std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
   if (!is_inside(surface, columns, point)) return {};
 
   SurfaceExit exit;
-  exit.depth = distance_to_vertices(surface.positions, point);
+  exit.depth = distance_to_some_vertex(surface, columns.at_line_through(point), point);
   double facing = 0.0;
   const auto reach = [&] { return exit.depth * (1.0 + same_distance); };  // shrinks
   columns.for_each_near(point, reach(), [&](int triangle) {
-    const Corners corners = triangle_corners(surface, triangle);
-    if (is_beyond(corners, point, reach())) return;
-    const auto near = test_vertex_triangle(point, corners, reach());
+    if (is_beyond(surface, triangle, to_row(point), reach())) return;
+    const auto near = test_vertex_triangle(point, triangle_corners(surface, triangle), reach());
     if (!near) return;
     const Vec3 normal = feature_normal(surface, {FeatureKind::triangle, triangle});
     const double height = (near->second_point - point).dot(normal);

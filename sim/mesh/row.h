@@ -60,6 +60,8 @@ inline Row square_root(Row row) {
   return load_row(lanes.data());
 }
 
+inline Row lesser(Row a, Row b) { return a < b ? a : b; }
+
 inline double sum_of_lanes(Row row) { return row[0] + row[1] + row[2] + row[3]; }
 
 inline Row to_row(const Vec3& v) { return Row{v.x(), v.y(), v.z(), 0.0}; }

@@ -12,6 +12,11 @@ namespace {
 /// Of moving boxes apart: in a stack each correction pushes into the next box.
 constexpr int separation_sweeps = 4;
 
+/// Where no box rests on another or on the ground. The paper makes one; with more than three the
+/// scenes of soft bodies penetrate no less, rise in energy no less and end no more at rest (tried:
+/// 1, 2, 3, 5, 10, 30): their springs go on with what is left.
+constexpr int most_soft_sweeps = 3;
+
 /// Of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_point = 0.05;
 
@@ -29,6 +34,10 @@ class Island {
   const Contact& contact(std::size_t i) const { return contacts_[at(numbers_[i])]; }
   std::span<ContactImpulse> impulses() const { return impulses_; }
   ContactImpulse& impulse(std::size_t i) const { return impulses_[i]; }
+  bool has_resting_box() const {
+    return std::any_of(numbers_.begin(), numbers_.end(),
+                       [this](int number) { return is_rigid(contacts_[at(number)]); });
+  }
   double& work(std::size_t i) const { return work_[i]; }
 
  private:
@@ -128,9 +137,9 @@ void start_from_last_step(const World& world, const Island& island) {
   }
 }
 
-/// Until the corrections have died away.
-void correct_all(const Settings& settings, std::span<ContactImpulse> impulses) {
-  for (int i = 0; i < settings.impulse_sweeps; ++i) {
+/// Until the corrections have died away, or for so many sweeps.
+void correct_all(std::span<ContactImpulse> impulses, int sweeps) {
+  for (int i = 0; i < sweeps; ++i) {
     double change = 0.0, total = 0.0;
     const auto correct = [&](ContactImpulse& impulse) {
       change += impulse.correct();
@@ -147,11 +156,11 @@ void correct_all(const Settings& settings, std::span<ContactImpulse> impulses) {
 }
 
 /// First what stops bodies from approaching, then what makes them bounce.
-void apply_impulses(const Settings& settings, std::span<ContactImpulse> impulses) {
-  correct_all(settings, impulses);
+void apply_impulses(std::span<ContactImpulse> impulses, int sweeps) {
+  correct_all(impulses, sweeps);
   bool bounces = false;
   for (ContactImpulse& impulse : impulses) bounces |= impulse.bounce();
-  if (bounces) correct_all(settings, impulses);
+  if (bounces) correct_all(impulses, sweeps);
 }
 
 bool is_soft_soft(const Contact& contact) {
@@ -202,8 +211,13 @@ void put_onto_ground(World& world, const StepWorkspace& workspace, const Contact
 void resolve_island(World& world, StepWorkspace& workspace, int number) {
   const Island island(workspace, number);
   make_impulses(world, workspace, island);
-  start_from_last_step(world, island);
-  apply_impulses(world.settings, island.impulses());
+  int sweeps = world.settings.impulse_sweeps;
+  if (island.has_resting_box()) {
+    start_from_last_step(world, island);
+  } else {
+    sweeps = std::min(sweeps, most_soft_sweeps);
+  }
+  apply_impulses(island.impulses(), sweeps);
   separate(world, workspace, island);
 }
 
