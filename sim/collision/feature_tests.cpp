@@ -13,6 +13,11 @@ namespace {
 // rounding / sine, and without its face a sliver's nearest point moves by at most its height.
 constexpr double squared_sine_of_parallel = 1e-16;
 
+// The square of 0.1. Where edges are nearest is known to rounding over the square of the sine of
+// their angle, and how near to rounding over the sine: for edges at more than this angle one pair
+// of points is as good as all five.
+constexpr double squared_sine_of_skew = 0.01;
+
 struct PointOn {
   Vec3 position;
   FeaturePart part;
@@ -132,8 +137,7 @@ void offer_edge_face(NearestPair& nearest, const NamedEdge& edge, double from_he
 /// The point of the first edge where the lines are nearest, t along it, and what is nearest to that
 /// on the second; if that is an end, what is nearest to the end on the first. The squared distance
 /// is a convex function of where the points are on their edges, and this its least value (Ericson,
-/// Real-Time Collision Detection, 5.1.9). However inexact t is for nearly parallel edges, moving
-/// along them hardly changes the distance.
+/// Real-Time Collision Detection, 5.1.9).
 void offer_skew_edges(NearestPair& nearest, const NamedEdge& first, const NamedEdge& second,
                       double t) {
   const PointOn start = t <= 0.0   ? first.start()
@@ -159,9 +163,18 @@ void offer_edge_edge(NearestPair& nearest, const NamedEdge& first, const NamedEd
   const Vec3 across = d.cross(n);
   const double a = across.squaredNorm();
   const double gap = m.dot(across);
-  const bool parallel = a <= squared_sine_of_parallel * n.squaredNorm() * d.squaredNorm();
+  const double squared_lengths = n.squaredNorm() * d.squaredNorm();
+  const bool parallel = a <= squared_sine_of_parallel * squared_lengths;
   if (!parallel && gap * gap > nearest.squared_reach() * a) return;
-  if (!parallel) return offer_skew_edges(nearest, first, second, -d.cross(m).dot(across) / a);
+  // However inexact t is for nearly parallel edges, moving along them hardly changes the distance.
+  const double t = a > 0.0 ? -d.cross(m).dot(across) / a : 0.0;
+  if (a > squared_sine_of_skew * squared_lengths) {
+    return offer_skew_edges(nearest, first, second, t);
+  }
+  if (t > 0.0 && t < 1.0) {
+    const Vec3 middle = first.from + t * n;
+    nearest.offer(first.interior(middle), nearest_on_edge(middle, second));
+  }
   nearest.offer(first.start(), nearest_on_edge(first.from, second));
   nearest.offer(first.end(), nearest_on_edge(first.to, second));
   nearest.offer(nearest_on_edge(second.from, first), second.start());
