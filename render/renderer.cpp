@@ -7,12 +7,13 @@
 
 #include "render/check_frame.h"
 #include "render/context/context.h"
-#include "render/passes/background.h"
 #include "render/passes/discs.h"
 #include "render/passes/ground_plane.h"
 #include "render/passes/ground_shadow.h"
+#include "render/passes/layer.h"
 #include "render/passes/lettering.h"
 #include "render/passes/mesh_buffers.h"
+#include "render/passes/scenery.h"
 #include "render/passes/segments.h"
 #include "render/passes/shadow_map.h"
 #include "render/passes/surfaces.h"
@@ -37,6 +38,18 @@ const RenderOptions& check_options(const RenderOptions& options) {
   return options;
 }
 
+/// Whether the ground hides anything that would be seen without it. What stands on it is never
+/// behind it, or sinks in by far less than a pixel; but lines and discs are wider than what they
+/// stand for.
+bool ground_hides(const Frame& frame, const View& view) {
+  if (!frame.ground) return false;
+  if (frame.wireframe || !frame.points.empty() || !frame.lines.empty()) return true;
+  if (view.casters.empty()) return false;
+  const float pixel =
+      2.0f * view.nearest / (view.projection(1, 1) * static_cast<float>(view.height));
+  return view.casters.min.z() < -0.1f * pixel;
+}
+
 }  // namespace
 
 struct Renderer::Resources {
@@ -44,8 +57,10 @@ struct Renderer::Resources {
       : options(check_options(chosen)),
         description(
             fmt::format("OpenGL {} on {}", context.report().version, context.report().renderer)),
-        target(options.width, options.height, options.samples),
-        shadow_map(options.shadow_size) {}
+        target(options.width, options.height),
+        layer(options.width, options.height, options.samples),
+        shadow_map(options.shadow_size),
+        scenery(options.width, options.height) {}
 
   // The members are released after this, while their context is current.
   ~Resources() { context.make_current(); }
@@ -56,12 +71,13 @@ struct Renderer::Resources {
   Context context;  // before all that lives in it
   std::string description;
   Target target;
+  Layer layer;
   MeshBuffers mesh_buffers;
   ShadowMap shadow_map;
   GroundShadow ground_shadow;
   Surfaces surfaces;
   GroundPlane ground_plane;
-  Background background;
+  Scenery scenery;
   Segments segments;
   Discs discs;
   Lettering lettering;
@@ -84,21 +100,20 @@ void Renderer::draw(const Frame& frame, Image& image) {
   // Light along the ground or from below throws no shadow on it.
   const bool ground_shadow = shadows && frame.ground && view.to_light.z() > 0.05f;
   if (shadows) r.shadow_map.draw(view, frame.light, meshes);
-  if (ground_shadow) r.ground_shadow.draw(r.shadow_map);
+  if (ground_shadow) r.ground_shadow.draw(r.shadow_map, view.to_light);
 
-  r.target.begin();
+  r.layer.begin(region_of_bodies(frame, view));
+  if (ground_hides(frame, view)) r.ground_plane.hide_below(view);
   r.surfaces.draw(view, meshes, shadows ? &r.shadow_map : nullptr);
-  if (frame.ground) {
-    r.ground_plane.draw(view, *frame.ground, ground_shadow ? &r.shadow_map : nullptr,
-                        ground_shadow ? &r.ground_shadow : nullptr);
-  }
-  // One row is left to the rounding of the ground's edges.
-  r.background.draw(view, frame.ground ? std::max(0, rows_filled_by_ground(view) - 1) : 0);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);
   r.segments.draw_lines(view, frame.lines);
   r.discs.draw(view, frame.points);
+  r.layer.end();
 
-  r.target.resolve();
+  r.target.begin();
+  r.scenery.draw(view, frame.ground, r.ground_plane);
+  if (ground_shadow) r.ground_plane.darken(view, r.shadow_map, r.ground_shadow);
+  r.layer.compose();
   if (frame.caption) r.lettering.draw(view, frame.caption->text);
   r.target.read(image);
 }

@@ -23,21 +23,16 @@ void main() { colour = vec4(backdrop(gl_FragCoord.y / picture_height), 1.0); }
 }  // namespace
 
 Background::Background()
-    : program_("background", "", vertex_source, std::string(look_source) + fragment_source),
+    : program_("background", "", vertex_source, look_source() + fragment_source),
       picture_height_(program_.uniform("picture_height")) {}
 
-void Background::draw(const View& view, int first_row) {
+void Background::draw(const View& view) {
   glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDepthMask(GL_FALSE);
+  glDisable(GL_DEPTH_TEST);
   program_.use();
   set_uniform(picture_height_, static_cast<float>(view.height));
   glBindVertexArray(no_attributes_.name());
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(0, first_row, view.width, view.height - first_row);
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace pneuma::render

@@ -11,9 +11,8 @@ class Background {
  public:
   Background();
 
-  /// Last of the opaque passes: fills what has been left at the far end of the depth buffer, from
-  /// `first_row` (counted from the picture's foot) upwards. Even asking each sample has its price.
-  void draw(const View& view, int first_row);
+  /// Fills the whole picture.
+  void draw(const View& view);
 
  private:
   VertexArray no_attributes_;

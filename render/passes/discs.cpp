@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/passes/layer.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -84,8 +86,7 @@ void Discs::draw(const View& view, const std::vector<Point>& points) {
     if (point.always_visible) shining_through.push_back(instance);
   }
 
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  blend_over_layer();
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_FALSE);
   program_.use();

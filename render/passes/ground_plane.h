@@ -1,38 +1,43 @@
-// The plane z = 0 with its grid and the shadows on it.
+// The plane z = 0: its grid, the shadows on it, and what it hides.
 #pragma once
 
 #include "render/passes/ground_shadow.h"
 
 namespace pneuma::render {
 
+/// Nothing is drawn for an eye below the plane.
 class GroundPlane {
  public:
   GroundPlane();
 
-  /// `map` and `shadow` are null when there are no shadows. Nothing is drawn for an eye below it.
-  void draw(const View& view, const Ground& ground, const ShadowMap* map,
-            const GroundShadow* shadow);
+  /// Its colour without shadows, over all that is there.
+  void draw(const View& view, const Ground& ground);
+
+  /// Darkens what draw() has drawn where light is blocked.
+  void darken(const View& view, const ShadowMap& map, const GroundShadow& shadow);
+
+  /// Its depth alone, so that what lies below is not drawn.
+  void hide_below(const View& view);
 
  private:
-  struct Variant {
-    explicit Variant(bool shadowed);
-    Program program;
-    GLint view_projection;
-    GLint picture_height;
-    GLint spacing;
-    GLint centre;
-    GLint radius;
-    GLint line_width;
-    GLint to_light = -1;
-    GLint world_to_map = -1;
-  };
-
-  void set_up(const Variant& variant, const View& view, const Ground& ground);
+  void draw_triangles(const std::vector<Eigen::Vector2f>& vertices);
 
   VertexArray vertex_array_;
   Buffer vertices_;
-  Variant plain_{false};
-  Variant shadowed_{true};
+  Program colour_;
+  GLint colour_view_projection_;
+  GLint colour_picture_height_;
+  GLint colour_spacing_;
+  GLint colour_centre_;
+  GLint colour_radius_;
+  GLint colour_line_width_;
+  Program shadow_;
+  GLint shadow_view_projection_;
+  GLint shadow_world_to_map_;
+  GLint shadow_centre_;
+  GLint shadow_radius_;
+  Program depth_;
+  GLint depth_view_projection_;
 };
 
 }  // namespace pneuma::render

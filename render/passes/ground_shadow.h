@@ -1,46 +1,56 @@
 // The shadow on the ground as a small picture in the light's own coordinates.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "render/passes/shadow_map.h"
 
 namespace pneuma::render {
 
 /// Everything that casts is above the ground, so a shadow there needs no comparison of depths: the
 /// light is blocked wherever it sees anything at all. That cover is reduced to a small picture and
-/// blurred twice, narrow and wide; the ground picks between the two by how high the caster is, so
+/// blurred twice, narrow and wide; each texel picks between the two by how high the caster is, so
 /// that a shadow is crisp where a body touches the ground and softer under what floats. It costs
-/// two texture reads a pixel on the ground, instead of a dozen.
+/// one texture read a pixel on the ground, instead of a dozen.
+///
+/// The picture is made by the CPU itself, not by shaders: llvmpipe takes 3 ns to read a texel, and
+/// five passes over so small a picture would take ten times as long.
 class GroundShadow {
  public:
   GroundShadow();
 
-  /// After `map` has been drawn. Leaves its own framebuffer bound.
-  void draw(const ShadowMap& map);
+  /// After `map` has been drawn.
+  void draw(const ShadowMap& map, const Vec3f& to_light);
 
-  /// Each texture: red the share of light blocked, green that share times how soft the shadow is
-  /// to be, 0 for a caster on the ground and 1 for one well above it.
-  void bind(GLuint narrow_unit, GLuint wide_unit) const;
+  /// The texture: what is left of the ground's colour, in sRGB.
+  void bind(GLuint unit) const;
+
+  /// Cells on a side into which the picture is divided, and those that hold any shadow, each by its
+  /// column and row.
+  static constexpr int cells = 16;
+  const std::vector<std::array<int, 2>>& dark_cells() const { return dark_cells_; }
 
  private:
-  struct Picture {
-    Picture();
-    Texture texture;
-    Framebuffer framebuffer;
-  };
+  using Picture = std::vector<float>;  // one channel, row by row
 
-  void blur(const Picture& from, const Picture& to, const Eigen::Vector2f& step);
+  void measure_cover(const ShadowMap& map);
+  void blur(Picture& picture, float step);
+  void upload(const Vec3f& to_light);
+  void find_dark_cells();
 
-  VertexArray no_attributes_;
-  Sampler sampler_;
-  Program cover_;
-  GLint cover_texel_;
-  GLint cover_ground_;
-  GLint cover_softness_;
-  Program blur_;
-  GLint blur_step_;
+  std::vector<float> depths_;
+  std::vector<float> kernel_;
+  Picture cover_;       // share of the light that is blocked
+  Picture soft_cover_;  // that share times how soft the shadow is to be: 0 for a caster on the
+                        // ground, 1 for one well above it
   Picture narrow_;
-  Picture wide_;
   Picture scratch_;
+  std::vector<std::array<std::uint8_t, 4>> bytes_;
+  std::vector<std::array<int, 2>> dark_cells_;
+  Texture texture_;
+  Sampler sampler_;
 };
 
 }  // namespace pneuma::render

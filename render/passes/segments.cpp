@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "render/passes/layer.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -96,8 +98,7 @@ void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes)
 
 void Segments::draw(const View& view, float opacity) {
   if (instances_.empty()) return;
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  blend_over_layer();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_FALSE);

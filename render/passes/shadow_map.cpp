@@ -1,7 +1,6 @@
 #include "render/passes/shadow_map.h"
 
 #include <Eigen/Geometry>
-#include <array>
 
 namespace pneuma::render {
 namespace {
@@ -25,25 +24,19 @@ Eigen::Matrix3f light_axes(const Vec3f& to_light) {
   return axes;
 }
 
-void set_sampler(const Sampler& sampler, GLint filter, GLint compare) {
-  constexpr std::array<float, 4> far_away = {1.0f, 1.0f, 1.0f, 1.0f};
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_MIN_FILTER, filter);
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_MAG_FILTER, filter);
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  glSamplerParameterfv(sampler.name(), GL_TEXTURE_BORDER_COLOR, far_away.data());
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_MODE, compare);
-  glSamplerParameteri(sampler.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-}
-
 }  // namespace
 
 ShadowMap::ShadowMap(int size)
     : size_(size),
       program_("shadow map", "", vertex_source, fragment_source),
       world_to_clip_(program_.uniform("world_to_clip")) {
-  set_sampler(comparing_, GL_LINEAR, GL_COMPARE_REF_TO_TEXTURE);
-  set_sampler(plain_, GL_NEAREST, GL_NONE);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  // The map's margin is free of casters: its edge says that what lies beyond is lit.
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glSamplerParameteri(sampler_.name(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   glBindTexture(GL_TEXTURE_2D, depth_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, size, size, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                nullptr);
@@ -99,16 +92,17 @@ void ShadowMap::draw(const View& view, const Light& light, const std::vector<Dra
   glDisable(GL_CULL_FACE);
 }
 
-void ShadowMap::bind_comparing(GLuint unit) const {
+void ShadowMap::bind(GLuint unit) const {
   glActiveTexture(GL_TEXTURE0 + unit);
   glBindTexture(GL_TEXTURE_2D, depth_.name());
-  glBindSampler(unit, comparing_.name());
+  glBindSampler(unit, sampler_.name());
 }
 
-void ShadowMap::bind_depths(GLuint unit) const {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_2D, depth_.name());
-  glBindSampler(unit, plain_.name());
+void ShadowMap::read(std::vector<float>& depths) const {
+  depths.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, size_, size_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
 }
 
 }  // namespace pneuma::render

@@ -21,14 +21,17 @@ class ShadowMap {
   /// Half the width of a shadow's edge, in texture coordinates.
   float edge() const { return edge_; }
   float texel() const { return 1.0f / static_cast<float>(size_); }
+  /// Texels on a side.
+  int size() const { return size_; }
   /// Metres from depth 0 to depth 1.
   float depth_range() const { return depth_range_; }
   /// Metres from coordinate 0 to coordinate 1.
   float extent() const { return extent_; }
 
-  /// The map for sampler2DShadow (share of lit texels), or for sampler2D (depths).
-  void bind_comparing(GLuint unit) const;
-  void bind_depths(GLuint unit) const;
+  /// The map for sampler2DShadow: share of lit texels.
+  void bind(GLuint unit) const;
+  /// Its depths, row by row; 1 where there is nothing. Waits until they are drawn.
+  void read(std::vector<float>& depths) const;
 
  private:
   void fit(const View& view, const Light& light);
@@ -37,8 +40,7 @@ class ShadowMap {
   Program program_;
   GLint world_to_clip_;
   Texture depth_;
-  Sampler comparing_;
-  Sampler plain_;
+  Sampler sampler_;
   Framebuffer framebuffer_;
   Mat4f world_to_map_ = Mat4f::Identity();
   float edge_ = 0.0f;

@@ -99,7 +99,7 @@ Surfaces::Surfaces() = default;
 
 Surfaces::Variant::Variant(bool smooth, bool shadowed)
     : program("surfaces", preamble(smooth, shadowed), vertex_source,
-              std::string(look_source) + fragment_source),
+              look_source() + fragment_source),
       view_projection(program.uniform("view_projection")),
       eye(program.uniform("eye")),
       to_light(program.uniform("to_light")) {
@@ -116,7 +116,7 @@ void Surfaces::draw(const View& view, const std::vector<DrawnMesh>& meshes,
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  if (shadow != nullptr) shadow->bind_comparing(0);
+  if (shadow != nullptr) shadow->bind(0);
   draw_variant(shadow != nullptr ? smooth_shadowed_ : smooth_lit_, true, view, meshes, shadow);
   draw_variant(shadow != nullptr ? flat_shadowed_ : flat_lit_, false, view, meshes, shadow);
 }

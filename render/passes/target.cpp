@@ -3,52 +3,28 @@
 #include "render/context/context.h"
 
 namespace pneuma::render {
-namespace {
 
-void check_complete() {
+void check_framebuffer() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw GlError(GlFailure::context_refused,
                   "GL made no framebuffer of this size; ask for a smaller picture");
   }
 }
 
-}  // namespace
-
-Target::Target(int width, int height, int samples)
+Target::Target(int width, int height)
     : width_(width),
       height_(height),
-      samples_(samples > 1 ? samples : 0),
       rgba_(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindRenderbuffer(GL_RENDERBUFFER, colour_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_RGBA8, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples_, GL_DEPTH_COMPONENT24, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
-  check_complete();
-  if (samples_ == 0) return;
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_framebuffer_.name());
-  glBindRenderbuffer(GL_RENDERBUFFER, resolved_colour_.name());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                            resolved_colour_.name());
-  check_complete();
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.name());
+  check_framebuffer();
 }
 
 void Target::begin() {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
-  glDepthMask(GL_TRUE);
-  glClear(GL_DEPTH_BUFFER_BIT);
-}
-
-void Target::resolve() {
-  if (samples_ == 0) return;
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_framebuffer_.name());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, resolved_framebuffer_.name());
 }
 
 void Target::read(Image& image) {

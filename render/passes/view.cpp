@@ -18,16 +18,39 @@ struct DepthRange {
   }
 };
 
-/// Whether the ground is drawn where the ray through a point of the picture (-1..1) meets it.
-bool meets_ground(const View& view, const Eigen::Vector2f& at) {
-  const Vec3f in_view = {at.x() / view.projection(0, 0), at.y() / view.projection(1, 1), -1.0f};
-  const Vec3f ray = view.view.topLeftCorner<3, 3>().transpose() * in_view;
-  if (ray.z() >= 0.0f || view.eye.z() <= 0.0f) return false;
-  const float depth = -view.eye.z() / ray.z();  // the ray is one metre deep
-  const Vec3f hit = view.eye + depth * ray;
-  return depth > view.near && depth < view.far &&
-         (hit - view.target).head<2>().norm() < ground_radius(view);
-}
+/// Grows around what is seen of points; knows when that could be anywhere.
+class SeenBox {
+ public:
+  explicit SeenBox(const View& view) : view_(view) {}
+
+  void add(const Vec3f& point) {
+    const Eigen::Vector4f clip = view_.view_projection * point.homogeneous();
+    everywhere_ = everywhere_ || clip.w() <= view_.near;  // it, or a triangle of it, is cut
+    const Eigen::Vector2f at = (0.5f * clip.head<2>() / clip.w()).array() + 0.5f;
+    min_ = min_.cwiseMin(at);
+    max_ = max_.cwiseMax(at);
+  }
+
+  Region pixels() const {
+    const Region whole = {0, 0, view_.width, view_.height};
+    if (everywhere_) return whole;
+    const auto span = [](float from, float to, int count, int& begin, int& length) {
+      const auto most = static_cast<float>(count);
+      begin = static_cast<int>(std::clamp(std::floor(from * most) - 1.0f, 0.0f, most));
+      length = static_cast<int>(std::clamp(std::ceil(to * most) + 1.0f, 0.0f, most)) - begin;
+    };
+    Region region;
+    span(min_.x(), max_.x(), view_.width, region.x, region.width);
+    span(min_.y(), max_.y(), view_.height, region.y, region.height);
+    return region.width > 0 && region.height > 0 ? region : Region{};
+  }
+
+ private:
+  const View& view_;
+  bool everywhere_ = false;
+  Eigen::Vector2f min_ = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Vector2f max_ = -min_;
+};
 
 }  // namespace
 
@@ -56,6 +79,7 @@ View make_view(const Frame& frame, int width, int height) {
       range.add(-(view.view.row(2) * all.corner(i).homogeneous()).value());
     }
   }
+  view.nearest = range.near;
   const float distance = (view.target - view.eye).norm();
   view.far = std::max(range.far, distance);
   if (frame.ground) view.far = std::max(view.far, distance + ground_radius(view));
@@ -81,16 +105,16 @@ float ground_radius(const View& view) {
   return std::max(2.5f * distance, 2.0f * scene);
 }
 
-int rows_filled_by_ground(const View& view) {
-  // The disc of ground is convex: where it holds both ends of two rows, it holds all between.
-  const auto holds_row = [&view](int row) {
-    const float y = 2.0f * static_cast<float>(row) / static_cast<float>(view.height) - 1.0f;
-    return meets_ground(view, {-1.0f, y}) && meets_ground(view, {1.0f, y});
-  };
-  if (!holds_row(0)) return 0;
-  int rows = 0;
-  while (rows < view.height && holds_row(rows + 1)) ++rows;
-  return rows;
+Region region_of_bodies(const Frame& frame, const View& view) {
+  if (frame.wireframe || !frame.points.empty() || !frame.lines.empty()) {
+    return {0, 0, view.width, view.height};
+  }
+  if (view.casters.empty()) return {};
+  SeenBox box(view);
+  for (const Mesh& mesh : frame.meshes) {
+    for (const Vec3f& position : mesh.positions) box.add(position);
+  }
+  return box.pixels();
 }
 
 float to_linear(float srgb) {

@@ -14,7 +14,8 @@ struct View {
   Vec3f target;
   Vec3f to_light;            // unit
   Box casters;               // around all meshes; empty when there are none
-  float near = 0.0f;         // m before the eye
+  float nearest = 0.0f;      // m before the eye: no mesh, point or line is nearer
+  float near = 0.0f;         // m before the eye: what is nearer is not drawn
   float far = 0.0f;          // m before the eye
   int width = 0;             // pixels
   int height = 0;            // pixels
@@ -27,8 +28,17 @@ View make_view(const Frame& frame, int width, int height);
 /// How far from the camera's target the ground reaches before it has faded away, in metres.
 float ground_radius(const View& view);
 
-/// How many rows, from the foot of the picture, the ground fills from side to side.
-int rows_filled_by_ground(const View& view);
+/// Pixels, from the picture's lower left corner.
+struct Region {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// Around all that is drawn over ground and background, rather too large than too small: the whole
+/// picture when more than surfaces are drawn.
+Region region_of_bodies(const Frame& frame, const View& view);
 
 /// sRGB to linear, one channel or colour.
 float to_linear(float srgb);

@@ -122,8 +122,9 @@ TEST(Renderer, draws_the_same_bytes_whatever_was_drawn_before) {
 }
 
 TEST(Renderer, leaves_nothing_of_the_picture_before) {
-  // No pass clears the colours: ground and background together must cover every pixel, wherever
-  // the camera stands. What they missed would show red or blue, as the picture before was.
+  // No pass clears the picture: the background must cover every pixel, and the layer of bodies must
+  // be empty, wherever the camera stands. What they missed would show red or blue, as the picture
+  // before was.
   Frame red = empty_frame();
   red.meshes = {make_box({0, 0, 0}, {50, 1, 50}, {1, 0, 0})};
   Frame blue = empty_frame();
