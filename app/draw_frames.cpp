@@ -35,32 +35,51 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// A frame that is drawn, and what is to become of it.
-struct DrawnFrame {
-  render::Image picture;
-  std::optional<render::Image> overlay;
+/// A frame to be drawn, and what is to become of it: all of the simulation that is needed for it,
+/// so that the simulation can go on.
+struct TakenFrame {
+  render::Frame picture;
+  std::optional<render::Frame> overlay;
   std::int64_t number = 0;
   FrameState state;
   std::vector<std::uint8_t> checkpoint;
   FrameSeconds seconds;
 };
 
-/// Draws frames and hands them to a thread that encodes and writes them while the next is made.
+/// The same when it is drawn.
+struct DrawnFrame {
+  TakenFrame of;
+  render::Image picture;
+  std::optional<render::Image> overlay;
+};
+
+/// Draws frames and hands them to a thread that encodes and writes them while the next is made: at
+/// most three frames are in memory, one being drawn, one waiting and one being written.
 /// The order of files, journal and checkpoint stays what it is without that thread.
 class FrameWriter {
  public:
   explicit FrameWriter(const FrameOutput& output) : output_(output) {}
 
-  void write(const Simulation& simulation) {
-    const auto frame = std::make_shared<DrawnFrame>();
-    frame->number = simulation.frame();
+  TakenFrame take(const Simulation& simulation) {
+    TakenFrame frame;
     Stopwatch watch;
-    frame->picture = draw(simulation, output_.pictures.show);
-    if (output_.pictures.overlay) frame->overlay = draw(simulation, *output_.pictures.overlay);
-    frame->seconds.draw = watch.lap();
-    frame->state = recorder_.state(simulation);
-    frame->checkpoint = sim::save_state(simulation.world());
-    frame->seconds.total = since_last_frame_.lap();
+    frame.picture = build(simulation, output_.pictures.show);
+    if (output_.pictures.overlay) frame.overlay = build(simulation, *output_.pictures.overlay);
+    frame.seconds.draw = watch.lap();
+    frame.number = simulation.frame();
+    frame.state = recorder_.state(simulation);
+    frame.checkpoint = sim::save_state(simulation.world());
+    return frame;
+  }
+
+  void write(TakenFrame taken) {
+    const auto frame = std::make_shared<DrawnFrame>();
+    Stopwatch watch;
+    output_.renderer.draw(taken.picture, frame->picture);
+    if (taken.overlay) output_.renderer.draw(*taken.overlay, frame->overlay.emplace());
+    taken.seconds.draw += watch.lap();
+    taken.seconds.total = since_last_frame_.lap();
+    frame->of = std::move(taken);
     finishing_.submit([this, frame] { finish(*frame); });
   }
 
@@ -68,22 +87,18 @@ class FrameWriter {
   void wait() { finishing_.finish(); }
 
  private:
-  render::Image draw(const Simulation& simulation, Show show) {
-    render::Image image;
-    output_.renderer.draw(
-        output_.builder.build(simulation.world(), simulation.stepper().contacts(), show), image);
-    return image;
+  render::Frame build(const Simulation& simulation, Show show) const {
+    return output_.builder.build(simulation.world(), simulation.stepper().contacts(), show);
   }
 
   void finish(DrawnFrame& frame) const {
     const RunFolder& folder = output_.folder;
+    TakenFrame& of = frame.of;
     PictureBytes bytes;
-    bytes.frame = save(frame.picture, folder.frame(frame.number), frame.seconds);
-    if (frame.overlay) {
-      bytes.overlay = save(*frame.overlay, folder.overlay(frame.number), frame.seconds);
-    }
-    output_.journal.append(frame_line(std::move(frame.state), bytes, frame.seconds));
-    render::write_file_atomically(folder.state().string(), frame.checkpoint);
+    bytes.frame = save(frame.picture, folder.frame(of.number), of.seconds);
+    if (frame.overlay) bytes.overlay = save(*frame.overlay, folder.overlay(of.number), of.seconds);
+    output_.journal.append(frame_line(std::move(of.state), bytes, of.seconds));
+    render::write_file_atomically(folder.state().string(), of.checkpoint);
   }
 
   /// Returns the size of the file.
@@ -139,10 +154,11 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
   state.last = last;
-  const auto advance = [&] {
+  Background stepping(1);
+  const auto wait_for_step = [&] {
     try {
+      stepping.finish();
       throw_if_interrupted();
-      simulation.advance_frame();
     } catch (...) {
       writer.wait();  // a frame that could not be written is the first thing to know
       throw;
@@ -150,16 +166,20 @@ void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
   };
   for (;;) {
     state.frame = simulation.frame();
-    if (state.frame >= next) {
-      writer.write(simulation);
-      ++state.drawn;
-    }
     state.time = sim::time(simulation.world());
     state.simulated = state.time - time_at_start;
+    std::optional<TakenFrame> frame;
+    if (state.frame >= next) frame = writer.take(simulation);
+    const bool more = state.frame < last;
+    if (more) stepping.submit([&simulation] { simulation.advance_frame(); });
+    if (frame) {
+      writer.write(std::move(*frame));
+      ++state.drawn;
+    }
     state.elapsed += watch.lap();
     progress.show(progress_line(state));
-    if (state.frame >= last) break;
-    advance();
+    if (!more) break;
+    wait_for_step();
     divided.add(simulation, progress);
   }
   writer.wait();

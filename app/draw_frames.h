@@ -21,11 +21,11 @@ struct FrameOutput {
   Journal& journal;
 };
 
-/// Advances the simulation to frame `last` and draws all frames from `next` on, while a second
-/// thread encodes and writes the frame before. After each, the journal has its line and the state
-/// file its state, in this order: whatever the moment of a kill, the state belongs to a frame that
-/// the journal knows.
-/// Throws DivergenceError, Interrupted and render::IoError; what is on disk then is whole.
+/// Advances the simulation to frame `last` and draws all frames from `next` on: while one is drawn,
+/// a second thread steps to the next and a third encodes and writes the one before. After each, the
+/// journal has its line and the state file its state, in this order: whatever the moment of a kill,
+/// the state belongs to a frame that the journal knows. Throws DivergenceError, Interrupted and
+/// render::IoError; what is on disk then is whole.
 void draw_frames(Simulation& simulation, std::int64_t next, std::int64_t last,
                  const FrameOutput& output, Progress& progress);
 

@@ -1,5 +1,6 @@
 #include "app/interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 #include "app/errors.h"
@@ -7,9 +8,11 @@
 namespace pneuma::app {
 namespace {
 
-volatile std::sig_atomic_t asked_to_stop = 0;
+// Set by a handler and read by several threads.
+std::atomic<bool> asked_to_stop = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void remember(int) { asked_to_stop = 1; }
+void remember(int) { asked_to_stop = true; }
 
 }  // namespace
 
@@ -23,7 +26,7 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return asked_to_stop != 0; }
+bool interrupted() { return asked_to_stop; }
 
 void throw_if_interrupted() {
   if (interrupted()) throw Interrupted("interrupted");

@@ -15,7 +15,7 @@ namespace {
 // The first ones upload meshes, and llvmpipe compiles what it draws with.
 constexpr int warm_up_frames = 3;
 
-/// One list of seconds for each part of a frame, and for the whole. `encode` is the other thread's
+/// One list of seconds for each part of a frame, and for the whole. `encode` is another thread's
 /// until finish().
 struct Readings {
   std::vector<double> total, steps, build, draw, encode;
@@ -32,14 +32,19 @@ class FrameMaker {
                    .samples = scene.picture.samples}),
         builder_(scene, replay.world(), camera) {}
 
+  /// Draws the replay's present state while it goes on to the next.
   void make(Readings& readings) {
     replay_.prepare(steps_per_frame_);
     const Clock::time_point start = Clock::now();
-    replay_.run(steps_per_frame_);
-    const Clock::time_point stepped = Clock::now();
     const render::Frame frame = builder_.build(replay_.world());
     const Clock::time_point built = Clock::now();
+    stepping_.submit([this, &readings] {
+      const Clock::time_point begin = Clock::now();
+      replay_.run(steps_per_frame_);
+      readings.steps.push_back(seconds_since(begin));
+    });
     const auto image = std::make_shared<render::Image>();
+    const Clock::time_point submitted = Clock::now();
     renderer_.draw(frame, *image);
     const Clock::time_point drawn = Clock::now();
     encoding_.submit([image, &readings] {
@@ -47,15 +52,14 @@ class FrameMaker {
       const std::vector<std::uint8_t> png = render::encode_png(*image);
       readings.encode.push_back(seconds_since(begin));
     });
-    const Clock::time_point handed_over = Clock::now();
+    stepping_.finish();
 
     const auto seconds = [](Clock::time_point from, Clock::time_point to) {
       return std::chrono::duration<double>(to - from).count();
     };
-    readings.total.push_back(seconds(start, handed_over));
-    readings.steps.push_back(seconds(start, stepped));
-    readings.build.push_back(seconds(stepped, built));
-    readings.draw.push_back(seconds(built, drawn));
+    readings.total.push_back(seconds(start, Clock::now()));
+    readings.build.push_back(seconds(start, built));
+    readings.draw.push_back(seconds(submitted, drawn));
   }
 
   /// Waits for the frames that are still being encoded.
@@ -66,7 +70,9 @@ class FrameMaker {
   int steps_per_frame_;
   render::Renderer renderer_;
   FrameBuilder builder_;
-  Background encoding_{1};  // the last member: it ends before what its jobs use
+  // The last members: they end before what their jobs use.
+  Background stepping_{1};
+  Background encoding_{1};
 };
 
 }  // namespace
