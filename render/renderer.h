@@ -12,7 +12,7 @@ namespace pneuma::render {
 struct RenderOptions {
   int width = 1280;       // pixels, 16..16384
   int height = 720;       // pixels, 16..16384
-  int samples = 4;        // per pixel: 1, 2 or 4. Four cost about 1.8 times as much as one
+  int samples = 4;        // per pixel: 1, 2 or 4. Four cost up to 1.7 times as much as one
   int shadow_size = 768;  // texels on a side of the shadow map, 256..8192
 };
 
