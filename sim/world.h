@@ -119,12 +119,20 @@ struct ParticlePair {
   bool near = false;                 // in the last step they might have touched
 };
 
+/// Two soft bodies that were deep in each other, and are not yet clear of each other, first <
+/// second (sim/collision/deep_pair.h). What begins at one depth and ends at another is state.
+struct PartingPair {
+  int first = 0;
+  int second = 0;
+};
+
 struct World {
   Settings settings;
   std::vector<SoftBody> soft;
   std::vector<RigidBox> rigid;
   std::vector<ParticlePair> particles;           // pairs that have met, ordered by (first, second)
   std::vector<RestingImpulse> resting_impulses;  // of the last step, ordered by (first, second)
+  std::vector<PartingPair> parting;              // ordered by (first, second)
   std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
 };
 

@@ -30,22 +30,30 @@ Passage passage(const VertexArray& positions, int a, int b, double y) {
   return {std::fma(s, to.x() - from.x(), from.x()), std::fma(s, to.z() - from.z(), from.z())};
 }
 
-/// Whether the ray along +z from the point crosses the triangle, by the slice described below.
-bool crosses_above(const VertexArray& positions, const Triangle& triangle, const Vec3& point) {
+/// Where, in z, the line through the point along z crosses the triangle, by the slice described
+/// below.
+std::optional<double> find_crossing(const VertexArray& positions, const Triangle& triangle,
+                                    const Vec3& point) {
   const auto& [a, b, c] = triangle;
   const bool a_beyond = positions[a].y() > point.y();
   const bool b_beyond = positions[b].y() > point.y();
   const bool c_beyond = positions[c].y() > point.y();
-  if (a_beyond == b_beyond && b_beyond == c_beyond) return false;
+  if (a_beyond == b_beyond && b_beyond == c_beyond) return {};
   // The corner alone on its side of the plane is joined to the other two by the sliced edges.
   const int lone = b_beyond == c_beyond ? a : (a_beyond == c_beyond ? b : c);
   const int next = lone == a ? b : (lone == b ? c : a);
   const int last = lone == a ? c : (lone == b ? a : b);
   const Passage p = passage(positions, lone, next, point.y());
   const Passage q = passage(positions, lone, last, point.y());
-  if ((p.x > point.x()) == (q.x > point.x())) return false;
+  if ((p.x > point.x()) == (q.x > point.x())) return {};
   const double t = (point.x() - p.x) / (q.x - p.x);
-  return p.z + t * (q.z - p.z) > point.z();
+  return p.z + t * (q.z - p.z);
+}
+
+/// Whether the ray along +z from the point crosses the triangle.
+bool crosses_above(const VertexArray& positions, const Triangle& triangle, const Vec3& point) {
+  const auto z = find_crossing(positions, triangle, point);
+  return z && *z > point.z();
 }
 
 /// A vertex of those triangles above and below the point that is nearest to it: no triangle that is
@@ -107,6 +115,19 @@ bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const
     }
   }
   return inside;
+}
+
+std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& point) {
+  bool inside = false;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Triangle& triangle : surface.topology.triangles()) {
+    const auto z = find_crossing(surface.positions, triangle, point);
+    if (!z || !(*z > point.z())) continue;
+    inside = !inside;
+    least = std::min(least, *z);
+  }
+  if (!inside) return {};
+  return least - point.z();
 }
 
 std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,

@@ -16,6 +16,10 @@ bool is_inside(const SurfaceView& surface, const Vec3& point);
 /// surface.
 bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point);
 
+/// How far above a point inside the body (m, along +z) its surface begins. None for a point
+/// outside.
+std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& point);
+
 /// How far inside a body a point is, and through which triangle it gets out soonest.
 struct SurfaceExit {
   int triangle = 0;

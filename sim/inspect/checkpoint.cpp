@@ -8,7 +8,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x31414d55454e50ULL;  // "PNEUMA1" as little-endian bytes
+constexpr std::uint64_t magic = 0x32414d55454e50ULL;  // "PNEUMA2" as little-endian bytes
 
 /// Appends plain values; the format is this machine's own byte order.
 class Writer {
@@ -93,13 +93,18 @@ void get(Reader& reader, std::vector<int>& values, int feature_count) {
   }
 }
 
-void get(Reader& reader, const World& world, ParticlePair& pair) {
+template <class Pair>
+void get_bodies(Reader& reader, const World& world, Pair& pair) {
   reader.get(pair.first);
   reader.get(pair.second);
   const auto soft = static_cast<int>(world.soft.size());
   if (pair.first < 0 || pair.first >= pair.second || pair.second >= soft) {
     throw CheckpointError("the saved state pairs bodies that do not exist");
   }
+}
+
+void get(Reader& reader, const World& world, ParticlePair& pair) {
+  get_bodies(reader, world, pair);
   get(reader, pair.first_features, world.soft[at(pair.first)].mesh->topology.feature_count());
   get(reader, pair.second_features, world.soft[at(pair.second)].mesh->topology.feature_count());
   std::uint8_t near = 0;
@@ -141,6 +146,11 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(impulse.place);
     writer.put(impulse.impulse);
   }
+  writer.put(world.parting.size());
+  for (const PartingPair& pair : world.parting) {
+    writer.put(pair.first);
+    writer.put(pair.second);
+  }
   writer.put(state_hash(world));
   return writer.take();
 }
@@ -172,6 +182,8 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
     reader.get(impulse.place);
     reader.get(impulse.impulse);
   }
+  loaded.parting.assign(reader.count(), {});
+  for (PartingPair& pair : loaded.parting) get_bodies(reader, loaded, pair);
   reader.expect(state_hash(loaded), "checksum");
   reader.end();
   world = std::move(loaded);

@@ -112,6 +112,7 @@ std::uint64_t state_hash(const World& world) {
     hash.add(impulse.place);
     hash.add(impulse.impulse);
   }
+  for (const PartingPair& pair : world.parting) add(hash, {pair.first, pair.second});
   return hash.value();
 }
 

@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "sim/collision/approach.h"
+#include "sim/collision/deep_pair.h"
 #include "sim/collision/find_body_contacts.h"
 #include "sim/collision/particles.h"
 #include "sim/step/stages.h"
@@ -55,6 +56,43 @@ void leave_out_parted(const World& world, StepWorkspace& workspace) {
   pairs.resize(left);
 }
 
+bool was_parting(const StepWorkspace& workspace, const BodyPair& pair) {
+  const auto before = [](const PartingPair& known, const BodyPair& wanted) {
+    return BodyPair{known.first, known.second} < wanted;
+  };
+  const std::vector<PartingPair>& known = workspace.parting_start;
+  const auto place = std::lower_bound(known.begin(), known.end(), pair, before);
+  return place != known.end() && BodyPair{place->first, place->second} == pair;
+}
+
+bool may_be_deep(const World& world, const StepWorkspace& workspace, const BodyPair& pair,
+                 bool is_parting) {
+  const std::vector<char>& filled = workspace.has_filled_centre;
+  if (filled[at(pair.first)] == 0 || filled[at(pair.second)] == 0) return false;
+  const double skin = world.settings.skin_thickness;  // in the spheres' radii
+  const BoundingSphere& first = workspace.spheres[at(pair.first)];
+  const BoundingSphere& second = workspace.spheres[at(pair.second)];
+  const double reach = deep_reach(first.radius - skin, second.radius - skin, skin, is_parting);
+  return (first.centre - second.centre).squaredNorm() < reach * reach;
+}
+
+/// A deep pair's surfaces are not looked at: they say nothing about the way out.
+void take_out_deep_pairs(World& world, StepWorkspace& workspace) {
+  workspace.parting_start = world.parting;
+  world.parting.clear();
+  workspace.deep_pairs.clear();
+  std::erase_if(workspace.soft_pairs, [&](const BodyPair& pair) {
+    const auto [first, second] = pair;
+    const bool is_parting = was_parting(workspace, pair);
+    if (!may_be_deep(world, workspace, pair, is_parting)) return false;
+    const auto deep = find_deep_pair(world, first, second, is_parting, workspace.deep_pair);
+    if (!deep) return false;
+    workspace.deep_pairs.push_back(*deep);
+    world.parting.push_back({first, second});
+    return true;
+  });
+}
+
 /// The particles of a pair, made when it meets for the first time.
 ParticlePair& particles_of(World& world, const BodyPair& pair) {
   const auto before = [](const ParticlePair& known, const BodyPair& wanted) {
@@ -97,6 +135,7 @@ void find_pairs(World& world, StepWorkspace& workspace) {
     }
   }
   leave_out_parted(world, workspace);
+  if (workspace.plan.runs(Stage::part_bodies)) take_out_deep_pairs(world, workspace);
   if (world.settings.soft_search == SoftSearch::particles) mark_near(world, workspace.soft_pairs);
 }
 

@@ -1,5 +1,8 @@
 #include "sim/step/plan.h"
 
+#include <algorithm>
+
+#include "sim/collision/deep_pair.h"
 #include "sim/soft/damping.h"
 
 namespace pneuma::sim {
@@ -31,9 +34,11 @@ std::string_view to_string(Stage stage) {
     case Stage::find_contacts:
       return "find_contacts";
     case Stage::resolve_contacts:
+      return "resolve_contacts";
+    case Stage::part_bodies:
       break;
   }
-  return "resolve_contacts";
+  return "part_bodies";
 }
 
 std::string_view to_string(ContactKind kind) {
@@ -77,6 +82,11 @@ Plan make_plan(const World& world) {
   item(plan, ContactKind::soft_soft) = needs(soft > 1, "fewer than two soft bodies");
   item(plan, ContactKind::soft_rigid) = needs(soft > 0 && rigid > 0, "not both soft and rigid");
   item(plan, ContactKind::rigid_rigid) = needs(rigid > 1, "fewer than two rigid boxes");
+
+  const auto filled = std::ranges::count_if(
+      world.soft, [](const SoftBody& body) { return has_filled_centre(*body.mesh); });
+  item(plan, Stage::part_bodies) =
+      needs(filled > 1, "fewer than two soft bodies that are filled at their centre");
 
   bool valence = false, dashpots = false;
   for (const SoftBody& body : world.soft) {

@@ -18,8 +18,9 @@ enum class Stage {
   move_particles,
   find_contacts,
   resolve_contacts,
+  part_bodies,
 };
-inline constexpr int stage_count = 6;
+inline constexpr int stage_count = 7;
 std::string_view to_string(Stage stage);
 
 /// The kinds of contact that find_contacts looks for.

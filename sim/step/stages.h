@@ -12,7 +12,8 @@ std::optional<Divergence> integrate_soft(World& world, StepWorkspace& workspace)
 std::optional<Divergence> integrate_rigid(World& world, StepWorkspace& workspace);
 
 /// Bodies whose bounding spheres overlap (5.1), of soft ones those that nothing plain keeps apart;
-/// soft pairs get their particles, if they are searched by them.
+/// of these those that are deep in each other are set aside, and the others get their particles,
+/// if they are searched by them.
 void find_pairs(World& world, StepWorkspace& workspace);
 
 /// Lets the particles of all near pairs walk (5.2.1).
@@ -24,5 +25,8 @@ void find_contacts(const World& world, StepWorkspace& workspace);
 /// Impulses, friction and separation (5.3), in the order of the contacts. Returns the first body
 /// that they left with a value that is not finite.
 std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspace);
+
+/// Moves soft bodies that lie deep in each other apart (sim/response/part_deep_pairs.h).
+std::optional<Divergence> part_bodies(World& world, StepWorkspace& workspace);
 
 }  // namespace pneuma::sim

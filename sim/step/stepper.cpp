@@ -48,6 +48,12 @@ SoftScratch make_soft_scratch(const World& world, int threads) {
   return scratch;
 }
 
+std::vector<char> find_filled_centres(const World& world) {
+  std::vector<char> filled;
+  for (const SoftBody& body : world.soft) filled.push_back(has_filled_centre(*body.mesh) ? 1 : 0);
+  return filled;
+}
+
 /// Takes back what the stages up to the one that failed have done.
 void restore(World& world, StepWorkspace& workspace, Stage failed) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
@@ -65,6 +71,7 @@ void restore(World& world, StepWorkspace& workspace, Stage failed) {
   }
   if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::find_pairs)) return;
   world.particles = workspace.particles_start;
+  world.parting = workspace.parting_start;
 }
 
 }  // namespace
@@ -77,6 +84,8 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       soft_start(world.soft.size()),
       rigid_start(world.rigid.size()),
       soft_outcome(world.soft.size()),
+      has_filled_centre(plan.runs(Stage::part_bodies) ? find_filled_centres(world)
+                                                      : std::vector<char>{}),
       particles(at(options.threads)),
       soft_soft(at(options.threads)),
       exact(at(options.threads)),
@@ -104,6 +113,9 @@ std::optional<Divergence> Stepper::step(World& world) {
     run(Stage::move_particles, [&] { move_particles(world, workspace); });
     run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
     run(Stage::resolve_contacts, [&] { divergence = resolve_contacts(world, workspace); });
+  }
+  if (!divergence) {
+    run(Stage::part_bodies, [&] { divergence = part_bodies(world, workspace); });
   }
   if (divergence) {
     restore(world, workspace, divergence->stage);

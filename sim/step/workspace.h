@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "sim/collision/bounding_sphere.h"
+#include "sim/collision/deep_pair.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
 #include "sim/collision/particles.h"
 #include "sim/collision/triangle_columns.h"
 #include "sim/response/contact_impulse.h"
 #include "sim/response/contact_islands.h"
+#include "sim/response/part_deep_pairs.h"
 #include "sim/soft/integrators.h"
 #include "sim/step/stepper.h"
 #include "sim/step/workers.h"
@@ -50,14 +52,19 @@ struct StepWorkspace {
   std::vector<SoftState> soft_start;                    // per body, as the step found it
   std::vector<RigidStart> rigid_start;                  // per box
   std::vector<ParticlePair> particles_start;            // of the world
+  std::vector<PartingPair> parting_start;               // of the world
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
   std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
   PairFinder pair_finder;
-  std::vector<BodyPair> pairs;              // of spheres
-  std::vector<BodyPair> soft_pairs;         // of soft bodies
-  std::vector<std::uint8_t> touches;        // whether each of them may
-  std::vector<BodyPair> soft_rigid_pairs;   // first: soft body, second: box
-  std::vector<BodyPair> rigid_pairs;        // of boxes
+  std::vector<BodyPair> pairs;             // of spheres
+  std::vector<BodyPair> soft_pairs;        // of soft bodies that may touch, but the deep ones
+  std::vector<std::uint8_t> touches;       // whether each of them may
+  std::vector<BodyPair> soft_rigid_pairs;  // first: soft body, second: box
+  std::vector<BodyPair> rigid_pairs;       // of boxes
+  std::vector<char> has_filled_centre;     // per soft body, if the plan has part_bodies
+  std::vector<DeepPair> deep_pairs;
+  DeepPairScratch deep_pair;
+  PartingScratch parting;
   std::vector<ParticleScratch> particles;   // per thread
   std::vector<SoftSoftScratch> soft_soft;   // per thread
   std::vector<ExactScratch> exact;          // per thread

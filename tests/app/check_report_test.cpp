@@ -48,7 +48,7 @@ TEST(CheckText, SaysOfEveryStageWhetherItRuns) {
   for (const char* stage : {"integrate_soft", "find_contacts", "resolve_contacts"}) {
     EXPECT_EQ(after(text, stage), "runs");
   }
-  for (const char* stage : {"integrate_rigid", "find_pairs", "move_particles"}) {
+  for (const char* stage : {"integrate_rigid", "find_pairs", "move_particles", "part_bodies"}) {
     EXPECT_TRUE(after(text, stage).starts_with("left out: ")) << after(text, stage);
     EXPECT_GT(after(text, stage).size(), std::string("left out: ").size());
   }

@@ -104,7 +104,8 @@ TEST(Check, PrintsWhatRunsAndWhatIsLeftOut) {
     std::istringstream(line) >> sign >> stage;
     stages.push_back(stage);
   }
-  EXPECT_EQ(stages, (std::vector<std::string>{"integrate_rigid", "find_pairs", "move_particles"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"integrate_rigid", "find_pairs", "move_particles",
+                                              "part_bodies"}));
 }
 
 TEST(Check, RunsTheScene) {

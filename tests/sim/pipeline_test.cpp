@@ -43,6 +43,12 @@ World torus_with_cubes() {
   return world;
 }
 
+World spheres_in_one_place() {
+  World world;
+  for (int i = 0; i < 5; ++i) add(world, sphere({0.0, 0.0, 3.5}));
+  return world;
+}
+
 World searched_exactly(World world) {
   world.settings.soft_search = SoftSearch::exact;
   return world;
@@ -71,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedWorld{"box_on_sphere", box_on_sphere},
                     NamedWorld{"sphere_on_box", sphere_on_box},
                     NamedWorld{"sphere_in_torus", sphere_in_torus},
+                    NamedWorld{"spheres_in_one_place", spheres_in_one_place},
                     NamedWorld{"exact_spheres_leaning",
                                [] { return searched_exactly(spheres_leaning()); }},
                     NamedWorld{"torus_with_cubes", torus_with_cubes},
@@ -159,16 +166,20 @@ TEST(Plan, HasWhatTheKindsOfBodiesNeed) {
   EXPECT_EQ(left_out(make_plan(spheres_leaning())),
             (Names{"integrate_rigid", "rigid_ground", "soft_rigid", "rigid_rigid"}));
   EXPECT_EQ(left_out(make_plan(box_on_sphere())),
-            (Names{"move_particles", "soft_soft", "rigid_rigid"}));
+            (Names{"move_particles", "part_bodies", "soft_soft", "rigid_rigid"}));
   EXPECT_EQ(left_out(make_plan(stacked_cubes())),
-            (Names{"integrate_soft", "move_particles", "soft_ground", "soft_soft", "soft_rigid"}));
-  EXPECT_EQ(left_out(make_plan(torus_with_cubes())), (Names{"move_particles", "soft_soft"}));
+            (Names{"integrate_soft", "move_particles", "part_bodies", "soft_ground", "soft_soft",
+                   "soft_rigid"}));
+  EXPECT_EQ(left_out(make_plan(torus_with_cubes())),
+            (Names{"move_particles", "part_bodies", "soft_soft"}));
   World exact = spheres_leaning();
   exact.settings.soft_search = SoftSearch::exact;
   EXPECT_EQ(left_out(make_plan(exact)), (Names{"integrate_rigid", "move_particles", "rigid_ground",
                                                "soft_rigid", "rigid_rigid"}));
   World all = torus_with_cubes();
   add(all, sphere({0.0, 0.0, 20.0}));
+  EXPECT_EQ(left_out(make_plan(all)), Names{"part_bodies"});
+  add(all, sphere({0.0, 0.0, 30.0}));
   EXPECT_EQ(left_out(make_plan(all)), Names{});
   all.settings.ground.reset();
   EXPECT_EQ(left_out(make_plan(all)), (Names{"soft_ground", "rigid_ground"}));
@@ -183,9 +194,10 @@ TEST(Plan, OneBodyHasNoMemoryForPairs) {
 
   World box;
   add(box, make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
-  EXPECT_EQ(left_out(make_plan(box)),
-            (std::vector<std::string>{"integrate_soft", "find_pairs", "move_particles",
-                                      "soft_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
+  EXPECT_EQ(
+      left_out(make_plan(box)),
+      (std::vector<std::string>{"integrate_soft", "find_pairs", "move_particles", "part_bodies",
+                                "soft_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
   ASSERT_FALSE(run(box, 2.0));
   EXPECT_EQ(box.particles.capacity(), 0U);
   ASSERT_EQ(box.resting_impulses.size(), 4U) << "its four corners on the ground";

@@ -28,9 +28,9 @@ World many_spheres(int count) {
 
 TEST(Plan, OneSoftBodyOnTheGroundNeedsNoPairsAndNoRigidStage) {
   const Plan plan = make_plan(one_sphere());
-  EXPECT_EQ(left_out(plan),
-            (std::vector<std::string>{"integrate_rigid", "find_pairs", "move_particles",
-                                      "rigid_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
+  EXPECT_EQ(left_out(plan), (std::vector<std::string>{
+                                "integrate_rigid", "find_pairs", "move_particles", "part_bodies",
+                                "rigid_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
   EXPECT_FALSE(plan.valence_weights.runs);
   EXPECT_TRUE(plan.spring_damping.runs);
   for (const Plan::Item& item : plan.stages) EXPECT_EQ(item.runs, item.reason.empty());
