@@ -19,8 +19,7 @@ std::string sphere(const std::string& keys, const std::string& position = "[0.0,
   return fmt::format("[[body]]\nposition = {}\n{}\n", position, keys);
 }
 
-/// A box 5,000 times as heavy, skins that are none or too much, a start inside of another body:
-/// more than the response of 5.3 can part.
+/// A box 5,000 times as heavy as a soft body: more than the response of 5.3 can part.
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 std::string settings(const std::string& keys) { return "[simulation]\n" + keys + "\n"; }
@@ -158,15 +157,12 @@ void add_starts(std::vector<ExtremeCase>& cases) {
 void add_crowds(std::vector<ExtremeCase>& cases) {
   const std::string soft = "n = 1.0\n";
   cases.push_back({.name = "two bodies in one place", .scene = sphere(soft) + sphere(soft)});
-  cases.push_back({.name = "one body inside another",
-                   .scene = sphere(soft) + sphere(soft + "radius = 1.0\n"),
-                   .penetration = unbounded});
+  cases.push_back(
+      {.name = "one body inside another", .scene = sphere(soft) + sphere(soft + "radius = 1.0\n")});
   cases.push_back({.name = "fifty bodies piled in one spot",
                    .scene = sphere(soft + "copies = [50, 1, 1]\nspacing = [0.01, 0, 0]\n"),
                    .seconds = 3.0,
-                   .large = true,
-                   // They start in each other, and are parted by moving vertices against springs.
-                   .energy_tolerance = 0.02});
+                   .large = true});
   cases.push_back({.name = "masses 1 to 1e6",
                    .scene = sphere(soft + "vertex_mass = 350.0\nk = 350.0") +
                             sphere(soft + "vertex_mass = 3.5e-4", "[0, 0, 12]"),
@@ -179,14 +175,16 @@ void add_crowds(std::vector<ExtremeCase>& cases) {
                    .scene = settings("skin_thickness = 0.0") + sphere(soft),
                    .explicit_outcomes = refused,
                    .implicit_outcome = Outcome::refused});
+  // What is deeper than a quarter of their radius, 3.3 m with the gas, is parted as a whole.
   cases.push_back(
       {.name = "a skin of a micrometre",
        .scene = settings("skin_thickness = 1e-6") + sphere(soft) + sphere(soft, "[0.5, 0, 10]"),
-       .penetration = unbounded});
+       .penetration = 0.8});
+  // Once the centre of one lies in the other they are.
   cases.push_back(
       {.name = "a skin larger than the bodies",
        .scene = settings("skin_thickness = 10.0") + sphere(soft) + sphere(soft, "[0.5, 0, 12]"),
-       .penetration = unbounded});
+       .penetration = 3.3});
   cases.push_back({.name = "40,962 vertices",
                    .scene = "[[body]]\nshape = \"icosphere\"\nsubdivisions = 6\nposition = [0, 0, "
                             "3.2]\nn = 1.0\nvertex_mass = 5e-4\nk = 1.0\n",
