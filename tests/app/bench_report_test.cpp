@@ -81,7 +81,8 @@ TEST(BenchText, GivesTheStepAndItsContacts) {
 TEST(BenchText, GivesTheShareOfEachStageOrThatItIsLeftOut) {
   const SceneTimes scene = two_bodies();
   const std::string text = bench_text(report_of({scene}));
-  EXPECT_EQ(row(text, scene.name, 2), (Cells{scene.name, "50%", "-", "12%", "25%", "12%", "0%"}));
+  EXPECT_EQ(row(text, scene.name, 2),
+            (Cells{scene.name, "50%", "-", "12%", "25%", "12%", "0%", "0%"}));
 }
 
 TEST(BenchText, GivesThePartsOfAFrame) {

@@ -47,7 +47,7 @@ TEST(Bench, PrintsJsonWithoutANumberThatIsNotFinite) {
   EXPECT_EQ(result.exit_code, 0);
   expect_nulls_only_at(nlohmann::json::parse(result.output),
                        {"/stage_shares/integrate_rigid", "/stage_shares/find_pairs",
-                        "/stage_shares/move_particles"});
+                        "/stage_shares/move_particles", "/stage_shares/part_bodies"});
 }
 
 TEST(Bench, WithoutPicturesMakesNoGlContext) {

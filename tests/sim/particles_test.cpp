@@ -237,8 +237,7 @@ TEST(Particles, AreMadeWhenAPairMeetsAndStay) {
   Stepper stepper(world);
   ASSERT_FALSE(stepper.step(world));
   EXPECT_TRUE(world.particles.empty()) << "2 m between them";
-  ASSERT_FALSE(
-      run(world, 0.4));  // then they are deep in each other, and surfaces are not looked at
+  while (world.particles.empty() && time(world) < 1.0) ASSERT_FALSE(stepper.step(world));
   ASSERT_EQ(world.particles.size(), 1U);
   EXPECT_TRUE(world.particles[0].near);
   ASSERT_FALSE(run(world, 30.0));
