@@ -16,7 +16,7 @@ namespace {
 constexpr int warm_up_frames = 3;
 
 /// One list of seconds for each part of a frame, and for the whole. `encode` is another thread's
-/// until finish().
+/// until finish(), `steps` until make() returns.
 struct Readings {
   std::vector<double> total, steps, build, draw, encode;
 };

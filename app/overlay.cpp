@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "sim/collision/particles.h"
+#include "sim/collision/surface_view.h"
 
 namespace pneuma::app {
 namespace {

@@ -92,6 +92,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
   check_frame(frame);
   Resources& r = *resources_;
   r.context.make_current();
+  glDisable(GL_SCISSOR_TEST);  // which a frame that failed half way may have left
   const View view = make_view(frame, r.options.width, r.options.height);
   r.mesh_buffers.upload(frame.meshes);
   const std::vector<DrawnMesh>& meshes = r.mesh_buffers.meshes();

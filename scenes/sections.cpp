@@ -131,8 +131,7 @@ Section simulation_section(sim::Settings& settings) {
           {"separation_time", &settings.separation_time, at_least(0), "s",
            "in which soft features that overlap part by a factor e; 0: at once, as in the paper"},
           {"impulse_sweeps", &settings.impulse_sweeps, between(1, 10'000), "",
-           "over contacts that hang together; at most 3 if no box is among them that rests on "
-           "another or "
+           "over contacts that hang together; at most 3 if none of them is a box's with another or "
            "the ground"},
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
@@ -196,7 +195,7 @@ Section picture_section(PictureScene& picture) {
           {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
            "of simulated time; divides steps_per_second"},
           {"samples", &picture.samples, one_of({1, 2, 4}), "",
-           "per pixel; four cost about 2.6 times as much as one"},
+           "per pixel; four cost up to 1.7 times as much as one"},
           {"shadows", &picture.shadows, any(), "", "draw shadows"},
           {"caption", &picture.caption, any(), "", "draw the caption"},
           {"grid", &picture.grid, any(), "", "draw the ground with its grid, where there is one"},

@@ -1,4 +1,4 @@
-// What the light sees: depth along the light, and from it the soft shadow on the ground.
+// What the light sees: depth along the light.
 #pragma once
 
 #include "render/passes/mesh_buffers.h"

@@ -15,15 +15,15 @@ double least_along(const SoftBody& body, Row axis, double seconds) {
   const RowReader positions(body.positions), velocities(body.velocities);
   Row least = Row{} + std::numeric_limits<double>::infinity();
   const int last = body.positions.size() - 1;
-  const auto along = [axis](const RowReader& values, int first, int end) {
+  const auto along = [axis, last](const RowReader& values, int first) {
     const Columns four =
-        columns(values[first], values[std::min(first + 1, end)], values[std::min(first + 2, end)],
-                values[std::min(first + 3, end)]);
+        columns(values[first], values[std::min(first + 1, last)], values[std::min(first + 2, last)],
+                values[std::min(first + 3, last)]);
     return four.x * axis[0] + (four.y * axis[1] + four.z * axis[2]);
   };
   for (int v = 0; v <= last; v += 4) {
-    const Row now = along(positions, v, last);
-    least = lesser(least, lesser(now, now + seconds * along(velocities, v, last)));
+    const Row now = along(positions, v);
+    least = lesser(least, lesser(now, now + seconds * along(velocities, v)));
   }
   return least_of(least);
 }

@@ -32,8 +32,9 @@ struct DeepPairScratch {
 /// Whether a body's centre of mass, at rest, lies inside it: others can be in no deep pair.
 bool has_filled_centre(const SoftMesh& mesh);
 
-/// m. Pairs whose bounding spheres' centres are farther apart are not looked at: a body's piece of
-/// the line is no longer than the radius (m, without the skin) of a sphere about its centre.
+/// m. Pairs whose bounding spheres' centres are farther apart are not looked at: of a body whose
+/// centre of mass is that of its sphere, the piece of the line is no longer than the radius (m,
+/// without the skin). Other bodies may have to come deeper before they are.
 double deep_reach(double first_radius, double second_radius, double skin_thickness,
                   bool is_parting);
 

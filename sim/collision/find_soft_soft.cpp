@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/collision/particles.h"
-
 namespace pneuma::sim {
 namespace {
 

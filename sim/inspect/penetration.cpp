@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "sim/collision/bounding_sphere.h"
-#include "sim/collision/particles.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/collision/separating_axis.h"
+#include "sim/collision/surface_view.h"
 #include "sim/inspect/inspect.h"
 
 namespace pneuma::sim {

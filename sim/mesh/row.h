@@ -14,8 +14,8 @@
 #include "sim/mesh/triangle_mesh.h"
 #include "sim/mesh/vertex_array.h"
 
-// Without AVX, GCC remarks that code compiled with it would pass a Row in another way. Here nothing
-// does: all functions that take one are inline.
+// Without AVX, GCC remarks that code compiled with it would pass a Row in another way. All files
+// here are compiled for the same processor.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace pneuma::sim {
@@ -74,22 +74,6 @@ inline double dot(Row a, Row b) {
   return products[0] + products[1] + products[2];
 }
 
-/// A 3 x 3 matrix by its columns, each x y z 0.
-struct RowMatrix {
-  std::array<Row, 3> columns;
-
-  Row operator*(Row v) const { return columns[0] * v[0] + (columns[1] * v[1] + columns[2] * v[2]); }
-};
-
-inline RowMatrix row_matrix(const Mat3& matrix) {
-  return {{to_row(matrix.col(0)), to_row(matrix.col(1)), to_row(matrix.col(2))}};
-}
-
-inline RowMatrix transposed(const RowMatrix& m) {
-  const auto& [a, b, c] = m.columns;
-  return {{Row{a[0], b[0], c[0], 0.0}, Row{a[1], b[1], c[1], 0.0}, Row{a[2], b[2], c[2], 0.0}}};
-}
-
 /// The coordinates of four vertices.
 struct Columns {
   Row x, y, z;
@@ -103,6 +87,22 @@ inline Columns columns(Row a, Row b, Row c, Row d) {
   return {__builtin_shufflevector(xz_ab, xz_cd, 0, 1, 4, 5),
           __builtin_shufflevector(yw_ab, yw_cd, 0, 1, 4, 5),
           __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7)};
+}
+
+/// A 3 x 3 matrix by its columns, each x y z 0.
+struct RowMatrix {
+  std::array<Row, 3> columns;
+
+  Row operator*(Row v) const { return columns[0] * v[0] + (columns[1] * v[1] + columns[2] * v[2]); }
+};
+
+inline RowMatrix row_matrix(const Mat3& matrix) {
+  return {{to_row(matrix.col(0)), to_row(matrix.col(1)), to_row(matrix.col(2))}};
+}
+
+inline RowMatrix transposed(const RowMatrix& m) {
+  const Columns rows = columns(m.columns[0], m.columns[1], m.columns[2], Row{});
+  return {{rows.x, rows.y, rows.z}};
 }
 
 }  // namespace pneuma::sim

@@ -7,13 +7,14 @@ namespace pneuma::sim {
 namespace {
 
 /// The normal, and two tangents without a root or a branch: Duff et al., Building an Orthonormal
-/// Basis, Revisited, JCGT 6 (2017).
+/// Basis, Revisited, JCGT 6 (2017), written as what takes +-z to the normal does to x and y.
 RowMatrix contact_axes(const Vec3& n) {
   const double sign = std::copysign(1.0, n.z());
   const double a = -1.0 / (sign + n.z());
-  const double b = n.x() * n.y() * a;
-  return {{to_row(n), Row{1.0 + sign * n.x() * n.x() * a, sign * b, -sign * n.x(), 0.0},
-           Row{b, sign + n.y() * n.y() * a, -n.y(), 0.0}}};
+  const Row normal = to_row(n);
+  const Row halfway = normal + Row{0.0, 0.0, sign, 0.0};
+  return {{normal, Row{1.0, 0.0, 0.0, 0.0} + (sign * n.x() * a) * halfway,
+           Row{0.0, sign, 0.0, 0.0} + (n.y() * a) * halfway}};
 }
 
 RowMatrix sum(const RowMatrix& a, const RowMatrix& b) {
@@ -100,7 +101,7 @@ double ContactImpulse::correct_normal(double parting) {
 }
 
 bool ContactImpulse::bounce() {
-  target_ = std::max(target_, bounce_speed_);
+  if (bounce_speed_ > 0.0) target_ = bounce_speed_;
   return bounce_speed_ > 0.0 && impulse_.normal > 0.0;
 }
 

@@ -28,8 +28,9 @@ class ContactImpulse {
   /// `start_approach` (m/s): how fast the sides approached along the normal at the start of the
   /// step. They will part with the restitution's share of it: of what forces add within the step
   /// nothing comes back, or bodies at rest would bounce for ever.
-  /// `work`: J, what all contacts of this pair of bodies have added to their energy so far in the
-  /// step; 0 at first, shared by them and kept by the caller for as long as this lives.
+  /// `work`: J, what all contacts of this pair of bodies, in this island, have added to their
+  /// energy so far in the step; 0 at first, shared by them and kept by the caller for as long as
+  /// this lives.
   ContactImpulse(World& world, std::span<const BoxMass> masses, const Contact& contact,
                  double start_approach, double& work);
 
@@ -39,7 +40,7 @@ class ContactImpulse {
 
   /// Corrects the impulse so that the sides no longer approach, with everything else that has
   /// happened to them so far: j = -v_rel . n / (1/m0 + 1/m1 + ...), and friction that stops the
-  /// sliding with at most mu j. Called again and again, over all contacts of a step; j never
+  /// sliding with at most mu j. Called again and again, over all contacts of an island; j never
   /// becomes negative, also between boxes, which 5.3.3 leaves open. Returns the size of the
   /// correction: the sum of its components, N s.
   double correct();

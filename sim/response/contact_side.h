@@ -84,8 +84,8 @@ class SideInContact {
   double inverse_mass_ = 0.0;
   // Of a box only, with r from its centre to the point and axes a. Kept because a contact waits for
   // the one before it, and products with matrices that are known are sooner done than r x and I^-1.
-  RowMatrix moments_along_;  // its rows are r x a: times omega, the turning part along the axes
-  RowMatrix turning_;        // columns I^-1 (r x a): what an impulse along each axis adds to omega
+  RowMatrix moments_along_{};  // its rows are r x a: times omega, the turning part along the axes
+  RowMatrix turning_{};  // columns I^-1 (r x a): what an impulse along each axis adds to omega
 };
 
 const Surface& surface(const World& world, const ContactSide& side);

@@ -34,7 +34,8 @@ struct PartingScratch {
   std::vector<Body> bodies;
 };
 
-/// `radii`: the farthest that a body is moved, in units of its radius. `spheres` about the soft
+/// `radii`: the farthest that a body is moved, in units of its radius; all bodies then do the same
+/// part of their ways, also those that are in no heap with it. `spheres` about the soft
 /// bodies.
 void part_deep_pairs(World& world, std::span<const DeepPair> pairs, double radii,
                      std::span<const BoundingSphere> spheres, PartingScratch& scratch);

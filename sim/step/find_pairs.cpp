@@ -29,12 +29,12 @@ void make_spheres(const World& world, StepWorkspace& workspace) {
   }
 }
 
-/// So many steps before bodies touch their particles begin to walk. Bodies that are only neighbours
-/// cost no more than a look.
+/// Particles begin to walk when bodies may touch within so many steps (or, if that is later, when
+/// their spheres overlap). Bodies that are only neighbours cost no more than a look.
 constexpr double steps_ahead = 4.0;
 
 /// Leaves only the pairs of soft bodies that may touch.
-void leave_out_parted(const World& world, StepWorkspace& workspace) {
+void leave_out_separate(const World& world, StepWorkspace& workspace) {
   std::vector<BodyPair>& pairs = workspace.soft_pairs;
   workspace.touches.resize(pairs.size());
   const auto block = [&world, &workspace](int begin, int end, int) {
@@ -67,7 +67,7 @@ bool was_parting(const StepWorkspace& workspace, const BodyPair& pair) {
 
 bool may_be_deep(const World& world, const StepWorkspace& workspace, const BodyPair& pair,
                  bool is_parting) {
-  const std::vector<char>& filled = workspace.has_filled_centre;
+  const std::vector<std::uint8_t>& filled = workspace.has_filled_centre;
   if (filled[at(pair.first)] == 0 || filled[at(pair.second)] == 0) return false;
   const double skin = world.settings.skin_thickness;  // in the spheres' radii
   const BoundingSphere& first = workspace.spheres[at(pair.first)];
@@ -78,7 +78,6 @@ bool may_be_deep(const World& world, const StepWorkspace& workspace, const BodyP
 
 /// A deep pair's surfaces are not looked at: they say nothing about the way out.
 void take_out_deep_pairs(World& world, StepWorkspace& workspace) {
-  workspace.parting_start = world.parting;
   world.parting.clear();
   workspace.deep_pairs.clear();
   std::erase_if(workspace.soft_pairs, [&](const BodyPair& pair) {
@@ -119,6 +118,8 @@ void mark_near(World& world, const std::vector<BodyPair>& soft_pairs) {
 
 void find_pairs(World& world, StepWorkspace& workspace) {
   workspace.particles_start = world.particles;
+  workspace.parting_start = world.parting;
+  workspace.resting_start = world.resting_impulses;
   make_spheres(world, workspace);
   workspace.pair_finder.find(workspace.spheres, workspace.pairs);
   workspace.soft_pairs.clear();
@@ -134,7 +135,7 @@ void find_pairs(World& world, StepWorkspace& workspace) {
       workspace.rigid_pairs.push_back({first - soft, second - soft});
     }
   }
-  leave_out_parted(world, workspace);
+  leave_out_separate(world, workspace);
   if (workspace.plan.runs(Stage::part_bodies)) take_out_deep_pairs(world, workspace);
   if (world.settings.soft_search == SoftSearch::particles) mark_near(world, workspace.soft_pairs);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "sim/response/keep_volume.h"
@@ -72,10 +73,14 @@ void remember(World& world, const StepWorkspace& workspace) {
     world.resting_impulses.push_back(
         {first, second, place_on_first(world, contact), workspace.impulses[i].total()});
   }
-  // Not a stable sort, which allocates: the order within a pair need not be that of the contacts,
-  // only the same each time.
+  // Not a stable sort, which allocates. Places decide within a pair, so that what lies elsewhere
+  // does not.
+  const auto order = [](const RestingImpulse& resting) {
+    return std::make_tuple(resting.first, resting.second, resting.place.x(), resting.place.y(),
+                           resting.place.z());
+  };
   std::sort(world.resting_impulses.begin(), world.resting_impulses.end(),
-            [](const RestingImpulse& a, const RestingImpulse& b) { return boxes(a) < boxes(b); });
+            [&](const RestingImpulse& a, const RestingImpulse& b) { return order(a) < order(b); });
 }
 
 /// The last look at a step: the first of all bodies.

@@ -11,7 +11,7 @@ std::optional<Divergence> integrate_soft(World& world, StepWorkspace& workspace)
 /// Free motion of every box (4.1). Returns the first box's failure.
 std::optional<Divergence> integrate_rigid(World& world, StepWorkspace& workspace);
 
-/// Bodies whose bounding spheres overlap (5.1), of soft ones those that nothing plain keeps apart;
+/// Bodies whose bounding spheres overlap (5.1), of soft ones those that no plane keeps apart;
 /// of these those that are deep in each other are set aside, and the others get their particles,
 /// if they are searched by them.
 void find_pairs(World& world, StepWorkspace& workspace);
@@ -22,7 +22,7 @@ void move_particles(World& world, StepWorkspace& workspace);
 /// Fills the workspace's contacts: kind by kind, body by body, so that their order is fixed (5.2).
 void find_contacts(const World& world, StepWorkspace& workspace);
 
-/// Impulses, friction and separation (5.3), in the order of the contacts. Returns the first body
+/// Impulses, friction and separation (5.3), island by island. Returns the first body
 /// that they left with a value that is not finite.
 std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspace);
 

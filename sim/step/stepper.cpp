@@ -48,8 +48,8 @@ SoftScratch make_soft_scratch(const World& world, int threads) {
   return scratch;
 }
 
-std::vector<char> find_filled_centres(const World& world) {
-  std::vector<char> filled;
+std::vector<std::uint8_t> find_filled_centres(const World& world) {
+  std::vector<std::uint8_t> filled;
   for (const SoftBody& body : world.soft) filled.push_back(has_filled_centre(*body.mesh) ? 1 : 0);
   return filled;
 }
@@ -72,6 +72,7 @@ void restore(World& world, StepWorkspace& workspace, Stage failed) {
   if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::find_pairs)) return;
   world.particles = workspace.particles_start;
   world.parting = workspace.parting_start;
+  world.resting_impulses = workspace.resting_start;
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       rigid_start(world.rigid.size()),
       soft_outcome(world.soft.size()),
       has_filled_centre(plan.runs(Stage::part_bodies) ? find_filled_centres(world)
-                                                      : std::vector<char>{}),
+                                                      : std::vector<std::uint8_t>{}),
       particles(at(options.threads)),
       soft_soft(at(options.threads)),
       exact(at(options.threads)),

@@ -53,15 +53,16 @@ struct StepWorkspace {
   std::vector<RigidStart> rigid_start;                  // per box
   std::vector<ParticlePair> particles_start;            // of the world
   std::vector<PartingPair> parting_start;               // of the world
+  std::vector<RestingImpulse> resting_start;            // of the world
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
   std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
   PairFinder pair_finder;
-  std::vector<BodyPair> pairs;             // of spheres
-  std::vector<BodyPair> soft_pairs;        // of soft bodies that may touch, but the deep ones
-  std::vector<std::uint8_t> touches;       // whether each of them may
-  std::vector<BodyPair> soft_rigid_pairs;  // first: soft body, second: box
-  std::vector<BodyPair> rigid_pairs;       // of boxes
-  std::vector<char> has_filled_centre;     // per soft body, if the plan has part_bodies
+  std::vector<BodyPair> pairs;                  // of spheres
+  std::vector<BodyPair> soft_pairs;             // of soft bodies that may touch, but the deep ones
+  std::vector<std::uint8_t> touches;            // whether each of them may
+  std::vector<BodyPair> soft_rigid_pairs;       // first: soft body, second: box
+  std::vector<BodyPair> rigid_pairs;            // of boxes
+  std::vector<std::uint8_t> has_filled_centre;  // per soft body, if the plan has part_bodies
   std::vector<DeepPair> deep_pairs;
   DeepPairScratch deep_pair;
   PartingScratch parting;

@@ -76,7 +76,8 @@ TEST(DeepPair, IsClearWhereTheLineBetweenTheCentresLeavesBoth) {
     World world = isolated();
     add(world, sphere(Vec3::Zero()));
     add(world, sphere({0.1 * seed, 1.0, -0.5}));
-    for (SoftBody& body : world.soft) perturb(body, 0.5, ++seed);
+    perturb(world.soft[0], 0.5, 2 * seed);
+    perturb(world.soft[1], 0.5, 2 * seed + 1);
     const auto deep = deep_pair(world);
     ASSERT_TRUE(deep);
     const Vec3 line = deep->between.normalized();

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "sim/response/contact_islands.h"
@@ -130,6 +132,24 @@ TEST(ContactIslands, AreWhatHangsTogether) {
   }
   EXPECT_GT(large, 100);
   EXPECT_GT(shared_vertices, 100);
+}
+
+TEST(ContactIslands, DoNotFeelEachOther) {
+  // Two boxes that fall on each other end in the same bits with another heap beside them.
+  World alone;
+  alone.settings.ground = Surface{0.3, 0.5};
+  alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
+  alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.1, 2.0}));
+  World crowded = alone;
+  for (int i = 0; i < 4; ++i) {
+    crowded.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {9.0 + 0.2 * i, 0.1 * i, 0.7 + 1.3 * i}));
+  }
+  ASSERT_FALSE(run(alone, 2.0));
+  ASSERT_FALSE(run(crowded, 2.0));
+  for (std::size_t i = 0; i < alone.rigid.size(); ++i) {
+    EXPECT_EQ(crowded.rigid[i].position, alone.rigid[i].position);
+    EXPECT_EQ(crowded.rigid[i].angular_velocity, alone.rigid[i].angular_velocity);
+  }
 }
 
 TEST(VertexOnGround, IsWhatTheImpulsesOfAContactComeTo) {

@@ -1,5 +1,5 @@
-// A pair is left out only when no two points of the bodies come within reach: against the distances
-// of all vertices to a plane between them, and of all features to each other.
+// A pair is left out only when no two points of the bodies come within reach: known distances, and
+// those of all triangles to each other.
 #include "sim/collision/approach.h"
 
 #include <gtest/gtest.h>
@@ -34,6 +34,14 @@ TEST(Approach, LooksAhead) {
   EXPECT_TRUE(Facing(1.5, -6.0).may_touch(1.0, 0.1)) << "0.9 m apart after 0.1 s";
   EXPECT_FALSE(Facing(1.5, -4.0).may_touch(1.0, 0.1)) << "1.1 m";
   EXPECT_TRUE(Facing(0.9, 60.0).may_touch(1.0, 0.1)) << "they part, but are near now";
+}
+
+TEST(Approach, LooksAheadOfTheFirstBodyToo) {
+  Facing bodies(1.5, 0.0);
+  bodies.first.velocities.rows().row(0).setConstant(6.0);
+  EXPECT_TRUE(bodies.may_touch(1.0, 0.1));
+  bodies.first.velocities.rows().row(0).setConstant(4.0);
+  EXPECT_FALSE(bodies.may_touch(1.0, 0.1));
 }
 
 TEST(Approach, WithoutADirectionTheyMayTouch) {
