@@ -1,6 +1,8 @@
 // The plane z = 0: its grid, the shadows on it, and what it hides.
 #pragma once
 
+#include <vector>
+
 #include "render/passes/ground_shadow.h"
 
 namespace pneuma::render {

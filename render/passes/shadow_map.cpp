@@ -1,6 +1,8 @@
 #include "render/passes/shadow_map.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 namespace pneuma::render {
 namespace {
