@@ -232,19 +232,25 @@ TEST_F(RenderTest, PrintsTheVideoCommandWithoutFfmpeg) {
   EXPECT_NE(result.output.find("file:" + video), std::string::npos) << result.output;
 }
 
-/// A stand-in for ffmpeg that writes down its arguments.
-TEST_F(RenderTest, RunsFfmpegAndReportsItsFailure) {
-  fs::create_directory(folder_ / "bin");
-  const fs::path ffmpeg = folder_ / "bin/ffmpeg";
-  write_text(ffmpeg, "#!/bin/sh\necho \"$@\" > '" + (folder_ / "arguments").string() + "'\n");
+/// Makes a shell script stand in for ffmpeg, which need not be installed. Returns the setting of
+/// the environment with which it is found.
+std::string stand_in_for_ffmpeg(const fs::path& folder, const std::string& script) {
+  fs::create_directories(folder / "bin");
+  const fs::path ffmpeg = folder / "bin/ffmpeg";
+  write_text(ffmpeg, "#!/bin/sh\n" + script);
   fs::permissions(ffmpeg, fs::perms::owner_all);
-  const std::string path = "PATH='" + (folder_ / "bin").string() + "':\"$PATH\"";
+  return "PATH='" + (folder / "bin").string() + "':\"$PATH\"";
+}
+
+TEST_F(RenderTest, RunsFfmpegAndReportsItsFailure) {
+  const std::string path = stand_in_for_ffmpeg(
+      folder_.path(), "echo \"$@\" > '" + (folder_ / "arguments").string() + "'\n");
   const std::string video = (folder_ / "film.mp4").string();
   EXPECT_EQ(render("--frames 1-2 --quiet --video '" + video + "'", path).output,
             out().string() + "\n" + video + "\n");
   EXPECT_NE(read_text(folder_ / "arguments").find("-start_number 1 "), std::string::npos);
 
-  write_text(ffmpeg, "#!/bin/sh\necho no such codec >&2\nexit 1\n");
+  stand_in_for_ffmpeg(folder_.path(), "echo no such codec >&2\nexit 1\n");
   const ProgramResult failed = render("--frames 1-2 --resume --video '" + video + "'", path);
   EXPECT_EQ(failed.exit_code, 6);
   EXPECT_NE(failed.output.find("no such codec"), std::string::npos) << failed.output;
@@ -256,9 +262,12 @@ TEST_F(RenderTest, RunsFfmpegAndReportsItsFailure) {
 
 TEST_F(RenderTest, DoesNotBeginWithoutAPlaceForItsVideo) {
   write_text(folder_ / "file", "");
+  // Writes to its last argument, file:PATH.
+  const std::string path =
+      stand_in_for_ffmpeg(folder_.path(), "for last; do :; done\necho film > \"${last#file:}\"\n");
   for (const char* place : {"gone/film.mp4", "file/film.mp4", ".", "/proc/film.mp4"}) {
     const fs::path video = folder_ / place;  // an absolute place stays as it is
-    const ProgramResult result = render("--video '" + video.string() + "'");
+    const ProgramResult result = render("--video '" + video.string() + "'", path);
     EXPECT_EQ(result.exit_code, 6) << result.output;
     EXPECT_NE(result.output.find(" the video " + video.string() + ": "), std::string::npos)
         << result.output;

@@ -179,9 +179,10 @@ TEST(StudyErrors, WithContactsHasNoPeerAndNoHighOrder) {
 TEST(MeasureEvaluation, AddsUpOverBodies) {
   sim::World world = small_world();
   const double one = measure_evaluation(world);
-  world.soft.push_back(world.soft[0]);
-  EXPECT_GT(one, 1e-8);
-  EXPECT_NEAR(measure_evaluation(world), 2.0 * one, 0.5 * one);  // times vary
+  EXPECT_GT(one, 0.0);
+  world.soft.resize(8, world.soft[0]);
+  EXPECT_GT(measure_evaluation(world),
+            2.0 * one);  // eight times: half of that is for a busy machine
 }
 
 }  // namespace
