@@ -8,6 +8,8 @@
 namespace pneuma::sim {
 namespace {
 
+using Vec2 = Eigen::Vector2d;
+
 /// Share of an energy's terms by which its value may be off: 1e-16 for each of their sum's
 /// roundings, of which some hundred do not cancel.
 constexpr double rounding = 1e-13;
@@ -57,7 +59,8 @@ EnergyMinimiser::EnergyMinimiser(const SoftMesh& mesh)
       direction_(mesh.topology.vertex_count()),
       rank_one_(mesh.topology.vertex_count()),
       rank_one_solved_(mesh.topology.vertex_count()),
-      pinned_(at(mesh.topology.vertex_count())) {}
+      pinned_(at(mesh.topology.vertex_count())),
+      gradients_(mesh.topology.vertex_count()) {}
 
 void EnergyMinimiser::update_gradient(const StepEnergy& energy) {
   gradient_without_gas(mesh_, energy, point_, other_gradient_);
@@ -92,9 +95,9 @@ void EnergyMinimiser::clear_pinned(VertexArray& values) const {
   }
 }
 
-/// S and its factors, with `added_inertia_` on the diagonal. False when S + q q^T cannot be
-/// positive definite.
-bool EnergyMinimiser::factorize(const StepEnergy& energy) {
+/// S, with `added_inertia_` on the diagonal, and q.
+void EnergyMinimiser::find_hessian(const StepEnergy& energy) {
+  has_factors_ = false;
   hessian_without_rank_one(mesh_, energy, point_, opposite_, matrix_);
   matrix_.add_identity(added_inertia_);
   for (int v = 0; energy.ground && v < gradient_.size(); ++v) {
@@ -104,6 +107,21 @@ bool EnergyMinimiser::factorize(const StepEnergy& energy) {
     }
     if (pinned_[at(v)].height) matrix_.pin(v, 2);
   }
+  find_rank_one(energy);
+}
+
+void EnergyMinimiser::find_rank_one(const StepEnergy& energy) {
+  if (energy.gas > 0.0) {
+    rank_one_.rows() =
+        std::sqrt(pressure(energy, point_) / point_.volume) * point_.volume_gradient.rows();
+    if (energy.ground) clear_pinned(rank_one_);
+  } else {
+    rank_one_.rows().setZero();
+  }
+}
+
+/// False when S + q q^T cannot be positive definite.
+bool EnergyMinimiser::factorize(const StepEnergy& energy) {
   factors_inertia_ = energy.inertia;
   has_factors_ = matrix_.factorize() && matrix_.negative_count() <= (energy.gas > 0.0 ? 1 : 0);
   return has_factors_;
@@ -115,8 +133,6 @@ bool EnergyMinimiser::solve(const StepEnergy& energy) {
   matrix_.solve(direction_);
   if (energy.gas > 0.0) {
     const double p = pressure(energy, point_);
-    rank_one_.rows() = std::sqrt(p / point_.volume) * point_.volume_gradient.rows();
-    if (energy.ground) clear_pinned(rank_one_);
     rank_one_solved_.rows() = rank_one_.rows();
     matrix_.solve(rank_one_solved_);
     const double denominator = 1.0 + dot(rank_one_, rank_one_solved_);
@@ -133,26 +149,43 @@ bool EnergyMinimiser::solve(const StepEnergy& energy) {
 /// shorter than the last one was.
 bool EnergyMinimiser::find_direction_by_old_factors(const StepEnergy& energy, double last_size) {
   has_factors_ &= added_inertia_ == 0.0 && factors_inertia_ == energy.inertia;
-  return has_factors_ && solve(energy) && greatest_size(direction_) < quick * last_size;
+  if (!has_factors_) return false;
+  find_rank_one(energy);
+  return solve(energy) && greatest_size(direction_) < quick * last_size;
 }
 
 void EnergyMinimiser::find_direction(const StepEnergy& energy, MinimiserReport& report) {
+  using End = ConjugateGradients::End;
   if (added_inertia_ < negligible_addition * energy.inertia) added_inertia_ = 0.0;
   while (std::isfinite(added_inertia_)) {  // ends at the latest when all else is negligible
-    ++report.factorizations;
-    if (factorize(energy) && solve(energy)) return;
+    find_hessian(energy);
+    const End end =
+        iterate_ ? gradients_.solve(matrix_, rank_one_, gradient_, direction_) : End::too_slow;
+    if (end == End::solved) return;
+    iterate_ = end != End::too_slow;
+    if (!iterate_) {
+      ++report.factorizations;
+      if (factorize(energy) && solve(energy)) return;
+    }
     const double least =
         std::max(first_addition * energy.inertia, least_addition * matrix_.greatest_diagonal());
     added_inertia_ = std::max(addition_factor * added_inertia_, least);
   }
 }
 
-/// Goes to point + share * direction, at the floor where that is below it.
+/// Goes to point + share * direction, at the floor where that is below it. Where friction has its
+/// kink, a vertex that would slide past it stops: else the one whose kink comes first would stop
+/// all the others, and there are as many kinks as vertices.
 void EnergyMinimiser::go(const StepEnergy& energy, double share) {
   trial_.positions.rows() = point_.positions.rows() + share * direction_.rows();
   if (!energy.ground) return;
   for (int v = 0; v < direction_.size(); ++v) {
     trial_.positions[v].z() = std::max(trial_.positions[v].z(), energy.floor[at(v)]);
+    if (!energy.friction || energy.grip[at(v)] == 0.0) continue;
+    const Vec2 before = slide(energy, point_.positions, v);
+    const Vec2 ahead = slide(energy, trial_.positions, v) - before;
+    if (before.norm() <= energy.slip || before.dot(before + ahead) >= 0.0) continue;
+    trial_.positions[v].head<2>() -= (1.0 + before.dot(ahead) / ahead.squaredNorm()) * ahead;
   }
 }
 
@@ -165,7 +198,8 @@ double EnergyMinimiser::descend(const StepEnergy& energy) {
     if (trial_.volume < least_volume_left * point_.volume) continue;
     const double promised =
         gradient_.rows().cwiseProduct(trial_.positions.rows() - point_.positions.rows()).sum();
-    if (trial_.energy <= point_.energy + armijo_share * promised + rounding * trial_.magnitude) {
+    if (trial_.energy <=
+        point_.energy + armijo_share * std::min(promised, 0.0) + rounding * trial_.magnitude) {
       std::swap(point_, trial_);
       return share;
     }
@@ -176,6 +210,8 @@ double EnergyMinimiser::descend(const StepEnergy& energy) {
 MinimiserReport EnergyMinimiser::minimise(const StepEnergy& energy, double tolerance) {
   MinimiserReport report;
   added_inertia_ = 0.0;
+  iterate_ = ConjugateGradients::promises_to_be_quick(mesh_.topology.vertex_count(),
+                                                      energy.stiffness, energy.inertia);
   double last_size = std::numeric_limits<double>::infinity();  // of the last direction
   int polishing = 0;
   const double least_gas = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();

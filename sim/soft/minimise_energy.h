@@ -2,12 +2,13 @@
 //
 // Each iteration solves H p = -dE/dx and goes along p, by half of it, by a quarter, ... until V > 0
 // and E has fallen by a share of what its slope promises (Armijo). H = S + q q^T, q = dV/dx
-// sqrt(P/V), has a sparse part S and one of rank one, which the Sherman-Morrison formula takes care
-// of. H is the exact second derivative as long as it is positive definite, which the signs of S =
-// L D L^T tell: either S is, or it has a single negative direction, that of blowing the body up, in
-// which q q^T outweighs it (1 + q . S^-1 q < 0, by the determinant of S + q q^T). Where it is not,
-// the inertia in H is raised until it is (Longva et al., Pitfalls of Projection, 2023, "Kinetic
-// Newton").
+// sqrt(P/V), has a sparse part S and one of rank one. Conjugate gradients solve that nearly, or
+// where they would take too long the sparse factors of S exactly, with the Sherman-Morrison formula
+// for the rest. H is the exact second derivative as long as it is positive definite, which the
+// signs of S = L D L^T tell: either S is, or it has a single negative direction, that of blowing
+// the body up, in which q q^T outweighs it (1 + q . S^-1 q < 0, by the determinant of S + q q^T).
+// Where it is not, the inertia in H is raised until it is (Longva et al., Pitfalls of Projection,
+// 2023, "Kinetic Newton").
 //
 // Newton iterations a step in the mean, and at most, of other choices, with new factors in each, on
 // 300 steps of 1/60 s of an 8 x 8 sphere on the ground:
@@ -21,9 +22,10 @@
 //     k = 1e8, n = 1e6              3.4, 22    3.6, 86         296, 300            94, 300
 //
 // (Projected: negative eigenvalues of springs and of edges' terms of the gas set to zero.) As long
-// as the iterations converge quickly they keep the factors of an earlier one.
+// as the iterations converge quickly they keep the factors of an earlier one, if there are any.
 #pragma once
 
+#include "sim/soft/conjugate_gradients.h"
 #include "sim/soft/step_energy.h"
 #include "sim/soft/vertex_matrix.h"
 
@@ -76,6 +78,8 @@ class EnergyMinimiser {
   void clear_pinned(VertexArray& values) const;
   bool find_direction_by_old_factors(const StepEnergy& energy, double last_size);
   void find_direction(const StepEnergy& energy, MinimiserReport& report);
+  void find_hessian(const StepEnergy& energy);
+  void find_rank_one(const StepEnergy& energy);
   bool factorize(const StepEnergy& energy);
   bool solve(const StepEnergy& energy);
   void go(const StepEnergy& energy, double share);
@@ -92,6 +96,8 @@ class EnergyMinimiser {
   VertexArray rank_one_;         // q
   VertexArray rank_one_solved_;  // S^-1 q
   std::vector<Pins> pinned_;     // per vertex
+  ConjugateGradients gradients_;
+  bool iterate_ = false;  // by them: they have not been too slow yet
   double added_inertia_ = 0.0;
   bool has_factors_ = false;  // in matrix_
   double factors_inertia_ = 0.0;

@@ -12,11 +12,6 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
-/// From where friction would hold the vertex, across the ground.
-Vec2 slide(const StepEnergy& energy, const VertexArray& positions, int v) {
-  return (positions[v] - energy.hold[v]).head<2>();
-}
-
 /// Sliding friction as a potential: its force grows with the slide u until u = slip, and is the
 /// grip from there on (Li et al., Incremental Potential Contact, 2020, section 5.2, with the
 /// simplest function that does so).

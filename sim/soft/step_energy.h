@@ -35,6 +35,11 @@ struct StepEnergy {
   double slip = 1.0;         // m from there at which that has become its greatest
 };
 
+/// Across the ground, from where friction would hold the vertex, in m.
+inline Eigen::Vector2d slide(const StepEnergy& energy, const VertexArray& positions, int v) {
+  return (positions[v] - energy.hold[v]).head<2>();
+}
+
 /// A place at which the energy is known.
 struct EnergyPoint {
   explicit EnergyPoint(const SoftMesh& mesh);

@@ -128,8 +128,33 @@ bool VertexMatrix::factorize() {
 }
 
 void VertexMatrix::solve(VertexArray& values) const {
-  for (int v = 0; v < values.size(); ++v) right_.segment<3>(3 * place_[at(v)]) = values[v];
+  put_in_order(values);
   solution_ = factor_.solve(right_);
+  take_from_order(values);
+}
+
+void VertexMatrix::multiply(const VertexArray& values, VertexArray& product) const {
+  put_in_order(values);
+  solution_.noalias() = upper_.selfadjointView<Eigen::Upper>() * right_;
+  take_from_order(product);
+}
+
+Mat3 VertexMatrix::diagonal_block(int vertex) const {
+  Mat3 block;
+  const int place = place_[at(vertex)];
+  for (int column = 0; column < 3; ++column) {
+    const double* values = upper_.valuePtr() + upper_.outerIndexPtr()[3 * place + column] +
+                           diagonal_offset_[at(place)];
+    for (int row = 0; row <= column; ++row) block(row, column) = block(column, row) = values[row];
+  }
+  return block;
+}
+
+void VertexMatrix::put_in_order(const VertexArray& values) const {
+  for (int v = 0; v < values.size(); ++v) right_.segment<3>(3 * place_[at(v)]) = values[v];
+}
+
+void VertexMatrix::take_from_order(VertexArray& values) const {
   for (int v = 0; v < values.size(); ++v) values[v] = solution_.segment<3>(3 * place_[at(v)]);
 }
 

@@ -43,6 +43,10 @@ class VertexMatrix {
   /// Puts the solution in the place of the right side. After a successful factorize().
   void solve(VertexArray& values) const;
 
+  /// The matrix itself times `values`.
+  void multiply(const VertexArray& values, VertexArray& product) const;
+  Mat3 diagonal_block(int vertex) const;
+
  private:
   using Sparse = Eigen::SparseMatrix<double>;
 
@@ -55,6 +59,8 @@ class VertexMatrix {
 
   void order();
   void make_pattern();
+  void put_in_order(const VertexArray& values) const;  // into right_
+  void take_from_order(VertexArray& values) const;     // from solution_
 
   const MeshTopology& topology_;
   std::vector<int> place_;            // of each vertex in the order of elimination
