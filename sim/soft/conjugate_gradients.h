@@ -1,9 +1,10 @@
-// Conjugate gradients for Newton's direction p = -H^-1 g, H = S + q q^T.
+// Conjugate gradients for Newton's direction p = -H^-1 g, H = S + q q^T, as far as an inexact
+// Newton method needs it.
 //
 // Where springs are not stiff beside the inertia, a vertex feels within a step only those near it,
 // and some ten iterations tell the direction; each takes a small share of the time of sparse
-// factors. They are preconditioned by the 3 x 3 blocks on H's diagonal. Milliseconds of the
-// processor per step of 1/60 s of implicit_euler, a sphere of 20 kg blown up on the ground, by
+// factors. The preconditioner is block Jacobi: the 3 x 3 blocks on H's diagonal. Milliseconds of
+// the processor per step of 1/60 s of implicit_euler, a sphere of 20 kg blown up on the ground, by
 // conjugate gradients | by factors alone | as it is:
 //
 //   vertices             42                  642                  2,562
@@ -11,6 +12,8 @@
 //   k = 1e4, n = 100     0.13 | 0.14 | 0.08  8.0 | 28.4 | 7.4     125 | 906 | 125
 //   k = 1e6, n = 1e4     0.11 | 0.08 | 0.07  7.3 |  7.6 | 7.8     139 | 619 | 152
 #pragma once
+
+#include <vector>
 
 #include "sim/soft/vertex_matrix.h"
 
@@ -21,6 +24,9 @@ class ConjugateGradients {
   /// Takes memory for all that follows.
   explicit ConjugateGradients(int vertex_count);
 
+  /// The forcing term: the share of the residual, in the preconditioner's norm, that may be left.
+  static constexpr double forcing_term = 1e-3;
+
   /// False where springs are so stiff that it would be too slow: a guess.
   static bool promises_to_be_quick(int vertex_count, double stiffness, double inertia);
 
@@ -30,7 +36,8 @@ class ConjugateGradients {
     too_slow,      // factors would have been quicker
   };
 
-  /// `matrix` is S, `rank_one` q. Writes p, which means something only when `solved`.
+  /// `matrix` is S, `rank_one` q. Writes p, which means something only when `solved`: then H is
+  /// positive along all directions that it was searched in, which it need not be along others.
   End solve(const VertexMatrix& matrix, const VertexArray& rank_one, const VertexArray& gradient,
             VertexArray& direction);
 

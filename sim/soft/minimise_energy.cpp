@@ -38,10 +38,6 @@ constexpr double addition_factor = 4.0;
 /// Of the greatest diagonal element: what is lost in rounding would not help.
 constexpr double least_addition = 1e-13;
 
-double dot(const VertexArray& a, const VertexArray& b) {
-  return a.rows().cwiseProduct(b.rows()).sum();
-}
-
 double greatest_size(const VertexArray& values) {
   return std::sqrt(values.rows().colwise().squaredNorm().maxCoeff());
 }
@@ -60,7 +56,7 @@ EnergyMinimiser::EnergyMinimiser(const SoftMesh& mesh)
       rank_one_(mesh.topology.vertex_count()),
       rank_one_solved_(mesh.topology.vertex_count()),
       pinned_(at(mesh.topology.vertex_count())),
-      gradients_(mesh.topology.vertex_count()) {}
+      conjugate_gradients_(mesh.topology.vertex_count()) {}
 
 void EnergyMinimiser::update_gradient(const StepEnergy& energy) {
   gradient_without_gas(mesh_, energy, point_, other_gradient_);
@@ -154,16 +150,23 @@ bool EnergyMinimiser::find_direction_by_old_factors(const StepEnergy& energy, do
   return solve(energy) && greatest_size(direction_) < quick * last_size;
 }
 
+bool EnergyMinimiser::use_conjugate_gradients(const StepEnergy& energy) const {
+  return !gradients_were_slow_ && ConjugateGradients::promises_to_be_quick(
+                                      gradient_.size(), energy.stiffness, energy.inertia);
+}
+
 void EnergyMinimiser::find_direction(const StepEnergy& energy, MinimiserReport& report) {
   using End = ConjugateGradients::End;
   if (added_inertia_ < negligible_addition * energy.inertia) added_inertia_ = 0.0;
   while (std::isfinite(added_inertia_)) {  // ends at the latest when all else is negligible
     find_hessian(energy);
-    const End end =
-        iterate_ ? gradients_.solve(matrix_, rank_one_, gradient_, direction_) : End::too_slow;
+    End end = End::too_slow;
+    if (use_conjugate_gradients(energy)) {
+      end = conjugate_gradients_.solve(matrix_, rank_one_, gradient_, direction_);
+      gradients_were_slow_ = end == End::too_slow;
+    }
     if (end == End::solved) return;
-    iterate_ = end != End::too_slow;
-    if (!iterate_) {
+    if (end == End::too_slow) {
       ++report.factorizations;
       if (factorize(energy) && solve(energy)) return;
     }
@@ -173,19 +176,22 @@ void EnergyMinimiser::find_direction(const StepEnergy& energy, MinimiserReport& 
   }
 }
 
-/// Goes to point + share * direction, at the floor where that is below it. Where friction has its
-/// kink, a vertex that would slide past it stops: else the one whose kink comes first would stop
-/// all the others, and there are as many kinks as vertices.
+/// Goes to point + share * direction. A vertex stops at the floor, and at the kink of friction's
+/// energy if it would slide past it: else the one whose kink comes first would stop all the others.
 void EnergyMinimiser::go(const StepEnergy& energy, double share) {
   trial_.positions.rows() = point_.positions.rows() + share * direction_.rows();
-  if (!energy.ground) return;
-  for (int v = 0; v < direction_.size(); ++v) {
-    trial_.positions[v].z() = std::max(trial_.positions[v].z(), energy.floor[at(v)]);
+  is_stopped_ = false;
+  for (int v = 0; energy.ground && v < direction_.size(); ++v) {
+    if (trial_.positions[v].z() < energy.floor[at(v)]) {
+      trial_.positions[v].z() = energy.floor[at(v)];
+      is_stopped_ = true;
+    }
     if (!energy.friction || energy.grip[at(v)] == 0.0) continue;
     const Vec2 before = slide(energy, point_.positions, v);
     const Vec2 ahead = slide(energy, trial_.positions, v) - before;
     if (before.norm() <= energy.slip || before.dot(before + ahead) >= 0.0) continue;
     trial_.positions[v].head<2>() -= (1.0 + before.dot(ahead) / ahead.squaredNorm()) * ahead;
+    is_stopped_ = true;
   }
 }
 
@@ -210,8 +216,6 @@ double EnergyMinimiser::descend(const StepEnergy& energy) {
 MinimiserReport EnergyMinimiser::minimise(const StepEnergy& energy, double tolerance) {
   MinimiserReport report;
   added_inertia_ = 0.0;
-  iterate_ = ConjugateGradients::promises_to_be_quick(mesh_.topology.vertex_count(),
-                                                      energy.stiffness, energy.inertia);
   double last_size = std::numeric_limits<double>::infinity();  // of the last direction
   int polishing = 0;
   const double least_gas = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();
@@ -224,10 +228,13 @@ MinimiserReport EnergyMinimiser::minimise(const StepEnergy& energy, double toler
     const double promise = -dot(gradient_, direction_);
     const double share = descend(energy);
     if (!(promise > rounding * point_.magnitude)) ++polishing;
-    // The directions shrink by the same factor again, with new factors by more.
-    const bool full = share == 1.0 && added_inertia_ == 0.0;
-    const double next = full ? size * std::min(1.0, size / last_size) : size;
-    report.converged = (next <= tolerance && promise <= small_promise * least_gas) ||
+    // The directions shrink by the same factor again, of which the first one does not tell.
+    const bool full = share == 1.0 && !is_stopped_ && added_inertia_ == 0.0;
+    const double shrinking =
+        full && last_size > 0.0 && std::isfinite(last_size)
+            ? std::clamp(size / last_size, ConjugateGradients::forcing_term, 1.0)
+            : 1.0;
+    report.converged = (size * shrinking <= tolerance && promise <= small_promise * least_gas) ||
                        share == 0.0 || polishing > greatest_polishing;
     last_size = full ? size : 0.0;
     added_inertia_ /= addition_factor;

@@ -2,13 +2,13 @@
 //
 // Each iteration solves H p = -dE/dx and goes along p, by half of it, by a quarter, ... until V > 0
 // and E has fallen by a share of what its slope promises (Armijo). H = S + q q^T, q = dV/dx
-// sqrt(P/V), has a sparse part S and one of rank one. Conjugate gradients solve that nearly, or
-// where they would take too long the sparse factors of S exactly, with the Sherman-Morrison formula
-// for the rest. H is the exact second derivative as long as it is positive definite, which the
-// signs of S = L D L^T tell: either S is, or it has a single negative direction, that of blowing
-// the body up, in which q q^T outweighs it (1 + q . S^-1 q < 0, by the determinant of S + q q^T).
-// Where it is not, the inertia in H is raised until it is (Longva et al., Pitfalls of Projection,
-// 2023, "Kinetic Newton").
+// sqrt(P/V), has a sparse part S and one of rank one. Conjugate gradients solve that nearly
+// (conjugate_gradients.h); where they would take too long, the sparse factors of S do exactly, with
+// the Sherman-Morrison formula for the rest. H is the exact second derivative as long as it is
+// positive definite: as far as the conjugate gradients come to see, or by the signs of S = L D L^T.
+// Either S is, or it has a single negative direction, that of blowing the body up, in which q q^T
+// outweighs it (1 + q . S^-1 q < 0, by the determinant of S + q q^T). Where H is not, the inertia
+// in it is raised until it is (Longva et al., Pitfalls of Projection, 2023, "Kinetic Newton").
 //
 // Newton iterations a step in the mean, and at most, of other choices, with new factors in each, on
 // 300 steps of 1/60 s of an 8 x 8 sphere on the ground:
@@ -55,9 +55,10 @@ class EnergyMinimiser {
   /// be told from how the last ones shrank, or when E no longer falls by more than rounding.
   MinimiserReport minimise(const StepEnergy& energy, double tolerance);
 
-  /// Forgets the factors of the last minimisation, with which the next one otherwise begins: what
-  /// comes out, to its last bit, depends on them.
-  void forget() { has_factors_ = false; }
+  /// Forgets the factors of the last minimisation, with which the next one otherwise begins, and
+  /// whether it found conjugate gradients too slow: what comes out, to its last bit, depends on
+  /// them.
+  void forget() { has_factors_ = gradients_were_slow_ = false; }
 
   /// N, at point(): with which the floor holds a vertex up that is on it, else 0.
   double floor_force(const StepEnergy& energy, int vertex) const;
@@ -80,6 +81,7 @@ class EnergyMinimiser {
   void find_direction(const StepEnergy& energy, MinimiserReport& report);
   void find_hessian(const StepEnergy& energy);
   void find_rank_one(const StepEnergy& energy);
+  bool use_conjugate_gradients(const StepEnergy& energy) const;
   bool factorize(const StepEnergy& energy);
   bool solve(const StepEnergy& energy);
   void go(const StepEnergy& energy, double share);
@@ -96,8 +98,9 @@ class EnergyMinimiser {
   VertexArray rank_one_;         // q
   VertexArray rank_one_solved_;  // S^-1 q
   std::vector<Pins> pinned_;     // per vertex
-  ConjugateGradients gradients_;
-  bool iterate_ = false;  // by them: they have not been too slow yet
+  ConjugateGradients conjugate_gradients_;
+  bool gradients_were_slow_ = false;
+  bool is_stopped_ = false;  // a vertex in trial_: by the floor or by friction
   double added_inertia_ = 0.0;
   bool has_factors_ = false;  // in matrix_
   double factors_inertia_ = 0.0;

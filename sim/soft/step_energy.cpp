@@ -85,6 +85,7 @@ bool evaluate(const SoftMesh& mesh, const StepEnergy& energy, EnergyPoint& point
                  0.5 * energy.stiffness * squares;
   if (energy.friction) point.energy += friction_energy(energy, point.positions);
   point.magnitude = point.energy;
+  point.volume = 1.0;
   if (energy.gas > 0.0) {
     volume_gradient(mesh.topology, point.positions, point.volume_gradient);
     point.volume = volume(point.positions, point.volume_gradient);

@@ -15,6 +15,11 @@
 
 namespace pneuma::sim {
 
+/// Over all coordinates of all vertices.
+inline double dot(const VertexArray& a, const VertexArray& b) {
+  return a.rows().cwiseProduct(b.rows()).sum();
+}
+
 class VertexMatrix {
  public:
   /// Refers to the topology, which must outlive it.

@@ -372,10 +372,15 @@ TEST_P(Implicit, StartsThatMeanNothingAreReported) {
   }
 }
 
+/// N/m: of springs that leave Newton's directions to conjugate gradients, and of ones that take
+/// factors (sim/soft/conjugate_gradients.h).
+constexpr double soft_and_stiff[] = {50.0, 1e6};
+
 TEST_P(Implicit, ThreadsChangeNoBit) {
   World one;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 5; ++i) {  // by turns, on the same memory
     one.soft.push_back(make_body(make_sphere(3.0, 8, 8), {20.0 * i, 0.0, 3.5}));
+    one.soft.back().material.k = soft_and_stiff[i % 2];
     perturb(one.soft.back(), 0.05, static_cast<unsigned>(i));
   }
   one.settings.integrator = GetParam();
@@ -389,7 +394,10 @@ TEST_P(Implicit, ThreadsChangeNoBit) {
 
 TEST_P(Implicit, ContinuesBitForBitFromACheckpoint) {
   World whole;
-  whole.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 3.5}));
+  for (const double k : soft_and_stiff) {
+    whole.soft.push_back(make_body(make_sphere(3.0, 8, 8), {k < 1e3 ? 0.0 : 20.0, 0.0, 3.5}));
+    whole.soft.back().material.k = k;
+  }
   whole.settings.integrator = GetParam();
   World first_half = whole, second_half = whole;
   ASSERT_FALSE(run(whole, 2.0));
@@ -401,7 +409,10 @@ TEST_P(Implicit, ContinuesBitForBitFromACheckpoint) {
 
 TEST_P(Implicit, AllocatesNothingOnceWarm) {
   World world;
-  world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 3.5}));
+  for (const double k : soft_and_stiff) {
+    world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {k < 1e3 ? 0.0 : 20.0, 0.0, 3.5}));
+    world.soft.back().material.k = k;
+  }
   world.settings.integrator = GetParam();
   Stepper stepper(world);
   for (int i = 0; i < 300; ++i) ASSERT_FALSE(stepper.step(world));

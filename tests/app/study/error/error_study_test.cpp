@@ -182,7 +182,7 @@ TEST(MeasureEvaluation, AddsUpOverBodies) {
   EXPECT_GT(one, 0.0);
   world.soft.resize(8, world.soft[0]);
   EXPECT_GT(measure_evaluation(world),
-            2.0 * one);  // eight times: half of that is for a busy machine
+            2.0 * one);  // of eight: the rest is for a busy machine
 }
 
 }  // namespace
