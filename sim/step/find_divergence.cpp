@@ -14,10 +14,6 @@ namespace {
 /// Of the energy of springs at twice their length, and of nRT: what is gained below is rounding.
 constexpr double energy_rounding = 1e-9;
 
-/// What says so in a report.
-constexpr const char* flat_or_inside_out = "so that it is flat or inside out";
-constexpr const char* pressed_flat = "its contacts pressed it flat";
-
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
                    const std::string& what) {
   return {stage, world.steps + 1, body.name, what, vertex};
@@ -69,7 +65,10 @@ std::optional<Divergence> find_lost_volume(const World& world, Stage stage, cons
                        " m^3 before the step" + fastest_text(body, vertex));
   };
   if (!(least > 0.0)) {
-    return report("is " + text(least) + " m^3, " + flat_or_inside_out + ", after ");
+    Divergence lost =
+        report("is " + text(least) + " m^3, so that it is flat or inside out, after ");
+    lost.inverted = true;
+    return lost;
   }
   if (end > greatest_growth * least_volume) {
     return report("grew to " + text(end) + " m^3 by a force that it had at " + text(least_volume) +
@@ -159,9 +158,11 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   const double left = volume(body.mesh->topology, body.positions);
   if (left > 0.0) return std::nullopt;
   const int vertex = fastest_vertex(body);
-  return failure(world, stage, body, vertex,
-                 std::string(pressed_flat) + ", to a volume of " + text(left) + " m^3" +
-                     fastest_text(body, vertex));
+  Divergence pressed = failure(world, stage, body, vertex,
+                               "its contacts pressed it flat, to a volume of " + text(left) +
+                                   " m^3" + fastest_text(body, vertex));
+  pressed.inverted = true;
+  return pressed;
 }
 
 std::optional<Divergence> find_divergence(const World& world, const RigidBox& box) {
@@ -170,11 +171,6 @@ std::optional<Divergence> find_divergence(const World& world, const RigidBox& bo
   if (std::isfinite(sum)) return std::nullopt;
   return Divergence{Stage::resolve_contacts, world.steps + 1, box.name,
                     "its contacts gave it a position or velocity that is not a finite number"};
-}
-
-bool is_inversion(const Divergence& divergence) {
-  return divergence.what.find(flat_or_inside_out) != std::string::npos ||
-         divergence.what.find(pressed_flat) != std::string::npos;
 }
 
 }  // namespace pneuma::sim

@@ -30,7 +30,4 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body);
 std::optional<Divergence> find_divergence(const World& world, const RigidBox& box);
 
-/// Whether it is that a body became flat or turned inside out.
-bool is_inversion(const Divergence& divergence);
-
 }  // namespace pneuma::sim

@@ -66,6 +66,7 @@ TEST(Divergence, ALostVolumeIsNamedWithTheOneBefore) {
   for (int v = 0; v < 29; ++v) world.soft[0].velocities[v].z() = -3000.0;  // through the others
   const auto divergence = first_divergence(world);
   ASSERT_TRUE(divergence);
+  EXPECT_TRUE(divergence->inverted);
   expect_words(*divergence, {"its volume is -", "97.9 m^3 before the step", "fastest"});
 }
 
@@ -84,6 +85,7 @@ TEST(Divergence, EnergyFromNowhereIsFoundInItsStep) {
     const auto divergence = first_divergence(world);
     ASSERT_TRUE(divergence);
     EXPECT_EQ(divergence->step, 1);
+    EXPECT_FALSE(divergence->inverted);
     expect_words(*divergence, {"energy of motion and springs jumped from", "gravity added"});
   }
 }
@@ -94,6 +96,7 @@ TEST(Divergence, ABodyPressedFlatByTheGroundIsFoundInItsStep) {
   const auto divergence = first_divergence(world);
   ASSERT_TRUE(divergence);
   EXPECT_EQ(divergence->stage, Stage::resolve_contacts);
+  EXPECT_TRUE(divergence->inverted);
   expect_words(*divergence, {"pressed it flat", "fastest"});
 }
 

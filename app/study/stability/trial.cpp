@@ -8,7 +8,6 @@
 
 #include "app/interrupt.h"
 #include "sim/inspect/inspect.h"
-#include "sim/step/find_divergence.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {
@@ -90,7 +89,7 @@ Trial try_step(const sim::World& at_rest, sim::Integrator integrator, int steps_
   while (world.steps < steps) {
     throw_if_interrupted();
     if (const auto divergence = stepper.step(world)) {
-      trial.verdict = sim::is_inversion(*divergence) ? Verdict::inverted : Verdict::diverged;
+      trial.verdict = divergence->inverted ? Verdict::inverted : Verdict::diverged;
       trial.reason = fmt::format("step {}: {}", divergence->step, divergence->what);
       return trial;
     }
