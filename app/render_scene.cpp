@@ -122,7 +122,8 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   } catch (const DivergenceError& error) {
     journal.append(divergence_line(error.what()));
     throw DivergenceError(fmt::format(
-        "{}\nThe frames so far are whole. To go on from the last of them with other steps: {}",
+        "{}\nThe frames so far are whole. To go on from the last of them, add what is to be done "
+        "otherwise, a --set simulation.KEY=VALUE or --on-divergence substep, to: {}",
         error.what(), resume_command(request.command_line)));
   }
   close_run(folder);

@@ -95,20 +95,18 @@ void require_same_run(const RunFolder& folder, const Json& then, const Json& now
   const Json old = then.value("run", Json::object());
   if (old == now) return;
   std::string differences;
-  bool only_steps = true;
   for (const std::string& key : keys_of(old, now)) {
     const Json was = old.value(key, Json()), is = now.value(key, Json());
-    if (was == is) continue;
+    if (was == is || (diverged && key == "on_divergence")) continue;
     if (key == "fingerprint") {
       const SceneDifferences scenes = scene_differences(then.value("scene_toml", ""), scene_now);
+      if (diverged && scenes.only_steps) continue;
       differences += "\nthe scene or its settings:" + scenes.text;
-      only_steps &= scenes.only_steps;
     } else {
       differences += fmt::format("\n{}: was {}, is {}", key, was.dump(), is.dump());
-      only_steps &= key == "on_divergence";
     }
   }
-  if (diverged && only_steps) return;
+  if (differences.empty()) return;
   throw render::IoError(
       fmt::format("the run in {} cannot be continued, because it differs from this one in{}\n"
                   "give the options it was started with{}, or --overwrite to start anew",

@@ -84,6 +84,12 @@ TEST_F(RenderTest, ADivergedRunGoesOnWithOtherStepsOnly) {
   const ProgramResult result = render("--set body.k=50 --set body.k_max=1e9 --resume");
   EXPECT_EQ(result.exit_code, 6);
   expect_words(result, {"was  k = 5000", "is   k = 50", "but for simulation.*"});
+  // What may be other is not named among what may not.
+  const ProgramResult shorter =
+      render(too_stiff + "--set simulation.integrator=implicit_euler --frames 0-10 --resume");
+  EXPECT_EQ(shorter.exit_code, 6);
+  expect_words(shorter, {"last_frame: was 21, is 10"});
+  EXPECT_EQ(shorter.output.find("implicit_euler"), std::string::npos) << shorter.output;
 }
 
 TEST_F(RenderTest, AStepThatDivergesCanBeDoneInParts) {

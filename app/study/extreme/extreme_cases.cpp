@@ -157,14 +157,16 @@ void add_starts(std::vector<ExtremeCase>& cases) {
 void add_crowds(std::vector<ExtremeCase>& cases) {
   const std::string soft = "n = 1.0\n";
   // Their gas presses the bodies of a crowd flat against six others: the paper's seven particles a
-  // body do not cover that, and leave some of them up to 0.8 m in each other for a second.
+  // body do not cover that.
   const std::string crowd = "[simulation.particles]\nper_vertex = 0.25\n" + sphere(soft);
   cases.push_back({.name = "two bodies in one place", .scene = sphere(soft) + sphere(soft)});
   cases.push_back(
       {.name = "one body inside another", .scene = sphere(soft) + sphere(soft + "radius = 1.0\n")});
   cases.push_back({.name = "fifty bodies piled in one spot",
                    .scene = crowd + "copies = [50, 1, 1]\nspacing = [0.01, 0, 0]\n",
-                   .seconds = 3.0,
+                   // Of 80 starts 5 to 45 mm apart all were clear of each other from 3 s on. From
+                   // 1.5 s on some still met as they flew apart, by up to 0.8 m.
+                   .seconds = 6.0,
                    .large = true});
   cases.push_back({.name = "masses 1 to 1e6",
                    .scene = sphere(soft + "vertex_mass = 350.0\nk = 350.0") +
