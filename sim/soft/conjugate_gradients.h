@@ -7,10 +7,10 @@
 // the processor per step of 1/60 s of implicit_euler, a sphere of 20 kg blown up on the ground, by
 // conjugate gradients | by factors alone | as it is:
 //
-//   vertices             42                  642                  2,562
-//   k = 50, n = 10       0.06 | 0.15 | 0.09  2.3 | 19.6 | 2.1     15 | 350 | 17
-//   k = 1e4, n = 100     0.13 | 0.14 | 0.08  8.0 | 28.4 | 7.4     125 | 906 | 125
-//   k = 1e6, n = 1e4     0.11 | 0.08 | 0.07  7.3 |  7.6 | 7.8     139 | 619 | 152
+//   vertices             42                  642                 2,562
+//   k = 50, n = 10       0.09 | 0.14 | 0.09  2.4 | 24.1 | 2.4     16 | 348 | 17
+//   k = 1e4, n = 100     0.12 | 0.12 | 0.12  7.3 | 21.4 | 6.8    142 | 948 | 153
+//   k = 1e6, n = 1e4     0.14 | 0.10 | 0.10  4.2 |  7.0 | 7.1    197 | 557 | 172
 #pragma once
 
 #include <vector>
