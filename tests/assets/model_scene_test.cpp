@@ -151,7 +151,7 @@ TEST_F(ModelScene, CheckReportsAModelFile) {
   const std::string path = (folder_ / "it.ply").string();
   const ProgramResult text = run_pneuma("check " + path);
   EXPECT_EQ(text.exit_code, 0);
-  for (const char* part : {"fit for a soft body", "8; 8 in the file", "genus              0",
+  for (const char* part : {"fit for a soft body", "8; 8 as read", "genus              0",
                            "volume             8 m^3", "12, smallest angle 45 degrees"}) {
     EXPECT_NE(text.output.find(part), std::string::npos) << part << " in: " << text.output;
   }
