@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -178,11 +179,16 @@ TEST(StudyErrors, WithContactsHasNoPeerAndNoHighOrder) {
 
 TEST(MeasureEvaluation, AddsUpOverBodies) {
   sim::World world = small_world();
-  const double one = measure_evaluation(world);
-  EXPECT_GT(one, 0.0);
-  world.soft.resize(8, world.soft[0]);
-  EXPECT_GT(measure_evaluation(world),
-            2.0 * one);  // of eight: the rest is for a busy machine
+  sim::World pair = world;
+  pair.soft.push_back(pair.soft[0]);
+  // The least of some, by turns: what else the machine does must not last for one side only.
+  double one = measure_evaluation(world), two = measure_evaluation(pair);
+  for (int i = 0; i < 5; ++i) {
+    one = std::min(one, measure_evaluation(world));
+    two = std::min(two, measure_evaluation(pair));
+  }
+  EXPECT_GT(one, 1e-8);
+  EXPECT_NEAR(two, 2.0 * one, 0.5 * one);  // times vary
 }
 
 }  // namespace
