@@ -33,7 +33,7 @@ class ConjugateGradients {
   enum class End {
     solved,
     not_positive,  // H has been seen not to be positive definite
-    too_slow,      // factors would have been quicker
+    too_slow,      // it has taken a good part of the time of factors
   };
 
   /// `matrix` is S, `rank_one` q. Writes p, which means something only when `solved`: then H is

@@ -10,8 +10,9 @@
 // outweighs it (1 + q . S^-1 q < 0, by the determinant of S + q q^T). Where H is not, the inertia
 // in it is raised until it is (Longva et al., Pitfalls of Projection, 2023, "Kinetic Newton").
 //
-// Newton iterations a step in the mean, and at most, of other choices, with new factors in each, on
-// 300 steps of 1/60 s of an 8 x 8 sphere on the ground:
+// Newton iterations a step in the mean, and at most, of other choices, by new factors in each and
+// before vertices stopped where friction has its kink, on 300 steps of 1/60 s of an 8 x 8 sphere on
+// the ground:
 //
 //                                   as above   exact, else     springs and gas     gas's d^2V/dx^2
 //                                              projected       always projected    left out

@@ -164,7 +164,7 @@ void add_crowds(std::vector<ExtremeCase>& cases) {
       {.name = "one body inside another", .scene = sphere(soft) + sphere(soft + "radius = 1.0\n")});
   cases.push_back({.name = "fifty bodies piled in one spot",
                    .scene = crowd + "copies = [50, 1, 1]\nspacing = [0.01, 0, 0]\n",
-                   // Of 80 starts 5 to 45 mm apart all were clear of each other from 3 s on. From
+                   // Of 80 starts 5 to 44 mm apart all were clear of each other from 3 s on. From
                    // 1.5 s on some still met as they flew apart, by up to 0.8 m.
                    .seconds = 6.0,
                    .large = true});
