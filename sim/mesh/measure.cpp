@@ -3,10 +3,16 @@
 #include "sim/mesh/row.h"
 
 namespace pneuma::sim {
+
 Bounds bounds(const VertexArray& positions) {
-  Bounds result;
-  for (int i = 0; i < positions.size(); ++i) result.include(positions[i]);
-  return result;
+  if (positions.size() == 0) return {};
+  const RowReader x(positions);
+  Row low = x[0], high = x[0];
+  for (int i = 1; i < positions.size(); ++i) {
+    low = lesser(low, x[i]);
+    high = greater(high, x[i]);
+  }
+  return {to_vec3(low), to_vec3(high)};
 }
 
 Vec3 mean(const VertexArray& values) {
@@ -14,15 +20,14 @@ Vec3 mean(const VertexArray& values) {
   return sum.head<3>() / values.size();
 }
 
+// Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
 double volume(const MeshTopology& topology, const VertexArray& positions) {
-  Eigen::Vector4d centre = Eigen::Vector4d::Zero();
-  centre.head<3>() = mean(positions);
-  const Row origin = load_row(centre.data());
   const RowReader x(positions);
+  const Row origin = x[0];
   Row six_volumes{};
-  for (const auto& [first, second, third] : topology.triangles()) {
-    const Row a = x[first] - origin, b = x[second] - origin, c = x[third] - origin;
-    six_volumes += a * turned(b * turned(c) - turned(b) * c);  // a . (b x c), lane by lane
+  for (const auto& [first, second, third, fourth] : topology.quadrangles()) {
+    const Row a = origin - x[first], c = origin - x[third], across = x[second] - x[fourth];
+    six_volumes += a * turned(across * turned(c) - turned(across) * c);
   }
   return sum_of_lanes(six_volumes) / 6.0;
 }

@@ -31,7 +31,7 @@ Bounds bounds(const VertexArray& positions);
 Vec3 mean(const VertexArray& values);
 
 /// Signed volume in m^3, positive for outward triangles (paper 3.1.2 with the sign of ERRATA row
-/// 2), summed about the body's own centre so that a body far from the origin keeps its digits.
+/// 2), summed about one of the body's vertices so that a body far from the origin keeps its digits.
 double volume(const MeshTopology& topology, const VertexArray& positions);
 
 /// Half the cross product of two sides: outward, its length is the area in m^2.

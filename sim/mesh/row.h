@@ -61,6 +61,7 @@ inline Row square_root(Row row) {
 }
 
 inline Row lesser(Row a, Row b) { return a < b ? a : b; }
+inline Row greater(Row a, Row b) { return a > b ? a : b; }
 
 inline double sum_of_lanes(Row row) { return row[0] + row[1] + row[2] + row[3]; }
 

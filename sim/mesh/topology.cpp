@@ -55,6 +55,7 @@ MeshTopology::MeshTopology(int vertex_count, std::vector<Triangle> triangles)
   collect_edges();
   order_rings();
   link_features();
+  pair_triangles();
 }
 
 void MeshTopology::collect_edges() {
@@ -157,6 +158,34 @@ void MeshTopology::link_features() {
   for (const Triangle& t : triangles_) feature_corners_.push_back({t, FeatureKind::triangle});
 }
 
+/// Each with the first of its neighbours that is not in a pair yet.
+void MeshTopology::pair_triangles() {
+  std::vector<bool> paired(triangles_.size(), false);
+  const auto free_neighbour = [&](int triangle, int edge) {
+    const auto& [first, second] = edge_triangles_[at(edge)];
+    const int other = first == triangle ? second : first;
+    return paired[at(other)] ? -1 : other;
+  };
+  for (int t = 0; t < triangle_count(); ++t) {
+    if (paired[at(t)]) continue;
+    paired[at(t)] = true;
+    const Triangle& corners = triangles_[at(t)];
+    std::array<int, 4> quadrangle{corners[0], corners[1], corners[2], corners[0]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int other = free_neighbour(t, triangle_edges_[at(t)][i]);
+      if (other < 0) continue;
+      paired[at(other)] = true;
+      const int c = corners[i], a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
+      const Triangle& beyond = triangles_[at(other)];
+      const int d =
+          *std::find_if(beyond.begin(), beyond.end(), [&](int v) { return v != a && v != c; });
+      quadrangle = {a, b, c, d};
+      break;
+    }
+    quadrangles_.push_back(quadrangle);
+  }
+}
+
 int MeshTopology::feature_id(Feature feature) const {
   switch (feature.kind) {
     case FeatureKind::vertex:
@@ -167,25 +196,6 @@ int MeshTopology::feature_id(Feature feature) const {
       break;
   }
   return vertex_count() + edge_count() + feature.index;
-}
-
-Feature MeshTopology::feature(int id) const {
-  if (id < vertex_count()) return {FeatureKind::vertex, id};
-  id -= vertex_count();
-  if (id < edge_count()) return {FeatureKind::edge, id};
-  return {FeatureKind::triangle, id - edge_count()};
-}
-
-std::span<const int> MeshTopology::feature_vertices(Feature feature) const {
-  switch (feature.kind) {
-    case FeatureKind::vertex:
-      return {&vertex_indices_[at(feature.index)], 1};
-    case FeatureKind::edge:
-      return edges_[at(feature.index)];
-    case FeatureKind::triangle:
-      break;
-  }
-  return triangles_[at(feature.index)];
 }
 
 }  // namespace pneuma::sim

@@ -54,6 +54,11 @@ class MeshTopology {
   /// The three edges of each triangle; edge i joins corners i and i + 1.
   const std::vector<std::array<int, 3>>& triangle_edges() const { return triangle_edges_; }
 
+  /// Every triangle once, nearly all two by two: a, b, c, d stands for the triangles a b c and a c
+  /// d, and with d = a for a b c alone. For sums over triangles, which of two that share a side
+  /// need little more than of one.
+  const std::vector<std::array<int, 4>>& quadrangles() const { return quadrangles_; }
+
   /// The neighbours of a vertex, counter-clockwise seen from outside: spokes i and i + 1 (cyclic)
   /// and the vertex itself make one triangle. Starts at the lowest neighbour.
   std::span<const Spoke> ring(int vertex) const { return slice(ring_, ring_start_, vertex); }
@@ -65,7 +70,12 @@ class MeshTopology {
 
   /// Features as one range of numbers: vertices, then edges, then triangles.
   int feature_id(Feature feature) const;
-  Feature feature(int id) const;
+  Feature feature(int id) const {
+    if (id < vertex_count()) return {FeatureKind::vertex, id};
+    id -= vertex_count();
+    if (id < edge_count()) return {FeatureKind::edge, id};
+    return {FeatureKind::triangle, id - edge_count()};
+  }
 
   /// The features incident to one: of a vertex its edges and triangles, of an edge its two
   /// vertices and two triangles, of a triangle its vertices and edges.
@@ -74,7 +84,17 @@ class MeshTopology {
   }
 
   /// The one, two or three vertices of a feature.
-  std::span<const int> feature_vertices(Feature feature) const;
+  std::span<const int> feature_vertices(Feature feature) const {
+    switch (feature.kind) {
+      case FeatureKind::vertex:
+        return {&vertex_indices_[at(feature.index)], 1};
+      case FeatureKind::edge:
+        return edges_[at(feature.index)];
+      case FeatureKind::triangle:
+        break;
+    }
+    return triangles_[at(feature.index)];
+  }
 
   /// The same for loops over all kinds of features, which then need not ask which they have.
   struct FeatureCorners {
@@ -94,12 +114,14 @@ class MeshTopology {
   void collect_edges();
   void order_rings();
   void link_features();
+  void pair_triangles();
 
   int vertex_count_ = 0;
   std::vector<Triangle> triangles_;
   std::vector<std::array<int, 2>> edges_;
   std::vector<std::array<int, 2>> edge_triangles_;
   std::vector<std::array<int, 3>> triangle_edges_;
+  std::vector<std::array<int, 4>> quadrangles_;
   std::vector<int> ring_start_;
   std::vector<Spoke> ring_;
   std::vector<int> vertex_triangles_;

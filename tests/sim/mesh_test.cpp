@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -61,6 +62,27 @@ TEST(Mesh, EveryEdgeIsUniqueAndJoinsItsTwoTriangles) {
       EXPECT_LT(a, b);
       EXPECT_EQ((triangles_at[{a, b}]), (std::set<int>{t, u})) << name;
     }
+  }
+}
+
+/// Starting at its lowest vertex, the way round unchanged.
+Triangle from_lowest(Triangle triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
+}
+
+TEST(Mesh, QuadranglesAreTheTrianglesTwoByTwo) {
+  for (const auto& [name, mesh, vertices, edges, triangles] : all_meshes()) {
+    const MeshTopology topology = topology_of(mesh);
+    std::multiset<Triangle> in_quadrangles, all;
+    for (const auto& [a, b, c, d] : topology.quadrangles()) {
+      in_quadrangles.insert(from_lowest({a, b, c}));
+      if (d != a) in_quadrangles.insert(from_lowest({a, c, d}));
+    }
+    for (const Triangle& triangle : topology.triangles()) all.insert(from_lowest(triangle));
+    EXPECT_EQ(in_quadrangles, all) << name;
+    // Few are left over, or nothing would be gained.
+    EXPECT_LT(static_cast<double>(topology.quadrangles().size()), 0.6 * triangles) << name;
   }
 }
 
