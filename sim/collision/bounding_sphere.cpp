@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/mesh/row.h"
+
 namespace pneuma::sim {
 
 namespace {
@@ -34,9 +36,12 @@ int axis_of_greatest_spread(std::span<const BoundingSphere> spheres) {
 
 BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bounds, double margin) {
   const Vec3 centre = bounds.centre();
+  const Row middle = to_row(centre);
+  const RowReader x(positions);
   double squared_radius = 0.0;
   for (int i = 0; i < positions.size(); ++i) {
-    squared_radius = std::max(squared_radius, (positions[i] - centre).squaredNorm());
+    const Row offset = x[i] - middle;
+    squared_radius = std::max(squared_radius, dot(offset, offset));
   }
   return {centre, std::sqrt(squared_radius) + margin};
 }

@@ -113,13 +113,23 @@ void spring_coefficients(const SoftMesh& mesh, const VertexArray& positions,
 }
 
 double spring_energy(const SoftMesh& mesh, const VertexArray& positions, double k) {
-  const auto& edges = mesh.topology.edges();
-  double squares = 0.0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const double length = (positions[edges[e][1]] - positions[edges[e][0]]).norm();
-    squares += std::pow(length - mesh.rest_lengths[e], 2);
+  const ForceTables::Ends* const edges = mesh.tables.edges.data();
+  const double* const rows = positions.rows().data();
+  const int count = mesh.topology.edge_count();
+  const int done = count - count % lanes;
+  Row squares{};
+  for (int edge = 0; edge < done; edge += lanes) {
+    const Columns e = differences(edges + edge, rows);
+    const Row strain =
+        square_root(squared_length(e.x, e.y, e.z)) - load_row(mesh.rest_lengths.data() + edge);
+    squares += strain * strain;
   }
-  return 0.5 * k * squares;
+  double sum = sum_of_lanes(squares);
+  for (int edge = done; edge < count; ++edge) {
+    const double strain = edge_length(difference(edges[edge], rows)) - mesh.rest_lengths[at(edge)];
+    sum += strain * strain;
+  }
+  return 0.5 * k * sum;
 }
 
 }  // namespace pneuma::sim
