@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "sim/mesh/row.h"
 
@@ -33,17 +32,57 @@ std::vector<int> random_features(const MeshTopology& mesh, double per_vertex, Ra
   return features;
 }
 
+using Place = ParticleScratch::Place;
+
+/// m, on each axis: where a particle stands that is to count for nothing, as 1/d^2 of it is lost in
+/// rounding; d^4 is still a number.
+constexpr Place far_away{1e9f, 1e9f, 1e9f};
+
+/// A coordinate of eight places. Single precision: which feature is the cheapest hardly ever hangs
+/// on the eighth digit, and eight places take no longer than four in double precision.
+typedef float Eight __attribute__((vector_size(32)));
+
+struct EightPlaces {
+  Eight x, y, z;
+};
+
+Eight joined(Row low, Row high) {
+  typedef float Four __attribute__((vector_size(16)));
+  const Four first = __builtin_convertvector(low, Four);
+  const Four second = __builtin_convertvector(high, Four);
+  return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+EightPlaces columns(const std::array<Row, 8>& rows) {
+  const Columns low = sim::columns(rows[0], rows[1], rows[2], rows[3]);
+  const Columns high = sim::columns(rows[4], rows[5], rows[6], rows[7]);
+  return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
+}
+
+Place to_place(Row row) {
+  return {static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(row[2])};
+}
+
 /// One body's particles on the way to lesser cost, among its own and against the other's.
 class Walk {
  public:
-  Walk(const SurfaceView& surface, std::vector<int>& features, std::vector<Vec3>& own,
-       const std::vector<Vec3>& other, double attraction, double least_distance)
+  /// Places are reckoned from `origin` (m), near the bodies, so that few digits suffice for them.
+  Walk(const SurfaceView& surface, Row origin, std::vector<int>& features, std::vector<Place>& own,
+       const std::vector<Place>& other, const ParticleSettings& settings, double least_distance)
       : surface_(surface),
+        origin_(origin),
         features_(features),
         own_(own),
         other_(other),
-        attraction_(attraction),
-        least_squared_(least_distance * least_distance) {}
+        attraction_(static_cast<float>(settings.attraction)),
+        least_squared_(static_cast<float>(least_distance * least_distance)) {}
+
+  /// To be called for both bodies before the first sweep. One place more, far away, where the
+  /// number of particles is odd.
+  void place() {
+    own_.assign(features_.size() + features_.size() % 2, far_away);
+    for (std::size_t i = 0; i < features_.size(); ++i) own_[i] = to_place(centre(features_[i]));
+  }
 
   /// Moves each particle to the cheapest of its feature and the neighbouring ones. Returns how many
   /// moved.
@@ -56,77 +95,66 @@ class Walk {
   }
 
  private:
-  /// Where it is and where it may go are looked at four at a time. Of equal costs the first wins,
+  Row centre(int feature) const { return feature_centre(surface_, feature) - origin_; }
+
+  /// Where it is and where it may go are looked at eight at a time. Of equal costs the first wins,
   /// so that a particle without reason to go stays.
   bool move(std::size_t particle) {
     const int here = features_[particle];
     const auto neighbours = surface_.topology.feature_neighbours(here);
     const auto option = [&](std::size_t i) { return i == 0 ? here : neighbours[i - 1]; };
     const std::size_t count = 1 + neighbours.size();
-    int best = here;
-    Vec3 best_place = own_[particle];
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t first = 0; first < count; first += 4) {
-      std::array<Row, 4> places;
-      for (std::size_t i = 0; i < 4; ++i)
-        places[i] = feature_centre(surface_, option(std::min(first + i, count - 1)));
-      const Row costs = cost(particle, columns(places[0], places[1], places[2], places[3]));
-      for (std::size_t i = 0; i < std::min<std::size_t>(4, count - first); ++i) {
-        const double option_cost = costs[static_cast<int>(i)];
+    std::size_t best = 0;
+    float least = std::numeric_limits<float>::infinity();
+    own_[particle] = far_away;  // costs itself nothing
+    for (std::size_t first = 0; first < count; first += 8) {
+      const std::size_t options = std::min<std::size_t>(8, count - first);
+      std::array<Row, 8> places{};
+      for (std::size_t i = 0; i < options; ++i) places[i] = centre(option(first + i));
+      const Eight costs = cost(columns(places));
+      for (std::size_t i = 0; i < options; ++i) {
+        const float option_cost = costs[static_cast<int>(i)];
         if (!(option_cost < least)) continue;
         least = option_cost;
-        best = option(first + i);
-        best_place = to_vec3(places[i]);
+        best = first + i;
       }
     }
-    features_[particle] = best;
-    own_[particle] = best_place;
-    return best != here;
+    features_[particle] = option(best);
+    own_[particle] = to_place(centre(features_[particle]));
+    return best > 0;
   }
 
   /// Not below the least.
-  Row squared_distance(const Columns& places, const Vec3& other) const {
-    const Row x = places.x - other.x(), y = places.y - other.y(), z = places.z - other.z();
-    const Row squared = x * x + (y * y + z * z);
-    const Row bound = Row{} + least_squared_;
+  Eight squared_distance(const EightPlaces& places, const Place& other) const {
+    const Eight x = places.x - other.x, y = places.y - other.y, z = places.z - other.z;
+    const Eight squared = x * x + (y * y + z * z);
+    const Eight bound = Eight{} + least_squared_;
     return squared > bound ? squared : bound;
   }
 
   /// The sum of 1/d^2. Two at a time, 1/a + 1/b = (a + b) / ab: divisions are what takes the time.
-  Row nearness(const Columns& places, std::span<const Vec3> others) const {
-    Row sum{};
-    std::size_t i = 0;
-    for (; i + 1 < others.size(); i += 2) {
-      const Row a = squared_distance(places, others[i]);
-      const Row b = squared_distance(places, others[i + 1]);
+  Eight nearness(const EightPlaces& places, const std::vector<Place>& others) const {
+    Eight sum{};
+    for (std::size_t i = 0; i < others.size(); i += 2) {
+      const Eight a = squared_distance(places, others[i]);
+      const Eight b = squared_distance(places, others[i + 1]);
       sum += (a + b) / (a * b);
     }
-    if (i < others.size()) sum += 1.0 / squared_distance(places, others[i]);
     return sum;
   }
 
-  /// Of the particle in four places.
-  Row cost(std::size_t particle, const Columns& places) const {
-    const std::span<const Vec3> own(own_);
-    return nearness(places, own.first(particle)) + nearness(places, own.subspan(particle + 1)) -
-           attraction_ * nearness(places, other_);
+  Eight cost(const EightPlaces& places) const {
+    return nearness(places, own_) - attraction_ * nearness(places, other_);
   }
 
   const SurfaceView& surface_;
+  Row origin_;
   std::vector<int>& features_;
-  std::vector<Vec3>& own_;
-  const std::vector<Vec3>& other_;
-  double attraction_;
-  double least_squared_;
+  std::vector<Place>& own_;
+  const std::vector<Place>& other_;
+  float attraction_;
+  float least_squared_;
 };
-
-void place(const SurfaceView& surface, const std::vector<int>& features,
-           std::vector<Vec3>& places) {
-  places.resize(features.size());
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    places[i] = to_vec3(feature_centre(surface, features[i]));
-  }
-}
 
 }  // namespace
 
@@ -153,12 +181,13 @@ ParticlePair make_particles(int first, const MeshTopology& first_mesh, int secon
 int settle_particles(const SurfaceView& first, const SurfaceView& second,
                      const ParticleSettings& settings, double least_distance, ParticlePair& pair,
                      ParticleScratch& scratch) {
-  place(first, pair.first_features, scratch.first);
-  place(second, pair.second_features, scratch.second);
-  Walk first_walk(first, pair.first_features, scratch.first, scratch.second, settings.attraction,
+  const Row origin = feature_centre(first, pair.first_features.front());
+  Walk first_walk(first, origin, pair.first_features, scratch.first, scratch.second, settings,
                   least_distance);
-  Walk second_walk(second, pair.second_features, scratch.second, scratch.first, settings.attraction,
+  Walk second_walk(second, origin, pair.second_features, scratch.second, scratch.first, settings,
                    least_distance);
+  first_walk.place();
+  second_walk.place();
   for (int sweeps = 1; sweeps <= settings.max_sweeps; ++sweeps) {
     const int moved = first_walk.sweep() + second_walk.sweep();
     if (moved < settings.settled_below) return sweeps;

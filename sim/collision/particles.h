@@ -30,8 +30,11 @@ double least_particle_distance(double skin_thickness);
 
 /// Memory of settle_particles: where the particles are. Contents mean nothing between calls.
 struct ParticleScratch {
-  std::vector<Vec3> first;
-  std::vector<Vec3> second;
+  struct Place {
+    float x, y, z;  // m
+  };
+  std::vector<Place> first;
+  std::vector<Place> second;
 };
 
 /// Moves the particles until fewer than `settled_below` move in a sweep over all of them, or for
