@@ -4,11 +4,14 @@
 
 namespace pneuma::sim {
 
-ContactIslands::ContactIslands(const World& world) : box_contact_(world.rigid.size(), -1) {
+ContactIslands::ContactIslands(const World& world) {
+  std::size_t nodes = world.rigid.size();
   for (const SoftBody& body : world.soft) {
     topologies_.push_back(&body.mesh->topology);
-    vertex_contact_.emplace_back(at(body.positions.size()), -1);
+    first_node_.push_back(static_cast<int>(nodes));
+    nodes += at(body.positions.size());
   }
+  node_contact_.assign(nodes, -1);
 }
 
 std::span<const int> ContactIslands::island(int island) const {
@@ -18,11 +21,10 @@ std::span<const int> ContactIslands::island(int island) const {
 /// Calls visit(entry) for the entry of every vertex of the side, or of its box.
 template <class Visit>
 void ContactIslands::for_nodes(const ContactSide& side, const Visit& visit) {
-  if (side.kind == BodyKind::rigid) visit(box_contact_[at(side.body)]);
+  if (side.kind == BodyKind::rigid) visit(node_contact_[at(side.body)]);
   if (side.kind != BodyKind::soft) return;
-  for (const int v : topologies_[at(side.body)]->feature_vertices(side.feature)) {
-    visit(vertex_contact_[at(side.body)][at(v)]);
-  }
+  int* const nodes = &node_contact_[at(first_node_[at(side.body)])];
+  for (const int v : topologies_[at(side.body)]->feature_vertices(side.feature)) visit(nodes[v]);
 }
 
 int ContactIslands::root(int contact) {
@@ -35,12 +37,10 @@ int ContactIslands::root(int contact) {
 
 void ContactIslands::join(int contact, const ContactSide& side) {
   for_nodes(side, [&](int& known) {
-    if (known < 0) {
-      known = contact;
-      return;
-    }
-    const int a = root(known), b = root(contact);
-    parent_[at(std::max(a, b))] = std::min(a, b);
+    const int own = root(contact);
+    const int other = known < 0 ? own : root(known);
+    known = std::min(own, other);
+    parent_[at(std::max(own, other))] = known;
   });
 }
 
@@ -57,11 +57,14 @@ void ContactIslands::collect_members(std::span<const Contact> contacts) {
     join(i, contacts[at(i)].second);
   }
   for (int i = 0; i < count; ++i) {
+    if (!is_soft_ground(contacts[at(i)])) {
+      members_.push_back(i);
+      continue;
+    }
     const ContactSide& side = contacts[at(i)].first;
-    const bool is_alone = is_soft_ground(contacts[at(i)]) &&
-                          vertex_contact_[at(side.body)][at(side.feature.index)] < 0;
-    (is_alone ? alone_ : members_).push_back(i);
-    if (!is_alone && is_soft_ground(contacts[at(i)])) join(i, side);
+    const int known = node_contact_[at(first_node_[at(side.body)] + side.feature.index)];
+    (known < 0 ? alone_ : members_).push_back(i);
+    if (known >= 0) join(i, side);
   }
 }
 

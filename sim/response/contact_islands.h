@@ -47,11 +47,10 @@ class ContactIslands {
   void forget(std::span<const Contact> contacts);
 
   std::vector<const MeshTopology*> topologies_;  // of the soft bodies
-  std::vector<std::vector<int>>
-      vertex_contact_;            // a contact at each vertex; -1, also between calls
-  std::vector<int> box_contact_;  // likewise
-  std::vector<int> parent_;       // per contact, towards the first contact of its island
-  std::vector<int> island_;       // per contact, of the first of an island
+  std::vector<int> first_node_;                  // per soft body: that of its first vertex
+  std::vector<int> node_contact_;  // of boxes, then of vertices: a contact there; -1 between calls
+  std::vector<int> parent_;        // per contact, towards the first contact of its island
+  std::vector<int> island_;        // per contact, of the first of an island
   std::vector<int> members_;
   std::vector<int> alone_;
   std::vector<int> ordered_;
