@@ -7,18 +7,18 @@ namespace pneuma::sim {
 
 /// What a contact gave its first side so far in this step, N s. The second side got the opposite.
 struct Impulse {
-  double normal = 0.0;                                 // along the contact's normal, >= 0
-  Eigen::Vector2d friction = Eigen::Vector2d::Zero();  // across it, at most mu times the normal one
+  double normal = 0.0;           // along the contact's normal, >= 0
+  Vec3 friction = Vec3::Zero();  // across it, at most mu times the normal one
 };
 
 /// m/s. A body that would part more slowly, and rise by less than 5 um, does not bounce: a stack
 /// that always trembles a little rests better without.
 inline constexpr double least_bounce_speed = 0.01;
 
-/// What friction has to move: the inverse of the mobility across the normal, kg, and the least mass
-/// along any direction.
+/// What friction has to move: the inverse of the mobility across the normal, kg, a symmetric matrix
+/// that takes the normal to zero, and the least mass along any direction.
 struct TangentMass {
-  double first, across, second;  // of the symmetric 2 x 2 matrix
+  RowMatrix matrix;
   double least;
 };
 
@@ -52,10 +52,8 @@ class ContactImpulse {
   /// a restitution of 1 adds none. Returns whether there is anything to give back.
   bool bounce();
 
-  const Impulse& impulse() const { return impulse_; }
-  Vec3 total() const {
-    return to_vec3(axes_ * Row{impulse_.normal, impulse_.friction.x(), impulse_.friction.y(), 0.0});
-  }
+  Impulse impulse() const { return {normal_impulse_, to_vec3(friction_impulse_)}; }
+  Vec3 total() const { return to_vec3(normal_impulse_ * normal_ + friction_impulse_); }
   bool sticks() const { return sticks_; }  // friction is below its limit
 
   /// Moves the sides apart, shared by their inverse masses, until they have moved by `share` of
@@ -63,28 +61,29 @@ class ContactImpulse {
   bool separate(double share) const;
 
  private:
-  /// All within the contact's axes: rows normal, first tangent, second tangent, 0. An impulse
-  /// changes the relative velocity through `mobility_`.
-  inline Row relative_velocity() const;
+  inline Row relative_velocity() const { return first_.velocity() - second_.velocity(); }
   inline void apply(Row impulse) const;
   inline double correct_normal(double parting);
   inline double most_without_gain(double parting) const;
-  inline Row correct_friction(Row velocity);
+  inline Row correct_friction(Row velocity, double normal);
 
-  RowMatrix axes_{};     // columns: the normal, and two tangents
-  RowMatrix to_axes_{};  // transposed
+  Row normal_{};
   SideInContact first_;
   SideInContact second_;
-  RowMatrix mobility_{};      // of both sides, in these axes, 1/kg
-  double normal_mass_ = 0.0;  // kg, 1 / mobility along the normal
+  RowMatrix mobility_{};  // of both sides, 1/kg: how an impulse changes the relative velocity
+  Row pushed_{};          // 1/kg, what one N s along the normal adds to the relative velocity
+  double normal_mobility_ = 0.0;  // 1/kg
+  double normal_mass_ = 0.0;      // kg, its inverse
   TangentMass tangent_mass_{};
+  Row holding_{};  // tangent mass times pushed_: friction that holds against one N s of the normal
   double depth_ = 0.0;
   double start_gap_ = 0.0;  // m along the normal, first's place less second's, when this was made
-  double friction_ = 0.0;
-  double target_ = 0.0;        // m/s with which the sides part; negative: may still approach
-  double bounce_speed_ = 0.0;  // m/s, the target once they have been stopped
-  double* work_ = nullptr;     // J, shared
-  Impulse impulse_;
+  double friction_ = 0.0;   // Coulomb's mu
+  double target_ = 0.0;     // m/s with which the sides part; negative: may still approach
+  double bounce_speed_ = 0.0;    // m/s, the target once they have been stopped
+  double* work_ = nullptr;       // J, shared
+  double normal_impulse_ = 0.0;  // N s
+  Row friction_impulse_{};       // N s
   bool sticks_ = false;
 };
 

@@ -12,7 +12,7 @@ BoxMass box_mass(const RigidBox& box) {
 }
 
 SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, const ContactSide& side,
-                             const Vec3& point, const RowMatrix& axes) {
+                             const Vec3& point) {
   switch (side.kind) {
     case BodyKind::soft: {
       soft_ = &world.soft[at(side.body)];
@@ -29,13 +29,12 @@ SideInContact::SideInContact(World& world, std::span<const BoxMass> masses, cons
       box_ = &world.rigid[at(side.body)];
       const BoxMass& mass = masses[at(side.body)];
       inverse_mass_ = mass.inverse_mass;
-      const Row arm = to_row(point - box_->position);
-      RowMatrix moments;
+      const Vec3 r = point - box_->position;
+      leverage_ = {{Row{0.0, -r.z(), r.y(), 0.0}, Row{r.z(), 0.0, -r.x(), 0.0},
+                    Row{-r.y(), r.x(), 0.0, 0.0}}};
       for (std::size_t i = 0; i < 3; ++i) {
-        moments.columns[i] = cross(arm, axes.columns[i]);
-        turning_.columns[i] = mass.inverse_inertia * moments.columns[i];
+        turning_.columns[i] = mass.inverse_inertia * -leverage_.columns[i];
       }
-      moments_along_ = transposed(moments);
       break;
     }
     case BodyKind::ground:
@@ -47,7 +46,7 @@ RowMatrix SideInContact::mobility() const {
   RowMatrix result{{Row{inverse_mass_, 0.0, 0.0, 0.0}, Row{0.0, inverse_mass_, 0.0, 0.0},
                     Row{0.0, 0.0, inverse_mass_, 0.0}}};
   if (!box_) return result;
-  for (std::size_t i = 0; i < 3; ++i) result.columns[i] += moments_along_ * turning_.columns[i];
+  for (std::size_t i = 0; i < 3; ++i) result.columns[i] += leverage_ * turning_.columns[i];
   return result;
 }
 

@@ -23,14 +23,15 @@ BoxMass box_mass(const RigidBox& box);
 class SideInContact {
  public:
   SideInContact() = default;
-  /// `masses` has one entry per box of the world; `axes` are the contact's, columns of unit length.
+  /// `masses` has one entry per box of the world.
   SideInContact(World& world, std::span<const BoxMass> masses, const ContactSide& side,
-                const Vec3& point, const RowMatrix& axes);
+                const Vec3& point);
 
-  /// Velocity in m/s of the side's material at the contact point, but for the turning part. A soft
-  /// feature's is the mean over its vertices, which have equal masses; the ground's zero.
+  /// Velocity in m/s of the side's material at the contact point: of a box v + omega x r (ERRATA
+  /// row 19), of a soft feature the mean over its vertices, which have equal masses; the ground's
+  /// is zero.
   Row velocity() const {
-    if (box_) return to_row(box_->velocity);
+    if (box_) return to_row(box_->velocity) + leverage_ * to_row(box_->angular_velocity);
     switch (vertex_count_) {
       case 1:
         return load_row(velocities_[0]);
@@ -44,18 +45,12 @@ class SideInContact {
     }
   }
 
-  /// The turning part, omega x r of a box (ERRATA row 19), along the contact's axes.
-  Row turning_velocity() const {
-    return box_ ? moments_along_ * to_row(box_->angular_velocity) : Row{};
-  }
-
-  /// An impulse in N s, in the world and in the contact's axes. All vertices of a soft feature
-  /// change alike.
-  void apply(Row impulse, Row along_axes) const {
+  /// An impulse in N s. All vertices of a soft feature change alike.
+  void apply(Row impulse) const {
     const Row change = inverse_mass_ * impulse;
     if (box_) {
       box_->velocity += to_vec3(change);
-      box_->angular_velocity += to_vec3(turning_ * along_axes);
+      box_->angular_velocity += to_vec3(turning_ * impulse);
       return;
     }
     for (int i = 0; i < vertex_count_; ++i) {
@@ -63,13 +58,16 @@ class SideInContact {
     }
   }
 
-  /// The velocity in m/s along each of the contact's axes that an impulse of one N s along each
-  /// gives at the point, as a symmetric matrix: 1/m for a soft feature, m the sum of its vertices'
-  /// masses (5.3.1); for a box n . K n = 1/m + n . ((I^-1 (r x n)) x r) (5.3.3); 0 for the ground.
+  /// The velocity in m/s that an impulse of one N s gives at the point, as a symmetric matrix: 1/m
+  /// for a soft feature, m the sum of its vertices' masses (5.3.1); for a box n . K n = 1/m +
+  /// n . ((I^-1 (r x n)) x r) (5.3.3); 0 for the ground.
   RowMatrix mobility() const;
 
   /// 1/m without the rotational part: how displacements are shared between the sides.
   double inverse_mass() const { return inverse_mass_; }
+
+  /// Whether an impulse also turns the side: only a box.
+  bool turns() const { return box_ != nullptr; }
 
   /// Of the soft feature the middle, of a box the centre, m: moves when the side is displaced.
   Row place() const;
@@ -82,10 +80,10 @@ class SideInContact {
   std::array<double*, 3> velocities_{};  // theirs
   int vertex_count_ = 0;
   double inverse_mass_ = 0.0;
-  // Of a box only, with r from its centre to the point and axes a. Kept because a contact waits for
-  // the one before it, and products with matrices that are known are sooner done than r x and I^-1.
-  RowMatrix moments_along_{};  // its rows are r x a: times omega, the turning part along the axes
-  RowMatrix turning_{};  // columns I^-1 (r x a): what an impulse along each axis adds to omega
+  // Of a box only, with r from its centre to the point. Kept because a contact waits for the one
+  // before it, and products with matrices that are known are sooner done than r x and I^-1.
+  RowMatrix leverage_{};  // columns e x r of each axis e: omega x r, times omega
+  RowMatrix turning_{};   // columns I^-1 (r x e): what an impulse along each axis adds to omega
 };
 
 const Surface& surface(const World& world, const ContactSide& side);
