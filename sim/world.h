@@ -130,10 +130,11 @@ struct World {
   Settings settings;
   std::vector<SoftBody> soft;
   std::vector<RigidBox> rigid;
-  std::vector<ParticlePair> particles;           // pairs that have met, ordered by (first, second)
-  std::vector<RestingImpulse> resting_impulses;  // of the last step, ordered by (first, second)
-  std::vector<PartingPair> parting;              // ordered by (first, second)
-  std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
+  std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
+  std::vector<RestingImpulse>
+      resting_impulses;              // of the last step, ground first, then by (first, second)
+  std::vector<PartingPair> parting;  // ordered by (first, second)
+  std::int64_t steps = 0;            // done so far; time is steps / steps_per_second
 };
 
 inline bool is_implicit(Integrator integrator) {

@@ -8,7 +8,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x32414d55454e50ULL;  // "PNEUMA2" as little-endian bytes
+constexpr std::uint64_t magic = 0x33414d55454e50ULL;  // "PNEUMA3" as little-endian bytes
 
 /// Appends plain values; the format is this machine's own byte order.
 class Writer {

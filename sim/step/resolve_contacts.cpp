@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <tuple>
-#include <utility>
-
 #include "sim/response/keep_volume.h"
 #include "sim/response/vertex_on_ground.h"
 #include "sim/soft/pressure_force.h"
@@ -63,24 +59,21 @@ void keep_volumes(World& world, const StepWorkspace& workspace) {
   }
 }
 
-void remember(World& world, const StepWorkspace& workspace) {
-  world.resting_impulses.clear();
+/// In the order in which the contacts were found, whichever islands they are in.
+void remember(World& world, StepWorkspace& workspace) {
   const std::span<const int> ordered = workspace.islands.ordered();
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    const Contact& contact = workspace.contacts[at(ordered[i])];
+  std::vector<int>& number = workspace.impulse_number;
+  number.resize(workspace.contacts.size());
+  for (std::size_t i = 0; i < ordered.size(); ++i) number[at(ordered[i])] = static_cast<int>(i);
+
+  world.resting_impulses.clear();
+  for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
+    const Contact& contact = workspace.contacts[i];
     if (!is_rigid(contact)) continue;
-    const auto [first, second] = boxes(contact);
-    world.resting_impulses.push_back(
-        {first, second, place_on_first(world, contact), workspace.impulses[i].total()});
+    const int second = contact.second.kind == BodyKind::ground ? -1 : contact.second.body;
+    world.resting_impulses.push_back({contact.first.body, second, place_on_first(world, contact),
+                                      workspace.impulses[at(number[i])].total()});
   }
-  // Not a stable sort, which allocates. Places decide within a pair, so that what lies elsewhere
-  // does not.
-  const auto order = [](const RestingImpulse& resting) {
-    return std::make_tuple(resting.first, resting.second, resting.place.x(), resting.place.y(),
-                           resting.place.z());
-  };
-  std::sort(world.resting_impulses.begin(), world.resting_impulses.end(),
-            [&](const RestingImpulse& a, const RestingImpulse& b) { return order(a) < order(b); });
 }
 
 /// The last look at a step: the first of all bodies.

@@ -101,12 +101,13 @@ void make_impulses(World& world, StepWorkspace& workspace, const Island& island)
 /// lost, or the stack gets a jolt.
 void hand_on(const World& world, const Island& island, std::size_t begin, std::size_t end,
              const RestingImpulse& resting) {
-  const double near = same_point * world.rigid[at(resting.first)].size.minCoeff();
+  const RigidBox& first = world.rigid[at(resting.first)];
+  const Vec3 place = first.position + first.orientation * resting.place;
+  const double near = same_point * first.size.minCoeff();
   double least = near * near;
   ContactImpulse* nearest = nullptr;
   for (std::size_t i = begin; i < end; ++i) {
-    const Vec3 place = place_on_first(world, island.contact(i));
-    const double squared = (place - resting.place).squaredNorm();
+    const double squared = (island.contact(i).point - place).squaredNorm();
     if (squared < least) {
       least = squared;
       nearest = &island.impulse(i);

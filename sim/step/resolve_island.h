@@ -12,13 +12,16 @@ inline bool is_rigid(const Contact& contact) {
   return contact.first.kind == BodyKind::rigid && contact.second.kind != BodyKind::soft;
 }
 
-/// Boxes of a resting contact; -1 for the ground.
+/// The boxes of a resting contact; with the ground, (-1, box). In this order contacts are found.
 inline std::pair<int, int> boxes(const Contact& contact) {
-  return {contact.first.body, contact.second.kind == BodyKind::ground ? -1 : contact.second.body};
+  const bool on_ground = contact.second.kind == BodyKind::ground;
+  return on_ground ? std::pair(-1, contact.first.body)
+                   : std::pair(contact.first.body, contact.second.body);
 }
 
 inline std::pair<int, int> boxes(const RestingImpulse& resting) {
-  return {resting.first, resting.second};
+  return resting.second < 0 ? std::pair(-1, resting.first)
+                            : std::pair(resting.first, resting.second);
 }
 
 /// Where a resting contact acts, in the first box's own axes, m from its centre.

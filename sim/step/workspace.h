@@ -77,7 +77,8 @@ struct StepWorkspace {
   ContactIslands islands;
   // At least as many as the islands have contacts, in their order.
   std::vector<ContactImpulse> impulses;
-  std::vector<double> pair_work;  // J, by the contacts of each pair of bodies in an island
+  std::vector<int> impulse_number;  // per contact in an island, into impulses
+  std::vector<double> pair_work;    // J, by the contacts of each pair of bodies in an island
   StageTimes stage_times{};
 };
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "sim/inspect/checkpoint.h"
@@ -202,6 +203,23 @@ TEST(Plan, OneBodyHasNoMemoryForPairs) {
   EXPECT_EQ(box.particles.capacity(), 0U);
   ASSERT_EQ(box.resting_impulses.size(), 4U) << "its four corners on the ground";
   for (const RestingImpulse& resting : box.resting_impulses) EXPECT_EQ(resting.second, -1);
+}
+
+TEST(Resting, ImpulsesAreKeptGroundFirstThenByPairs) {
+  World world;  // three islands of two cubes
+  for (int i = 0; i < 6; ++i) {
+    add(world, make_rigid({1.0, 1.0, 1.0}, {3.0 * (i % 3), 0.0, 0.5 + i / 3}));
+  }
+  ASSERT_FALSE(run(world, 1.0));
+  using Pair = std::pair<int, int>;
+  std::vector<Pair> kept;
+  for (const RestingImpulse& resting : world.resting_impulses) {
+    kept.push_back(resting.second == -1 ? Pair(-1, resting.first)
+                                        : Pair(resting.first, resting.second));
+  }
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  EXPECT_EQ(kept, (std::vector<Pair>{{-1, 0}, {-1, 1}, {-1, 2}, {0, 3}, {1, 4}, {2, 5}}));
 }
 
 TEST(Resting, ImpulsesOfAStackCarryTheWeightAboveThem) {
