@@ -54,6 +54,10 @@ bool overlap(const BoundingSphere& a, const BoundingSphere& b) {
   return (a.centre - b.centre).squaredNorm() <= reach * reach;
 }
 
+bool overlap(const Bounds& a, const Bounds& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 // Sort and sweep: in the order in which they begin along one axis, each sphere is compared with the
 // ones that begin before it ends.
 void PairFinder::find(std::span<const BoundingSphere> spheres, std::vector<BodyPair>& pairs) {

@@ -24,6 +24,8 @@ BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bound
 BoundingSphere bounding_sphere(const OrientedBox& box, double margin);
 
 bool overlap(const BoundingSphere& a, const BoundingSphere& b);
+/// Whether they share a point, if only of their sides.
+bool overlap(const Bounds& a, const Bounds& b);
 
 /// Two bodies by index, first < second.
 struct BodyPair {

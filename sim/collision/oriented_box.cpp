@@ -7,6 +7,11 @@ Vec3 OrientedBox::corner(int i) const {
   return to_world(half.cwiseProduct(side));
 }
 
+Bounds bounds(const OrientedBox& box) {
+  const Vec3 reach = box.axes.cwiseAbs() * box.half;
+  return {box.centre - reach, box.centre + reach};
+}
+
 // Section 5.2.2: inside when (p - t_i).n_i < 0 for every face, the depth being the largest of
 // these. The two faces of one axis are |p_k| - half_k in the box's own coordinates.
 std::optional<BoxExit> find_box_exit(const OrientedBox& box, const Vec3& point) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "sim/mesh/triangle_mesh.h"
+#include "sim/mesh/measure.h"
 
 namespace pneuma::sim {
 
@@ -17,6 +17,8 @@ struct OrientedBox {
   /// Corner i lies on the positive side of axis k when bit k of i is set.
   Vec3 corner(int i) const;
 };
+
+Bounds bounds(const OrientedBox& box);
 
 /// How far inside a box a point is, and through which face it gets out soonest.
 struct BoxExit {
