@@ -24,14 +24,20 @@ void TriangleColumns::fill(const SurfaceView& surface, const Bounds& bounds) {
   grid_ = ColumnGrid(bounds, std::max(1, static_cast<int>(std::sqrt(triangles / mean_load))));
   margin_ = widening * bounds.size();
   measure(surface);
-  // Counting sort: how many each column has, where they end, and the entries from the back.
+  // Counting sort: by how many entries each column has more than the one before it, where they end,
+  // and the entries from the back.
   starts_.assign(at(grid_.count() + 1), 0);
-  for_each_entry([&](int column, int) { ++starts_[at(column)]; });
-  int end = 0;
-  for (int& start : starts_) start = (end += start);
+  for_each_line([&](int first, int last, int) {
+    ++starts_[at(first)];
+    --starts_[at(last + 1)];
+  });
+  int load = 0, end = 0;
+  for (int& start : starts_) start = (end += (load += start));
   entries_.reserve(at(reserved_per_triangle * triangles));
   entries_.resize(at(end));
-  for_each_entry([&](int column, int t) { entries_[at(--starts_[at(column)])] = t; });
+  for_each_line([&](int first, int last, int t) {
+    for (int column = first; column <= last; ++column) entries_[at(--starts_[at(column)])] = t;
+  });
 }
 
 /// The box and the columns of each triangle.
@@ -51,13 +57,13 @@ void TriangleColumns::measure(const SurfaceView& surface) {
   }
 }
 
-/// Calls visit(column, triangle) for all columns of each triangle.
+/// Calls visit(first, last, triangle) for the columns of each triangle, line by line of them.
 template <class Visit>
-void TriangleColumns::for_each_entry(const Visit& visit) const {
+void TriangleColumns::for_each_line(const Visit& visit) const {
   for (int t = 0; t < static_cast<int>(ranges_.size()); ++t) {
     const auto [first_x, first_y, last_x, last_y] = ranges_[at(t)];
     for (int y = first_y; y <= last_y; ++y) {
-      for (int x = first_x; x <= last_x; ++x) visit(grid_.index_of(x, y), t);
+      visit(grid_.index_of(first_x, y), grid_.index_of(last_x, y), t);
     }
   }
 }

@@ -78,7 +78,7 @@ class TriangleColumns {
   }
   void measure(const SurfaceView& surface);
   template <class Visit>
-  void for_each_entry(const Visit& visit) const;
+  void for_each_line(const Visit& visit) const;
 
   ColumnGrid grid_;
   Vec3 margin_ = Vec3::Zero();       // m, by which a triangle's box is widened
