@@ -50,11 +50,15 @@ class PairFinder {
   struct Entry {
     double low;  // where the sphere begins and ends along the axis of the sweep
     double high;
-    BoundingSphere sphere;
     int index;
   };
 
-  std::vector<Entry> entries_;
+  void line_up(std::span<const BoundingSphere> spheres);
+  void compare_with_next(std::size_t i, std::vector<BodyPair>& pairs) const;
+
+  std::vector<Entry> entries_;  // in the order in which they begin
+  // Of the spheres in that order; behind them a few that overlap none, for the last row of four.
+  std::vector<double> x_, y_, z_, radius_;
 };
 
 }  // namespace pneuma::sim

@@ -37,8 +37,7 @@ void find_corners_in_surface(const World& world, const PlacedBox& placed, int so
                              const TriangleColumns& columns, std::vector<Contact>& contacts) {
   const SoftBody& body = world.soft[at(soft)];
   const SurfaceView surface{body.mesh->topology, body.positions};
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = placed.box.corner(i);
+  for (const Vec3& corner : corners(placed.box)) {
     if (const auto exit = find_surface_exit(surface, columns, corner)) {
       contacts.push_back({box_side(rigid),
                           {BodyKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
@@ -77,8 +76,7 @@ void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid,
   const auto& [box, bounds] = boxes[at(rigid)];
   const RestingLengths resting = resting_lengths(2.0 * box.half.minCoeff());
   if (bounds.low.z() > 2.0 * resting.gap) return;  // no corner is as near, whatever the rounding
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = box.corner(i);
+  for (const Vec3& corner : corners(box)) {
     if (!(corner.z() < resting.gap)) continue;
     contacts.push_back({box_side(rigid),
                         {},

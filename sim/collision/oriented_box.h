@@ -1,6 +1,7 @@
 // A box anywhere in space, as the collision tests see a rigid body.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "sim/mesh/measure.h"
@@ -19,6 +20,8 @@ struct OrientedBox {
 };
 
 Bounds bounds(const OrientedBox& box);
+/// All eight, by their numbers.
+std::array<Vec3, 8> corners(const OrientedBox& box);
 
 /// How far inside a box a point is, and through which face it gets out soonest.
 struct BoxExit {

@@ -140,6 +140,16 @@ TEST(SoftRigidContacts, AreThoseOfAllVerticesAndCorners) {
   EXPECT_GT(without, 500);
 }
 
+TEST(OrientedBox, HasEightCornersByTheirNumbers) {
+  Uniform uniform(5);
+  for (int i = 0; i < 1'000; ++i) {
+    const OrientedBox box = place(box_near({-Vec3::Ones(), Vec3::Ones()}, uniform)).box;
+    for (int corner = 0; corner < 8; ++corner) {
+      ASSERT_LT((corners(box)[at(corner)] - box.corner(corner)).norm(), 1e-14);
+    }
+  }
+}
+
 TEST(PlacedBox, HasTheBoundsOfItsCorners) {
   Uniform uniform(4);
   for (int i = 0; i < 1'000; ++i) {
