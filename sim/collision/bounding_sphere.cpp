@@ -67,7 +67,8 @@ void PairFinder::find(std::span<const BoundingSphere> spheres, std::vector<BodyP
   pairs.clear();
   line_up(spheres);
   for (std::size_t i = 0; i < entries_.size(); ++i) compare_with_next(i, pairs);
-  std::sort(pairs.begin(), pairs.end());
+  sort_by(&BodyPair::second, spheres.size(), pairs);
+  sort_by(&BodyPair::first, spheres.size(), pairs);
 }
 
 void PairFinder::line_up(std::span<const BoundingSphere> spheres) {
@@ -111,6 +112,17 @@ void PairFinder::compare_with_next(std::size_t i, std::vector<BodyPair>& pairs) 
       pairs.push_back({std::min(index, other), std::max(index, other)});
     }
   }
+}
+
+/// Counting sort, in which pairs that share the body stay in their order.
+void PairFinder::sort_by(int BodyPair::*body, std::size_t bodies, std::vector<BodyPair>& pairs) {
+  starts_.assign(bodies + 1, 0);
+  for (const BodyPair& pair : pairs) ++starts_[at(pair.*body + 1)];
+  int count = 0;
+  for (int& start : starts_) start = (count += start);
+  sorted_.resize(pairs.size());
+  for (const BodyPair& pair : pairs) sorted_[at(starts_[at(pair.*body)]++)] = pair;
+  pairs.swap(sorted_);
 }
 
 }  // namespace pneuma::sim

@@ -55,10 +55,13 @@ class PairFinder {
 
   void line_up(std::span<const BoundingSphere> spheres);
   void compare_with_next(std::size_t i, std::vector<BodyPair>& pairs) const;
+  void sort_by(int BodyPair::*body, std::size_t bodies, std::vector<BodyPair>& pairs);
 
   std::vector<Entry> entries_;  // in the order in which they begin
   // Of the spheres in that order; behind them a few that overlap none, for the last row of four.
   std::vector<double> x_, y_, z_, radius_;
+  std::vector<int> starts_;  // of the pairs of each body
+  std::vector<BodyPair> sorted_;
 };
 
 }  // namespace pneuma::sim
