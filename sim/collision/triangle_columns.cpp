@@ -7,7 +7,7 @@ namespace pneuma::sim {
 namespace {
 
 /// Triangles per column, were they spread evenly.
-constexpr double mean_load = 2.0;
+constexpr double mean_load = 4.0;
 
 /// Of the surface's size: far above the rounding of where an edge passes a plane, by which a
 /// crossing may lie outside the box of its triangle.
