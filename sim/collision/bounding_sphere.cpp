@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "sim/mesh/row.h"
 
 #include "sim/mesh/row.h"
 
@@ -59,28 +62,72 @@ bool overlap(const BoundingSphere& a, const BoundingSphere& b) {
   return (a.centre - b.centre).squaredNorm() <= reach * reach;
 }
 
+bool overlap(const Bounds& a, const Bounds& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
 // Sort and sweep: in the order in which they begin along one axis, each sphere is compared with the
 // ones that begin before it ends.
 void PairFinder::find(std::span<const BoundingSphere> spheres, std::vector<BodyPair>& pairs) {
   pairs.clear();
+  line_up(spheres);
+  for (std::size_t i = 0; i < entries_.size(); ++i) compare_with_next(i, pairs);
+  sort_by(&BodyPair::second, spheres.size(), pairs);
+  sort_by(&BodyPair::first, spheres.size(), pairs);
+}
+
+void PairFinder::line_up(std::span<const BoundingSphere> spheres) {
   entries_.clear();
   const int axis = axis_of_greatest_spread(spheres);
   for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
     const BoundingSphere& sphere = spheres[at(i)];
     if (!is_finite(sphere)) continue;  // to sort by a NaN would be undefined behaviour
     const double along = sphere.centre[axis];
-    entries_.push_back({along - sphere.radius, along + sphere.radius, sphere, i});
+    entries_.push_back({along - sphere.radius, along + sphere.radius, i});
   }
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
     return a.low != b.low ? a.low < b.low : a.index < b.index;
   });
-  for (auto a = entries_.begin(); a != entries_.end(); ++a) {
-    for (auto b = a + 1; b != entries_.end() && b->low <= a->high; ++b) {
-      if (!overlap(a->sphere, b->sphere)) continue;
-      pairs.push_back({std::min(a->index, b->index), std::max(a->index, b->index)});
+
+  const std::size_t count = entries_.size();
+  for (auto* values : {&x_, &y_, &z_, &radius_}) {
+    values->resize(count + 3);
+    std::fill(values->end() - 3, values->end(), std::numeric_limits<double>::quiet_NaN());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const BoundingSphere& sphere = spheres[at(entries_[i].index)];
+    x_[i] = sphere.centre.x();
+    y_[i] = sphere.centre.y();
+    z_[i] = sphere.centre.z();
+    radius_[i] = sphere.radius;
+  }
+}
+
+/// Four at a time: one that begins only after the sphere's end does not overlap it either.
+void PairFinder::compare_with_next(std::size_t i, std::vector<BodyPair>& pairs) const {
+  const auto [low, high, index] = entries_[i];
+  for (std::size_t next = i + 1; next < entries_.size() && entries_[next].low <= high; next += 4) {
+    const Row x = load_row(&x_[next]) - x_[i], y = load_row(&y_[next]) - y_[i];
+    const Row z = load_row(&z_[next]) - z_[i], reach = load_row(&radius_[next]) + radius_[i];
+    const auto overlaps = x * x + y * y + z * z <= reach * reach;
+    if ((overlaps[0] | overlaps[1] | overlaps[2] | overlaps[3]) == 0) continue;
+    for (int lane = 0; lane < 4; ++lane) {
+      if (overlaps[lane] == 0) continue;
+      const int other = entries_[next + at(lane)].index;
+      pairs.push_back({std::min(index, other), std::max(index, other)});
     }
   }
-  std::sort(pairs.begin(), pairs.end());
+}
+
+/// Counting sort, in which pairs that share the body stay in their order.
+void PairFinder::sort_by(int BodyPair::*body, std::size_t bodies, std::vector<BodyPair>& pairs) {
+  starts_.assign(bodies + 1, 0);
+  for (const BodyPair& pair : pairs) ++starts_[at(pair.*body + 1)];
+  int count = 0;
+  for (int& start : starts_) start = (count += start);
+  sorted_.resize(pairs.size());
+  for (const BodyPair& pair : pairs) sorted_[at(starts_[at(pair.*body)]++)] = pair;
+  pairs.swap(sorted_);
 }
 
 }  // namespace pneuma::sim

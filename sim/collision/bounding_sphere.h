@@ -24,6 +24,8 @@ BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bound
 BoundingSphere bounding_sphere(const OrientedBox& box, double margin);
 
 bool overlap(const BoundingSphere& a, const BoundingSphere& b);
+/// Whether they share a point, if only of their sides.
+bool overlap(const Bounds& a, const Bounds& b);
 
 /// Two bodies by index, first < second.
 struct BodyPair {
@@ -48,11 +50,18 @@ class PairFinder {
   struct Entry {
     double low;  // where the sphere begins and ends along the axis of the sweep
     double high;
-    BoundingSphere sphere;
     int index;
   };
 
-  std::vector<Entry> entries_;
+  void line_up(std::span<const BoundingSphere> spheres);
+  void compare_with_next(std::size_t i, std::vector<BodyPair>& pairs) const;
+  void sort_by(int BodyPair::*body, std::size_t bodies, std::vector<BodyPair>& pairs);
+
+  std::vector<Entry> entries_;  // in the order in which they begin
+  // Of the spheres in that order; behind them a few that overlap none, for the last row of four.
+  std::vector<double> x_, y_, z_, radius_;
+  std::vector<int> starts_;  // of the pairs of each body
+  std::vector<BodyPair> sorted_;
 };
 
 }  // namespace pneuma::sim

@@ -19,6 +19,10 @@ class Polygon {
   void add(const Vec3& corner) {
     if (size_ < BoxContact::most_points) corners_[at(size_++)] = corner;
   }
+  bool is_within(int coordinate, double sign, double limit) const {
+    return std::all_of(corners_.begin(), corners_.begin() + size_,
+                       [&](const Vec3& corner) { return sign * corner[coordinate] <= limit; });
+  }
 
  private:
   int size_ = 0;
@@ -26,7 +30,8 @@ class Polygon {
 };
 
 /// Sutherland and Hodgman's clipping, by sign * coordinate <= limit.
-Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) {
+void clip(Polygon& polygon, int coordinate, double sign, double limit) {
+  if (polygon.is_within(coordinate, sign, limit)) return;
   Polygon result;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& here = polygon[i];
@@ -39,7 +44,7 @@ Polygon clip(const Polygon& polygon, int coordinate, double sign, double limit) 
     crossing[coordinate] = sign * limit;
     result.add(crossing);
   }
-  return result;
+  polygon = result;
 }
 
 /// The face that the boxes' normal belongs to, on one box, and the box that meets it.
@@ -93,10 +98,10 @@ void add_face_points(BoxContact& contact, const FacePair& faces) {
   }
   const double u_limit = faces.reference.half[faces.u()];
   const double v_limit = faces.reference.half[faces.v()];
-  polygon = clip(polygon, 0, 1.0, u_limit);
-  polygon = clip(polygon, 0, -1.0, u_limit);
-  polygon = clip(polygon, 1, 1.0, v_limit);
-  polygon = clip(polygon, 1, -1.0, v_limit);
+  clip(polygon, 0, 1.0, u_limit);
+  clip(polygon, 0, -1.0, u_limit);
+  clip(polygon, 1, 1.0, v_limit);
+  clip(polygon, 1, -1.0, v_limit);
 
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];

@@ -8,17 +8,52 @@
 namespace pneuma::sim {
 namespace {
 
-OrientedBox oriented_box(const RigidBox& box) {
-  return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
-}
-
 ContactSide vertex_side(int soft, int vertex) {
   return {BodyKind::soft, soft, {FeatureKind::vertex, vertex}};
 }
 
 ContactSide box_side(int rigid) { return {BodyKind::rigid, rigid, {}}; }
 
+/// Vertices of the soft body inside the box, in ascending order.
+void find_vertices_in_box(const World& world, const PlacedBox& placed, int soft, int rigid,
+                          const VertexColumns& columns, std::vector<Contact>& contacts) {
+  const VertexArray& positions = world.soft[at(soft)].positions;
+  const double squared_radius = placed.box.half.squaredNorm();
+  const auto found = std::ssize(contacts);
+  columns.for_each_near(placed.bounds, [&](int v) {
+    const Vec3 vertex = positions[v];
+    if ((vertex - placed.box.centre).squaredNorm() > squared_radius) return;
+    if (const auto exit = find_box_exit(placed.box, vertex)) {
+      contacts.push_back(
+          {vertex_side(soft, v), box_side(rigid), vertex, exit->normal, exit->depth});
+    }
+  });
+  std::sort(contacts.begin() + found, contacts.end(), [](const Contact& a, const Contact& b) {
+    return a.first.feature.index < b.first.feature.index;
+  });
+}
+
+void find_corners_in_surface(const World& world, const PlacedBox& placed, int soft, int rigid,
+                             const TriangleColumns& columns, std::vector<Contact>& contacts) {
+  const SoftBody& body = world.soft[at(soft)];
+  const SurfaceView surface{body.mesh->topology, body.positions};
+  for (const Vec3& corner : corners(placed.box)) {
+    if (const auto exit = find_surface_exit(surface, columns, corner)) {
+      contacts.push_back({box_side(rigid),
+                          {BodyKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
+                          corner,
+                          exit->normal,
+                          exit->depth});
+    }
+  }
+}
+
 }  // namespace
+
+PlacedBox place(const RigidBox& box) {
+  const OrientedBox oriented{box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
+  return {oriented, bounds(oriented)};
+}
 
 RestingLengths resting_lengths(double shortest_side) {
   const double gap = std::min(0.005, 0.05 * shortest_side);
@@ -36,11 +71,12 @@ void find_soft_ground(const World& world, int soft, std::vector<Contact>& contac
   }
 }
 
-void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& contacts) {
-  const OrientedBox box = oriented_box(world.rigid[at(rigid)]);
+void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid,
+                       std::vector<Contact>& contacts) {
+  const auto& [box, bounds] = boxes[at(rigid)];
   const RestingLengths resting = resting_lengths(2.0 * box.half.minCoeff());
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = box.corner(i);
+  if (bounds.low.z() > 2.0 * resting.gap) return;  // no corner is as near, whatever the rounding
+  for (const Vec3& corner : corners(box)) {
     if (!(corner.z() < resting.gap)) continue;
     contacts.push_back({box_side(rigid),
                         {},
@@ -51,35 +87,17 @@ void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& cont
   }
 }
 
-void find_soft_rigid(const World& world, int soft, int rigid, const TriangleColumns& columns,
-                     std::vector<Contact>& contacts) {
-  const SoftBody& body = world.soft[at(soft)];
-  const OrientedBox box = oriented_box(world.rigid[at(rigid)]);
-  const double squared_radius = box.half.squaredNorm();
-  for (int v = 0; v < body.positions.size(); ++v) {
-    const Vec3 vertex = body.positions[v];
-    if ((vertex - box.centre).squaredNorm() > squared_radius) continue;
-    if (const auto exit = find_box_exit(box, vertex)) {
-      contacts.push_back(
-          {vertex_side(soft, v), box_side(rigid), vertex, exit->normal, exit->depth});
-    }
-  }
-  const SurfaceView surface{body.mesh->topology, body.positions};
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner = box.corner(i);
-    if (const auto exit = find_surface_exit(surface, columns, corner)) {
-      contacts.push_back({box_side(rigid),
-                          {BodyKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
-                          corner,
-                          exit->normal,
-                          exit->depth});
-    }
-  }
+void find_soft_rigid(const World& world, std::span<const PlacedBox> boxes, int soft, int rigid,
+                     const SurfaceColumns& columns, std::vector<Contact>& contacts) {
+  const PlacedBox& placed = boxes[at(rigid)];
+  find_vertices_in_box(world, placed, soft, rigid, columns.vertices, contacts);
+  find_corners_in_surface(world, placed, soft, rigid, columns.triangles, contacts);
 }
 
-void find_rigid_rigid(const World& world, int first, int second, std::vector<Contact>& contacts) {
-  OrientedBox a = oriented_box(world.rigid[at(first)]);
-  OrientedBox b = oriented_box(world.rigid[at(second)]);
+void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
+                      std::vector<Contact>& contacts) {
+  OrientedBox a = boxes[at(first)].box;
+  OrientedBox b = boxes[at(second)].box;
   const RestingLengths resting =
       resting_lengths(2.0 * std::min(a.half.minCoeff(), b.half.minCoeff()));
   const double growth = 0.5 * resting.gap;  // of each box on all sides

@@ -1,10 +1,13 @@
 // Contacts that rigid boxes take part in (paper 5.2.2, 5.2.3), and those with the ground.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/collision/contact.h"
+#include "sim/collision/oriented_box.h"
 #include "sim/collision/triangle_columns.h"
+#include "sim/collision/vertex_columns.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
@@ -20,20 +23,41 @@ struct RestingLengths {
 /// 5 mm and 2.5 mm, less when the shortest side of the boxes (m) is below 10 cm.
 RestingLengths resting_lengths(double shortest_side);
 
-// Each appends to `contacts`. Indices are those of World::soft and World::rigid.
+/// A rigid box where it is now, looked at by every pair that it is in.
+struct PlacedBox {
+  OrientedBox box;
+  Bounds bounds;
+};
+
+PlacedBox place(const RigidBox& box);
+
+/// A soft body's surface where it is now, likewise.
+struct SurfaceColumns {
+  TriangleColumns triangles;
+  VertexColumns vertices;
+
+  void fill(const SurfaceView& surface, const Bounds& bounds) {
+    triangles.fill(surface, bounds);
+    vertices.fill(surface.positions, bounds);
+  }
+};
+
+// Each appends to `contacts`. Indices are those of World::soft and World::rigid; `boxes` are those
+// of World::rigid.
 
 /// Vertices below the plane z = 0 (3.1.4).
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts);
 
 /// Corners below the plane z = 0.
-void find_rigid_ground(const World& world, int rigid, std::vector<Contact>& contacts);
+void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid, std::vector<Contact>& contacts);
 
 /// Vertices of the soft body inside the box, then corners of the box inside the soft body. Each is
 /// to come out through the nearest face or triangle. `columns` filled from the soft body's surface.
-void find_soft_rigid(const World& world, int soft, int rigid, const TriangleColumns& columns,
-                     std::vector<Contact>& contacts);
+void find_soft_rigid(const World& world, std::span<const PlacedBox> boxes, int soft, int rigid,
+                     const SurfaceColumns& columns, std::vector<Contact>& contacts);
 
 /// The points in which two boxes touch along their axis of least penetration.
-void find_rigid_rigid(const World& world, int first, int second, std::vector<Contact>& contacts);
+void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
+                      std::vector<Contact>& contacts);
 
 }  // namespace pneuma::sim

@@ -1,10 +1,30 @@
 #include "sim/collision/oriented_box.h"
 
+#include "sim/mesh/row.h"
+
 namespace pneuma::sim {
 
 Vec3 OrientedBox::corner(int i) const {
   const Vec3 side((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
   return to_world(half.cwiseProduct(side));
+}
+
+Bounds bounds(const OrientedBox& box) {
+  const Vec3 reach = box.axes.cwiseAbs() * box.half;
+  return {box.centre - reach, box.centre + reach};
+}
+
+std::array<Vec3, 8> corners(const OrientedBox& box) {
+  const RowMatrix axes = row_matrix(box.axes);
+  const Row x = axes.columns[0] * box.half.x(), y = axes.columns[1] * box.half.y();
+  const Row z = axes.columns[2] * box.half.z(), centre = to_row(box.centre);
+  std::array<Vec3, 8> result;
+  for (const int i : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    const Row from_centre =
+        ((i & 1) != 0 ? x : -x) + ((i & 2) != 0 ? y : -y) + ((i & 4) != 0 ? z : -z);
+    result[at(i)] = to_vec3(centre + from_centre);
+  }
+  return result;
 }
 
 // Section 5.2.2: inside when (p - t_i).n_i < 0 for every face, the depth being the largest of

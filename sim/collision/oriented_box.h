@@ -1,9 +1,10 @@
 // A box anywhere in space, as the collision tests see a rigid body.
 #pragma once
 
+#include <array>
 #include <optional>
 
-#include "sim/mesh/triangle_mesh.h"
+#include "sim/mesh/measure.h"
 
 namespace pneuma::sim {
 
@@ -17,6 +18,10 @@ struct OrientedBox {
   /// Corner i lies on the positive side of axis k when bit k of i is set.
   Vec3 corner(int i) const;
 };
+
+Bounds bounds(const OrientedBox& box);
+/// All eight, by their numbers.
+std::array<Vec3, 8> corners(const OrientedBox& box);
 
 /// How far inside a box a point is, and through which face it gets out soonest.
 struct BoxExit {

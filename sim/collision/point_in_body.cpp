@@ -56,30 +56,42 @@ bool crosses_above(const VertexArray& positions, const Triangle& triangle, const
   return z && *z > point.z();
 }
 
-/// A vertex of those triangles above and below the point that is nearest to it: no triangle that is
-/// farther away can hold the nearest point of all.
-double distance_to_some_vertex(const SurfaceView& surface, std::span<const int> triangles,
-                               const Vec3& point) {
-  const RowReader positions(surface.positions);
-  const Row place = to_row(point);
-  double squared = std::numeric_limits<double>::infinity();
-  for (const int t : triangles) {
-    for (const int v : surface.topology.triangles()[at(t)]) {
-      const Row offset = positions[v] - place;
-      squared = std::min(squared, dot(offset, offset));
-    }
-  }
-  return std::sqrt(squared);
+/// Where the line along z through a point crosses a triangle.
+struct Crossing {
+  int triangle;
+  double z;
+};
+
+bool is_within(const Bounds& bounds, const Vec3& point) {
+  return (point.array() >= bounds.low.array()).all() &&
+         (point.array() <= bounds.high.array()).all();
 }
 
-/// Whether the triangle's bounding box is farther from the point than `reach` along some axis.
-bool is_beyond(const SurfaceView& surface, int triangle, Row point, double reach) {
-  const auto& [v0, v1, v2] = surface.topology.triangles()[at(triangle)];
-  const RowReader positions(surface.positions);
-  const Row a = positions[v0] - point, b = positions[v1] - point, c = positions[v2] - point;
-  const Row above = lesser(lesser(a, b), c) - reach, below = lesser(lesser(-a, -b), -c) - reach;
-  const Row outside = lesser(-above, -below);
-  return outside[0] < 0.0 || outside[1] < 0.0 || outside[2] < 0.0;
+/// Of a point inside the surface the nearest crossing above it, none of a point outside.
+std::optional<Crossing> find_exit_above(const SurfaceView& surface, const TriangleColumns& columns,
+                                        const Vec3& point) {
+  if (!is_within(columns.bounds(), point)) return {};
+  bool inside = false;
+  Crossing nearest{0, std::numeric_limits<double>::infinity()};
+  columns.for_each_above(point, [&](int t) {
+    const auto z = find_crossing(surface.positions, surface.topology.triangles()[at(t)], point);
+    if (!z || !(*z > point.z())) return;
+    inside = !inside;
+    if (*z < nearest.z) nearest = {t, *z};
+  });
+  if (!inside) return {};
+  return nearest;
+}
+
+/// The nearest crossing of all, given the nearest above the point.
+Crossing find_nearest_crossing(const SurfaceView& surface, const TriangleColumns& columns,
+                               const Vec3& point, const Crossing& above) {
+  Crossing nearest = above;
+  columns.for_each_below(point, [&](int t) {
+    const auto z = find_crossing(surface.positions, surface.topology.triangles()[at(t)], point);
+    if (z && std::abs(*z - point.z()) < std::abs(nearest.z - point.z())) nearest = {t, *z};
+  });
+  return nearest;
 }
 
 }  // namespace
@@ -104,17 +116,7 @@ bool is_inside(const SurfaceView& surface, const Vec3& point) {
 }
 
 bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point) {
-  const Bounds& bounds = columns.bounds();
-  const bool in_bounds =
-      (point.array() >= bounds.low.array()).all() && (point.array() <= bounds.high.array()).all();
-  if (!in_bounds) return false;
-  bool inside = false;
-  for (const int t : columns.at_line_through(point)) {
-    if (crosses_above(surface.positions, surface.topology.triangles()[at(t)], point)) {
-      inside = !inside;
-    }
-  }
-  return inside;
+  return find_exit_above(surface, columns, point).has_value();
 }
 
 std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& point) {
@@ -130,25 +132,31 @@ std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& poi
   return least - point.z();
 }
 
+// The line through the point crosses the surface at a point of it: the nearest is no farther away,
+// and hardly any triangle is as near.
 std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
                                              const TriangleColumns& columns, const Vec3& point) {
-  if (!is_inside(surface, columns, point)) return {};
+  const auto above = find_exit_above(surface, columns, point);
+  if (!above) return {};
+  const Crossing crossing = find_nearest_crossing(surface, columns, point, *above);
 
   SurfaceExit exit;
-  exit.depth = distance_to_some_vertex(surface, columns.at_line_through(point), point);
+  exit.depth = std::abs(crossing.z - point.z()) + columns.margin();
   double facing = 0.0;
   const auto reach = [&] { return exit.depth * (1.0 + same_distance); };  // shrinks
-  columns.for_each_near(point, reach(), [&](int triangle) {
-    if (is_beyond(surface, triangle, to_row(point), reach())) return;
+  const auto look = [&](int triangle) {
     const auto near = test_vertex_triangle(point, triangle_corners(surface, triangle), reach());
-    if (!near) return;
+    if (!near) return reach();
     const Vec3 normal = feature_normal(surface, {FeatureKind::triangle, triangle});
     const double height = (near->second_point - point).dot(normal);
     if (near->distance < exit.depth * (1.0 - same_distance) || height > facing) {
       exit = {triangle, normal, near->second_point, near->distance};
       facing = height;
     }
-  });
+    return reach();
+  };
+  look(crossing.triangle);
+  columns.for_each_near(point, reach(), look);
   if (exit.normal.isZero(0.0)) return {};  // nothing but triangles without area: no way out
   return exit;
 }

@@ -7,7 +7,7 @@ namespace pneuma::sim {
 namespace {
 
 /// Triangles per column, were they spread evenly.
-constexpr double mean_load = 2.0;
+constexpr double mean_load = 4.0;
 
 /// Of the surface's size: far above the rounding of where an edge passes a plane, by which a
 /// crossing may lie outside the box of its triangle.
@@ -19,40 +19,53 @@ constexpr int reserved_per_triangle = 8;
 
 }  // namespace
 
-void TriangleColumns::fill(const SurfaceView& surface) {
-  const MeshTopology& topology = surface.topology;
-  bounds_ = sim::bounds(surface.positions);
-  side_ = std::max(1, static_cast<int>(std::sqrt(topology.triangle_count() / mean_load)));
-  const Vec3 size = bounds_.size();
-  for (int axis = 0; axis < 3; ++axis)
-    per_metre_[axis] = size[axis] > 0.0 ? side_ / size[axis] : 0.0;
-  margin_ = widening * size;
-
-  const auto for_each_entry = [&](const auto& visit) {
-    for (int t = 0; t < topology.triangle_count(); ++t) {
-      const auto& [a, b, c] = topology.triangles()[at(t)];
-      const Vec3 pa = surface.positions[a], pb = surface.positions[b], pc = surface.positions[c];
-      const Vec3 low = pa.cwiseMin(pb).cwiseMin(pc) - margin_;
-      const Vec3 high = pa.cwiseMax(pb).cwiseMax(pc) + margin_;
-      const int last_x = column_along(0, high.x()), last_y = column_along(1, high.y());
-      for (int y = column_along(1, low.y()); y <= last_y; ++y) {
-        for (int x = column_along(0, low.x()); x <= last_x; ++x) visit(index_of(x, y), t);
-      }
-    }
-  };
-  // Counting sort: how many each column has, where they end, and the entries from the back.
-  starts_.assign(at(side_ * side_ + 1), 0);
-  for_each_entry([&](std::size_t column, int) { ++starts_[column]; });
-  int end = 0;
-  for (int& start : starts_) start = (end += start);
-  entries_.reserve(at(reserved_per_triangle * topology.triangle_count()));
+void TriangleColumns::fill(const SurfaceView& surface, const Bounds& bounds) {
+  const int triangles = surface.topology.triangle_count();
+  grid_ = ColumnGrid(bounds, std::max(1, static_cast<int>(std::sqrt(triangles / mean_load))));
+  margin_ = widening * bounds.size();
+  measure(surface);
+  // Counting sort: by how many entries each column has more than the one before it, where they end,
+  // and the entries from the back.
+  starts_.assign(at(grid_.count() + 1), 0);
+  for_each_line([&](int first, int last, int) {
+    ++starts_[at(first)];
+    --starts_[at(last + 1)];
+  });
+  int load = 0, end = 0;
+  for (int& start : starts_) start = (end += (load += start));
+  entries_.reserve(at(reserved_per_triangle * triangles));
   entries_.resize(at(end));
-  for_each_entry([&](std::size_t column, int t) { entries_[at(--starts_[column])] = t; });
+  for_each_line([&](int first, int last, int t) {
+    for (int column = first; column <= last; ++column) entries_[at(--starts_[at(column)])] = t;
+  });
 }
 
-int TriangleColumns::column_along(int axis, double coordinate) const {
-  const double column = (coordinate - bounds_.low[axis]) * per_metre_[axis];
-  return std::clamp(static_cast<int>(column), 0, side_ - 1);
+/// The box and the columns of each triangle.
+void TriangleColumns::measure(const SurfaceView& surface) {
+  const std::vector<Triangle>& triangles = surface.topology.triangles();
+  const RowReader positions(surface.positions);
+  const Row margin = to_row(margin_);
+  boxes_.resize(triangles.size());
+  ranges_.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [first, second, third] = triangles[t];
+    const Row a = positions[first], b = positions[second], c = positions[third];
+    const Row low = lesser(lesser(a, b), c) - margin;
+    const Row high = margin - lesser(lesser(-a, -b), -c);
+    boxes_[t] = {low, high};
+    ranges_[t] = grid_.range(low, high);
+  }
+}
+
+/// Calls visit(first, last, triangle) for the columns of each triangle, line by line of them.
+template <class Visit>
+void TriangleColumns::for_each_line(const Visit& visit) const {
+  for (int t = 0; t < static_cast<int>(ranges_.size()); ++t) {
+    const auto [first_x, first_y, last_x, last_y] = ranges_[at(t)];
+    for (int y = first_y; y <= last_y; ++y) {
+      visit(grid_.index_of(first_x, y), grid_.index_of(last_x, y), t);
+    }
+  }
 }
 
 }  // namespace pneuma::sim

@@ -1,53 +1,91 @@
 // The triangles of a surface by where they lie seen from above, for rays along z.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "sim/collision/column_grid.h"
 #include "sim/collision/surface_view.h"
-#include "sim/mesh/measure.h"
 
 namespace pneuma::sim {
 
 /// Keeps its memory between fills.
 class TriangleColumns {
  public:
-  void fill(const SurfaceView& surface);
+  void fill(const SurfaceView& surface) { fill(surface, sim::bounds(surface.positions)); }
+  /// The same with the surface's bounds at hand.
+  void fill(const SurfaceView& surface, const Bounds& bounds);
 
   /// Of the surface.
-  const Bounds& bounds() const { return bounds_; }
+  const Bounds& bounds() const { return grid_.bounds(); }
 
-  /// All triangles that the line through the point along z may meet, and a few more. Points outside
-  /// the bounds get those of the column at their edge.
-  std::span<const int> at_line_through(const Vec3& point) const {
-    const std::size_t column = index_of(column_along(0, point.x()), column_along(1, point.y()));
-    return std::span(entries_).subspan(at(starts_[column]),
-                                       at(starts_[column + 1] - starts_[column]));
+  /// A length (m) far above the rounding of where a line crosses a triangle.
+  double margin() const { return margin_.maxCoeff(); }
+
+  /// Calls visit(triangle) for all triangles that the ray from a point along +z may cross, and a
+  /// few more. The point within the bounds.
+  template <class Visit>
+  void for_each_above(const Vec3& point, const Visit& visit) const {
+    for_each_at(point, [&](int triangle, const Box& box) {
+      if (box.high[2] >= point.z() && box.is_crossed_at(point.x(), point.y())) visit(triangle);
+    });
+  }
+
+  /// The same for the ray along -z.
+  template <class Visit>
+  void for_each_below(const Vec3& point, const Visit& visit) const {
+    for_each_at(point, [&](int triangle, const Box& box) {
+      if (box.low[2] <= point.z() && box.is_crossed_at(point.x(), point.y())) visit(triangle);
+    });
   }
 
   /// Calls visit(triangle) for all triangles that may come within `reach` (m) of the point, for
-  /// some of them more than once.
+  /// some of them more than once. What it returns is the reach from then on, at most what it was.
   template <class Visit>
   void for_each_near(const Vec3& point, double reach, const Visit& visit) const {
-    const int last_x = column_along(0, point.x() + reach);
-    const int last_y = column_along(1, point.y() + reach);
-    const int first_x = column_along(0, point.x() - reach);
-    for (int y = column_along(1, point.y() - reach); y <= last_y; ++y) {
-      const int end = starts_[index_of(last_x, y) + 1];
-      for (int i = starts_[index_of(first_x, y)]; i < end; ++i) visit(entries_[at(i)]);
+    const Row place = to_row(point);
+    const ColumnRange columns = grid_.range(place - reach, place + reach);
+    for (int y = columns.first_y; y <= columns.last_y; ++y) {
+      const int end = starts_[at(grid_.index_of(columns.last_x, y) + 1)];
+      for (int i = starts_[at(grid_.index_of(columns.first_x, y))]; i < end; ++i) {
+        const int triangle = entries_[at(i)];
+        if (!boxes_[at(triangle)].is_beyond(place, reach)) reach = visit(triangle);
+      }
     }
   }
 
  private:
-  int column_along(int axis, double coordinate) const;
-  std::size_t index_of(int x, int y) const { return at(x + side_ * y); }
+  /// About a triangle, a little wider.
+  struct Box {
+    Row low, high;
 
-  Bounds bounds_;
-  int side_ = 0;              // columns along x, and along y
-  Vec3 per_metre_;            // columns
-  Vec3 margin_;               // m, by which a triangle's box is widened
-  std::vector<int> starts_;   // into entries_; one more than columns
-  std::vector<int> entries_;  // triangles, column by column
+    bool is_crossed_at(double x, double y) const {
+      return low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1];
+    }
+    /// Whether it is farther from the point than `reach` along some axis.
+    bool is_beyond(Row point, double reach) const {
+      const Row way_in = lesser(point - low, high - point) + reach;
+      return way_in[0] < 0.0 || way_in[1] < 0.0 || way_in[2] < 0.0;
+    }
+  };
+
+  template <class Visit>
+  void for_each_at(const Vec3& point, const Visit& visit) const {
+    const int column = grid_.at_point(to_row(point));
+    for (int i = starts_[at(column)]; i < starts_[at(column + 1)]; ++i) {
+      const int triangle = entries_[at(i)];
+      visit(triangle, boxes_[at(triangle)]);
+    }
+  }
+  void measure(const SurfaceView& surface);
+  template <class Visit>
+  void for_each_line(const Visit& visit) const;
+
+  ColumnGrid grid_;
+  Vec3 margin_ = Vec3::Zero();       // m, by which a triangle's box is widened
+  std::vector<Box> boxes_;           // per triangle
+  std::vector<ColumnRange> ranges_;  // per triangle
+  std::vector<int> starts_;          // into entries_; one more than columns
+  std::vector<int> entries_;         // triangles, column by column
 };
 
 }  // namespace pneuma::sim

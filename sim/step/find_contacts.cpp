@@ -45,13 +45,15 @@ void find_between_soft_and_rigid(const World& world, StepWorkspace& workspace) {
   for (SoftColumns& columns : workspace.columns) columns.body = -1;
   find_all(workspace, workspace.soft_rigid_pairs.size(), [&](int i, int thread, auto& contacts) {
     const auto& [soft, rigid] = workspace.soft_rigid_pairs[at(i)];
+    const Bounds& around = workspace.soft_bounds[at(soft)];
+    if (!overlap(around, workspace.boxes[at(rigid)].bounds)) return;
     SoftColumns& columns = workspace.columns[at(thread)];
     if (columns.body != soft) {
       const SoftBody& body = world.soft[at(soft)];
-      columns.triangles.fill({body.mesh->topology, body.positions});
+      columns.surface.fill({body.mesh->topology, body.positions}, around);
       columns.body = soft;
     }
-    find_soft_rigid(world, soft, rigid, columns.triangles, contacts);
+    find_soft_rigid(world, workspace.boxes, soft, rigid, columns.surface, contacts);
   });
 }
 
@@ -61,13 +63,15 @@ void find_contacts(const World& world, StepWorkspace& workspace) {
   const Plan& plan = workspace.plan;
   const bool ground = world.settings.ground.has_value();
   workspace.contacts.clear();
+  workspace.boxes.clear();
+  for (const RigidBox& box : world.rigid) workspace.boxes.push_back(place(box));
   if (plan.runs(ContactKind::soft_ground) && ground) {
     find_all(workspace, world.soft.size(),
              [&](int i, int, auto& contacts) { find_soft_ground(world, i, contacts); });
   }
   if (plan.runs(ContactKind::rigid_ground) && ground) {
     find_all(workspace, world.rigid.size(),
-             [&](int i, int, auto& contacts) { find_rigid_ground(world, i, contacts); });
+             [&](int i, int, auto& contacts) { find_rigid_ground(workspace.boxes, i, contacts); });
   }
   if (plan.runs(ContactKind::soft_soft)) {
     find_between_soft(world, workspace);
@@ -78,7 +82,7 @@ void find_contacts(const World& world, StepWorkspace& workspace) {
   if (plan.runs(ContactKind::rigid_rigid)) {
     find_all(workspace, workspace.rigid_pairs.size(), [&](int i, int, auto& contacts) {
       const BodyPair& pair = workspace.rigid_pairs[at(i)];
-      find_rigid_rigid(world, pair.first, pair.second, contacts);
+      find_rigid_rigid(workspace.boxes, pair.first, pair.second, contacts);
     });
   }
 }

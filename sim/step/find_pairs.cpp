@@ -16,10 +16,12 @@ namespace {
 void make_spheres(const World& world, StepWorkspace& workspace) {
   std::vector<BoundingSphere>& spheres = workspace.spheres;
   spheres.resize(world.soft.size());
+  workspace.soft_bounds.resize(world.soft.size());
   const auto block = [&world, &workspace](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
-      workspace.spheres[at(i)] =
-          bounding_sphere(world.soft[at(i)].positions, world.settings.skin_thickness);
+      const VertexArray& positions = world.soft[at(i)].positions;
+      const Bounds& around = workspace.soft_bounds[at(i)] = bounds(positions);
+      workspace.spheres[at(i)] = bounding_sphere(positions, around, world.settings.skin_thickness);
     }
   };
   workspace.workers.for_blocks(static_cast<int>(world.soft.size()), block);

@@ -9,10 +9,10 @@
 
 #include "sim/collision/bounding_sphere.h"
 #include "sim/collision/deep_pair.h"
+#include "sim/collision/find_body_contacts.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
 #include "sim/collision/particles.h"
-#include "sim/collision/triangle_columns.h"
 #include "sim/response/contact_impulse.h"
 #include "sim/response/contact_islands.h"
 #include "sim/response/part_deep_pairs.h"
@@ -36,10 +36,10 @@ struct RigidStart {
   Vec3 angular_velocity = Vec3::Zero();
 };
 
-/// The columns of the soft body that boxes were last tested against.
+/// Of the soft body that boxes were last tested against.
 struct SoftColumns {
   int body = -1;
-  TriangleColumns triangles;
+  SurfaceColumns surface;
 };
 
 struct StepWorkspace {
@@ -55,6 +55,7 @@ struct StepWorkspace {
   std::vector<PartingPair> parting_start;               // of the world
   std::vector<RestingImpulse> resting_start;            // of the world
   std::vector<std::optional<Divergence>> soft_outcome;  // per body
+  std::vector<Bounds> soft_bounds;                      // per body
   std::vector<BoundingSphere> spheres;                  // of the soft bodies, then of the boxes
   PairFinder pair_finder;
   std::vector<BodyPair> pairs;                  // of spheres
@@ -69,6 +70,7 @@ struct StepWorkspace {
   std::vector<ParticleScratch> particles;   // per thread
   std::vector<SoftSoftScratch> soft_soft;   // per thread
   std::vector<ExactScratch> exact;          // per thread
+  std::vector<PlacedBox> boxes;             // of the world
   std::vector<SoftColumns> columns;         // per thread
   std::vector<std::vector<Contact>> found;  // per thread but the first, which fills `contacts`
   std::vector<Contact> contacts;

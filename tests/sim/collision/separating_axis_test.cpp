@@ -62,6 +62,51 @@ TEST(SeparatingAxis, AgreesWithClippedEdgesOn100000Pairs) {
   EXPECT_EQ(undecided, 0);
 }
 
+/// The least overlap along the fifteen axes, each taken as it comes; negative when one separates.
+double least_of_fifteen_axes(const OrientedBox& first, const OrientedBox& second) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vec3& u) {
+    const double distance = std::abs((first.centre - second.centre).dot(u));
+    least = std::min(least, extent(first, u) + extent(second, u) - distance);
+  };
+  for (int a = 0; a < 3; ++a) {
+    look(first.axes.col(a));
+    look(second.axes.col(a));
+    for (int b = 0; b < 3; ++b) {
+      const Vec3 across = first.axes.col(a).cross(second.axes.col(b));
+      if (across.norm() >= 1e-10) look(across.normalized());
+    }
+  }
+  return least;
+}
+
+// No axis is passed over that decides, however nearly parallel the edges that it comes from.
+TEST(SeparatingAxis, MissesNoneOfTheFifteenAxes) {
+  BoxRandom random(7);
+  int overlapping = 0, apart = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const auto [first, second] = sample_boxes(random, i % box_relations);
+    const double expected = least_of_fifteen_axes(first, second);
+    const auto found = find_least_overlap(first, second);
+    if (!found) {
+      ++apart;
+      ASSERT_LT(expected, rounding) << i;
+      continue;
+    }
+    ++overlapping;
+    const double slack = 0.001 * std::min(first.half.minCoeff(), second.half.minCoeff());
+    ASSERT_GT(expected, -rounding) << i;
+    ASSERT_GT(found->overlap, expected - rounding) << i;
+    // A face may be preferred to another by 0.95 and the slack, and to edges likewise.
+    ASSERT_LT(found->overlap, (expected + slack) / 0.95 + rounding) << i;
+    if (found->kind == AxisKind::edges) {
+      ASSERT_NEAR(found->overlap, expected, rounding) << i;
+    }
+  }
+  EXPECT_GT(overlapping, 20'000);
+  EXPECT_GT(apart, 20'000);
+}
+
 // Two cubes on edge, one above the other, their edges all but parallel and a hair apart. The faces'
 // normals do not see the gap, since along them each edge reaches past the other by half its length
 // times the angle; only the cross product of the two edges does.
