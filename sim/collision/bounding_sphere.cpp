@@ -6,8 +6,6 @@
 
 #include "sim/mesh/row.h"
 
-#include "sim/mesh/row.h"
-
 namespace pneuma::sim {
 
 namespace {

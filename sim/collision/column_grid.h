@@ -35,7 +35,7 @@ class ColumnGrid {
     typedef int Integers __attribute__((vector_size(16)));
     const Row last = Row{} + (side_ - 1.0);
     const Row corners = __builtin_shufflevector(low, high, 0, 1, 4, 5);
-    const Row columns = -lesser(-lesser((corners - origin_) * per_metre_, last), Row{});
+    const Row columns = greater(lesser((corners - origin_) * per_metre_, last), Row{});
     return std::bit_cast<ColumnRange>(__builtin_convertvector(columns, Integers));
   }
 

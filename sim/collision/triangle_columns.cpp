@@ -51,7 +51,7 @@ void TriangleColumns::measure(const SurfaceView& surface) {
     const auto& [first, second, third] = triangles[t];
     const Row a = positions[first], b = positions[second], c = positions[third];
     const Row low = lesser(lesser(a, b), c) - margin;
-    const Row high = margin - lesser(lesser(-a, -b), -c);
+    const Row high = greater(greater(a, b), c) + margin;
     boxes_[t] = {low, high};
     ranges_[t] = grid_.range(low, high);
   }
