@@ -11,13 +11,12 @@ namespace pneuma::sim {
 
 /// Memory of find_soft_soft; contents mean nothing between calls.
 struct SoftSoftScratch {
-  /// A ball about a feature, for a quick look at whether two can be within reach.
-  struct Ball {
-    Vec3 centre;
-    double radius;
+  /// A ball about each particle's feature, for a quick look at whether two can be within reach:
+  /// centre and radius, m. Behind them a few that nothing reaches, for the last row of four.
+  struct Balls {
+    std::vector<double> x, y, z, radius;
   };
-  std::vector<Ball> first;
-  std::vector<Ball> second;
+  Balls second;
 };
 
 /// Two features of soft bodies, given by their indices in World::soft, as the response takes them:
