@@ -144,7 +144,7 @@ Section particles_section(sim::ParticleSettings& particles) {
           .keys = {
               {"per_vertex", &particles.per_vertex, above_to(0, 100), "",
                "particles per vertex of a body, at least one per body"},
-              {"attraction", &particles.attraction, at_least(0), "",
+              {"attraction", &particles.attraction, between(0, 1e6), "",
                "pull of the other body's particles, in units of the own ones' push"},
               {"max_sweeps", &particles.max_sweeps, between(1, 10'000), "",
                "of the refinement loop per step"},

@@ -34,8 +34,8 @@ std::vector<int> random_features(const MeshTopology& mesh, double per_vertex, Ra
 
 using Place = ParticleScratch::Place;
 
-/// m, on each axis: where a particle stands that is to count for nothing, as 1/d^2 of it is lost in
-/// rounding; d^4 is still a number.
+/// m, on each axis: where a particle stands that is to count for nothing. What it costs is the same
+/// wherever another goes, and d^4 is still a number.
 constexpr Place far_away{1e9f, 1e9f, 1e9f};
 
 /// A coordinate of eight places. Single precision: which feature is the cheapest hardly ever hangs
@@ -53,9 +53,9 @@ Eight joined(Row low, Row high) {
   return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-EightPlaces columns(const std::array<Row, 8>& rows) {
-  const Columns low = sim::columns(rows[0], rows[1], rows[2], rows[3]);
-  const Columns high = sim::columns(rows[4], rows[5], rows[6], rows[7]);
+EightPlaces eight_places(const std::array<Row, 8>& rows) {
+  const Columns low = columns(rows[0], rows[1], rows[2], rows[3]);
+  const Columns high = columns(rows[4], rows[5], rows[6], rows[7]);
   return {joined(low.x, high.x), joined(low.y, high.y), joined(low.z, high.z)};
 }
 
@@ -63,10 +63,16 @@ Place to_place(Row row) {
   return {static_cast<float>(row[0]), static_cast<float>(row[1]), static_cast<float>(row[2])};
 }
 
+/// m^2, of one edge: that features are about as large is all that matters.
+double squared_feature_size(const SurfaceView& surface) {
+  const auto& [a, b] = edge_segment(surface, 0);
+  return (b - a).squaredNorm();
+}
+
 /// One body's particles on the way to lesser cost, among its own and against the other's.
 class Walk {
  public:
-  /// Places are reckoned from `origin` (m), near the bodies, so that few digits suffice for them.
+  /// Places are reckoned from `origin` (m), on one of the bodies, so that few digits suffice.
   Walk(const SurfaceView& surface, Row origin, std::vector<int>& features, std::vector<Place>& own,
        const std::vector<Place>& other, const ParticleSettings& settings, double least_distance)
       : surface_(surface),
@@ -111,7 +117,7 @@ class Walk {
       const std::size_t options = std::min<std::size_t>(8, count - first);
       std::array<Row, 8> places{};
       for (std::size_t i = 0; i < options; ++i) places[i] = centre(option(first + i));
-      const Eight costs = cost(columns(places));
+      const Eight costs = cost(eight_places(places));
       for (std::size_t i = 0; i < options; ++i) {
         const float option_cost = costs[static_cast<int>(i)];
         if (!(option_cost < least)) continue;
@@ -181,7 +187,10 @@ ParticlePair make_particles(int first, const MeshTopology& first_mesh, int secon
 int settle_particles(const SurfaceView& first, const SurfaceView& second,
                      const ParticleSettings& settings, double least_distance, ParticlePair& pair,
                      ParticleScratch& scratch) {
-  const Row origin = feature_centre(first, pair.first_features.front());
+  // Small features take the finer places: there single precision is at its best.
+  const bool first_is_finer = squared_feature_size(first) < squared_feature_size(second);
+  const Row origin = first_is_finer ? feature_centre(first, pair.first_features.front())
+                                    : feature_centre(second, pair.second_features.front());
   Walk first_walk(first, origin, pair.first_features, scratch.first, scratch.second, settings,
                   least_distance);
   Walk second_walk(second, origin, pair.second_features, scratch.second, scratch.first, settings,

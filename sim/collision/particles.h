@@ -38,8 +38,9 @@ struct ParticleScratch {
 };
 
 /// Moves the particles until fewer than `settled_below` move in a sweep over all of them, or for
-/// `max_sweeps`. `least_distance` (m, > 0) bounds d from below, so that two particles on one
-/// feature have a finite cost (ERRATA row 11). Returns the number of sweeps.
+/// `max_sweeps`. Each body has at least one. `least_distance` (m, at least 1e-6) bounds d from
+/// below, so that two particles on one feature have a finite cost (ERRATA row 11). Costs are
+/// compared in single precision. Returns the number of sweeps.
 int settle_particles(const SurfaceView& first, const SurfaceView& second,
                      const ParticleSettings& settings, double least_distance, ParticlePair& pair,
                      ParticleScratch& scratch);

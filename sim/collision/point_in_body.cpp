@@ -115,10 +115,6 @@ bool is_inside(const SurfaceView& surface, const Vec3& point) {
   return inside;
 }
 
-bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point) {
-  return find_exit_above(surface, columns, point).has_value();
-}
-
 std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& point) {
   bool inside = false;
   double least = std::numeric_limits<double>::infinity();

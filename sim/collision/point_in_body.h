@@ -12,9 +12,6 @@ namespace pneuma::sim {
 /// times (ERRATA row 17). Wrong at most for points within rounding of the surface: 8 units in the
 /// last place of the largest coordinate.
 bool is_inside(const SurfaceView& surface, const Vec3& point);
-/// The same, looking only at the triangles above and below the point: `columns` filled from the
-/// surface.
-bool is_inside(const SurfaceView& surface, const TriangleColumns& columns, const Vec3& point);
 
 /// How far above a point inside the body (m, along +z) its surface begins. None for a point
 /// outside.

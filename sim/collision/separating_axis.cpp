@@ -13,13 +13,13 @@ namespace {
 // Edges at less than this angle (its sine) give no axis of their own (ERRATA row 18). Leaving out
 // an axis that would separate overlooks a gap of at most this share of the boxes' size.
 // Rounding turns the axis by up to its share over the sine, here 1e-6; that says nothing untrue, as
-// overlaps are measured along the axis as it came out. Overlaps from Sight would be wrong by as
-// much of the boxes' size, and only choose which axes to measure.
+// overlaps are measured along the axis as it came out. Overlaps from RelativePose would be wrong by
+// as much of the boxes' size, and only choose which axes to measure.
 constexpr double sine_of_parallel = 1e-10;
 
-// Of the boxes' size: far above the rounding of what Sight says of an edge axis, before it is
-// divided by the sine.
-constexpr double rounding_of_sight = 1e-13;
+// Of the boxes' size: far above the rounding of what RelativePose says of an edge axis, before it
+// is divided by the sine.
+constexpr double rounding_of_pose = 1e-13;
 
 Row absolute(Row row) { return -lesser(row, -row); }
 
@@ -27,13 +27,13 @@ bool any_negative(Row row) { return row[0] < 0.0 || row[1] < 0.0 || row[2] < 0.0
 
 /// How the boxes lie, seen from each other: the axes of the second in the coordinates of the first
 /// and the other way round (Ericson, Real-Time Collision Detection, 4.4.1, after Gottschalk).
-struct Sight {
+struct RelativePose {
   Row first_half, second_half;
   RowMatrix second_axes, first_axes;
   RowMatrix second_extents, first_extents;  // their absolute values
   Row from_first, from_second;  // from the second box to the first, in the coordinates of either
 
-  Sight(const OrientedBox& first, const OrientedBox& second)
+  RelativePose(const OrientedBox& first, const OrientedBox& second)
       : first_half(to_row(first.half)), second_half(to_row(second.half)) {
     const RowMatrix to_first = transposed(row_matrix(first.axes));
     for (int k = 0; k < 3; ++k) {
@@ -66,15 +66,15 @@ struct EdgeAxes {
 /// In the coordinates of the first box a_i is a unit vector, so that a_i x b_j has the two other
 /// components of b_j, exchanged and one with its sign turned; likewise b_j x a_i in those of the
 /// second.
-EdgeAxes look_along_edges(const Sight& sight, std::size_t i) {
+EdgeAxes look_along_edges(const RelativePose& pose, std::size_t i) {
   const std::size_t k = (i + 1) % 3, m = (i + 2) % 3;
-  const Row along_k = sight.first_axes.columns[k], along_m = sight.first_axes.columns[m];
+  const Row along_k = pose.first_axes.columns[k], along_m = pose.first_axes.columns[m];
   const Row first_reach =
-      sight.first_half[k] * absolute(along_m) + sight.first_half[m] * absolute(along_k);
-  const Row extents = turned(sight.first_extents.columns[i]), half = turned(sight.second_half);
+      pose.first_half[k] * absolute(along_m) + pose.first_half[m] * absolute(along_k);
+  const Row extents = turned(pose.first_extents.columns[i]), half = turned(pose.second_half);
   const Row second_reach = half * turned(extents) + turned(half) * extents;
-  const Row distance = sight.from_first[static_cast<int>(m)] * along_k -
-                       sight.from_first[static_cast<int>(k)] * along_m;
+  const Row distance = pose.from_first[static_cast<int>(m)] * along_k -
+                       pose.from_first[static_cast<int>(k)] * along_m;
   return {first_reach + second_reach - absolute(distance),
           square_root(along_k * along_k + along_m * along_m)};
 }
@@ -84,17 +84,16 @@ int least_lane(Row row) {
   return row[2] < row[of_two] ? 2 : of_two;
 }
 
-LeastOverlap least_along_first(const OrientedBox& first, const Sight& sight, Row overlaps) {
+LeastOverlap least_along_first(const OrientedBox& first, const RelativePose& pose, Row overlaps) {
   const int i = least_lane(overlaps);
   const Vec3 axis = first.axes.col(i);
-  return {AxisKind::first_face, i, 0, sight.from_first[i] < 0.0 ? Vec3(-axis) : axis, overlaps[i]};
+  return {AxisKind::first_face, i, 0, pose.from_first[i] < 0.0 ? Vec3(-axis) : axis, overlaps[i]};
 }
 
-LeastOverlap least_along_second(const OrientedBox& second, const Sight& sight, Row overlaps) {
+LeastOverlap least_along_second(const OrientedBox& second, const RelativePose& pose, Row overlaps) {
   const int j = least_lane(overlaps);
   const Vec3 axis = second.axes.col(j);
-  return {AxisKind::second_face, 0, j, sight.from_second[j] < 0.0 ? Vec3(-axis) : axis,
-          overlaps[j]};
+  return {AxisKind::second_face, 0, j, pose.from_second[j] < 0.0 ? Vec3(-axis) : axis, overlaps[j]};
 }
 
 double radius_along(const OrientedBox& box, const Vec3& axis) {
@@ -124,21 +123,21 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 // at a glance, without a division; only what may decide is looked at for itself.
 std::optional<LeastOverlap> find_least_overlap(const OrientedBox& first,
                                                const OrientedBox& second) {
-  const Sight sight(first, second);
-  const Row along_first = sight.along_first(), along_second = sight.along_second();
+  const RelativePose pose(first, second);
+  const Row along_first = pose.along_first(), along_second = pose.along_second();
   if (any_negative(along_first) || any_negative(along_second)) return {};
 
   const double slack = 0.001 * std::min(first.half.minCoeff(), second.half.minCoeff());
   const auto clearly_less_than = [slack](double overlap) { return 0.95 * overlap - slack; };
-  LeastOverlap best = least_along_first(first, sight, along_first);
-  const LeastOverlap of_second = least_along_second(second, sight, along_second);
+  LeastOverlap best = least_along_first(first, pose, along_first);
+  const LeastOverlap of_second = least_along_second(second, pose, along_second);
   if (of_second.overlap < clearly_less_than(best.overlap)) best = of_second;
 
   // At 0 or more an axis does not separate, and from `limit` on it is not preferred either.
   double limit = clearly_less_than(best.overlap);
-  const double rounding = rounding_of_sight * (first.half.sum() + second.half.sum());
+  const double rounding = rounding_of_pose * (first.half.sum() + second.half.sum());
   for (int i = 0; i < 3; ++i) {
-    const auto [overlaps, sines] = look_along_edges(sight, at(i));
+    const auto [overlaps, sines] = look_along_edges(pose, at(i));
     const Row surplus = overlaps - std::max(limit, 0.0) * sines - rounding;
     if (!any_negative(surplus)) continue;
     for (int j = 0; j < 3; ++j) {

@@ -18,7 +18,8 @@ class TriangleColumns {
   /// Of the surface.
   const Bounds& bounds() const { return grid_.bounds(); }
 
-  /// A length (m) far above the rounding of where a line crosses a triangle.
+  /// A length (m) far above the rounding of where a line crosses a triangle, unless the surface is
+  /// a million times its size away from the origin.
   double margin() const { return margin_.maxCoeff(); }
 
   /// Calls visit(triangle) for all triangles that the ray from a point along +z may cross, and a

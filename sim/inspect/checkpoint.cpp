@@ -85,6 +85,7 @@ void put(Writer& writer, const std::vector<int>& values) {
 
 void get(Reader& reader, std::vector<int>& values, int feature_count) {
   values.resize(reader.count());
+  if (values.empty()) throw CheckpointError("the saved state has a body without particles");
   for (int& value : values) {
     reader.get(value);
     if (value < 0 || value >= feature_count) {

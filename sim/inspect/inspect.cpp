@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/collision/find_body_contacts.h"
 #include "sim/hash.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/pressure_force.h"
@@ -79,12 +80,7 @@ Momentum momentum(const World& world) {
 Bounds bounds(const World& world) {
   Bounds all;
   for (const SoftBody& body : world.soft) all.include(bounds(body.positions));
-  for (const RigidBox& box : world.rigid) {
-    const Vec3 reach =
-        0.5 * box.orientation.toRotationMatrix().cwiseAbs() * box.size;  // of the turned box
-    all.include(Vec3(box.position - reach));
-    all.include(Vec3(box.position + reach));
-  }
+  for (const RigidBox& box : world.rigid) all.include(place(box).bounds);
   return all;
 }
 

@@ -59,8 +59,8 @@ ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
       first_(world, masses, contact.first, contact.point),
       second_(world, masses, contact.second, contact.point),
       mobility_(sum(first_.mobility(), second_.mobility())),
-      pushed_(mobility_ * normal_),
-      normal_mobility_(dot(pushed_, normal_)),
+      normal_response_(mobility_ * normal_),
+      normal_mobility_(dot(normal_response_, normal_)),
       normal_mass_(1.0 / normal_mobility_),
       depth_(contact.depth),
       start_gap_(dot(first_.place() - second_.place(), normal_)),
@@ -71,7 +71,7 @@ ContactImpulse::ContactImpulse(World& world, std::span<const BoxMass> masses,
     const bool turns = first_.turns() || second_.turns();
     tangent_mass_ =
         turns ? tangent_mass(mobility_, normal_) : tangent_mass_of_points(normal_mass_, normal_);
-    if (turns) holding_ = tangent_mass_.matrix * pushed_;
+    if (turns) friction_response_ = tangent_mass_.matrix * normal_response_;
   }
   const double approach = std::max(0.0, -dot(relative_velocity(), normal_));
   const double closing =
@@ -128,14 +128,14 @@ bool ContactImpulse::bounce() {
 // comes to rest, friction is at its limit and opposes the sliding, whatever the tangents are. From
 // a point within the limit neither adds energy: the nearest point to j - m v, which is j + d, has
 // d (d + m v) <= 0, so that the work d v + d K d / 2 is at most -d d / 2m.
-// What of it comes from the normal's correction is known beforehand (holding_): the time goes into
-// a chain of operations each of which waits for the last.
+// What of it comes from the normal's correction is known beforehand (friction_response_): the time
+// goes into a chain of operations each of which waits for the last.
 Row ContactImpulse::correct_friction(Row velocity, double normal) {
   const double limit = friction_ * normal_impulse_;
   const Row before = friction_impulse_;
-  const Row after_normal = velocity + normal * pushed_;
-  Row after = before - (tangent_mass_.matrix * velocity + normal * holding_);
-  sticks_ = dot(after, after) <= limit * limit;
+  const Row after_normal = velocity + normal * normal_response_;
+  Row after = before - (tangent_mass_.matrix * velocity + normal * friction_response_);
+  sticks_ = limit > 0.0 && dot(after, after) <= limit * limit;
   if (!sticks_) {
     const Row sliding = after_normal - dot(after_normal, normal_) * normal_;
     after = before - tangent_mass_.least * sliding;

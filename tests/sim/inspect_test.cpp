@@ -112,6 +112,14 @@ TEST(Checkpoint, BringsTheWholeStateBack) {
   EXPECT_EQ(other.steps, 42);
 }
 
+TEST(Checkpoint, WithoutParticlesInAPairIsRefused) {
+  World world = mixed_world();
+  world.soft.push_back(make_body(make_sphere(3.0, 8, 8)));
+  world.particles = {{0, 1, {1, 2, 3}, {}}};
+  World other = world;
+  EXPECT_THROW(load_state(save_state(world), other), CheckpointError);
+}
+
 TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   World world = mixed_world();
   world.particles.clear();
