@@ -67,8 +67,10 @@ double separation_depth(const FeatureContact& contact, double skin_thickness) {
   return skin_thickness - height;
 }
 
-bool same_features(const Contact& contact, const FeatureContact& found) {
-  return contact.first.feature == found.first && contact.second.feature == found.second;
+std::uint64_t number_of(const SurfaceView& first, const SurfaceView& second,
+                        const FeatureContact& found) {
+  return static_cast<std::uint64_t>(first.topology.feature_id(found.first)) << 32 |
+         static_cast<std::uint32_t>(second.topology.feature_id(found.second));
 }
 
 }  // namespace
@@ -91,7 +93,8 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
   const double skin = world.settings.skin_thickness;
   make_balls(second, pair.second_features, scratch.second);
 
-  const auto start = static_cast<std::ptrdiff_t>(contacts.size());
+  std::vector<std::uint64_t>& known = scratch.known;
+  known.clear();
   for (const int first_feature : pair.first_features) {
     const Ball ball = feature_ball(first, first_feature);
     for_each_within(ball, 2.0 * skin, scratch.second, [&](std::size_t i) {
@@ -99,10 +102,9 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
           find_touching_parts(first, first.topology.feature(first_feature), second,
                               second.topology.feature(pair.second_features[i]), 2.0 * skin);
       if (!found) return;
-      const auto known =
-          std::find_if(contacts.begin() + start, contacts.end(),
-                       [&](const Contact& contact) { return same_features(contact, *found); });
-      if (known != contacts.end()) return;
+      const std::uint64_t number = number_of(first, second, *found);
+      if (std::find(known.begin(), known.end(), number) != known.end()) return;
+      known.push_back(number);
       found->normal = contact_normal(first, second, *found);
       contacts.push_back(soft_soft_contact(pair.first, pair.second, *found, skin));
     });

@@ -1,6 +1,7 @@
 // Contacts of two soft bodies: the feature tests on the pairs of their particles (paper 5.2.1).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/collision/contact.h"
@@ -17,6 +18,7 @@ struct SoftSoftScratch {
     std::vector<double> x, y, z, radius;
   };
   Balls second;
+  std::vector<std::uint64_t> known;  // the pairs of features in contact, by their numbers
 };
 
 /// Two features of soft bodies, given by their indices in World::soft, as the response takes them:
