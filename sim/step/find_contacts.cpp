@@ -24,6 +24,7 @@ void find_all(StepWorkspace& workspace, std::size_t count, const Find& find) {
 }
 
 void find_between_soft(const World& world, StepWorkspace& workspace) {
+  if (workspace.soft_pairs.empty()) return;
   switch (world.settings.soft_search) {
     case SoftSearch::particles:
       find_all(workspace, world.particles.size(), [&](int i, int thread, auto& contacts) {

@@ -4,6 +4,7 @@
 namespace pneuma::sim {
 
 void move_particles(World& world, StepWorkspace& workspace) {
+  if (workspace.soft_pairs.empty()) return;  // none is near
   // Two references are all that std::function holds without allocating.
   const auto block = [&world, &workspace](int begin, int end, int thread) {
     const double least_distance = least_particle_distance(world.settings.skin_thickness);

@@ -61,12 +61,12 @@ void keep_volumes(World& world, const StepWorkspace& workspace) {
 
 /// In the order in which the contacts were found, whichever islands they are in.
 void remember(World& world, StepWorkspace& workspace) {
+  world.resting_impulses.clear();
+  if (world.rigid.empty()) return;
   const std::span<const int> ordered = workspace.islands.ordered();
   std::vector<int>& number = workspace.impulse_number;
   number.resize(workspace.contacts.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) number[at(ordered[i])] = static_cast<int>(i);
-
-  world.resting_impulses.clear();
   for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
     const Contact& contact = workspace.contacts[i];
     if (!is_rigid(contact)) continue;

@@ -24,13 +24,15 @@ void Workers::run_block(int thread) const {
 }
 
 void Workers::for_blocks(int count, const std::function<void(int, int, int)>& work) {
+  if (helpers_.empty() || count <= 1) {
+    if (count > 0) work(0, count, 0);
+    return;
+  }
   work_ = &work;
   count_ = count;
   busy_ = static_cast<int>(helpers_.size());
-  if (!helpers_.empty()) {
-    ++round_;
-    round_.notify_all();
-  }
+  ++round_;
+  round_.notify_all();
   run_block(0);
   for (int left = busy_; left > 0; left = busy_) busy_.wait(left);
 }
