@@ -1,6 +1,17 @@
 #include "sim/step/workers.h"
 
 namespace pneuma::sim {
+namespace {
+
+/// To sleep and be waked takes some 50 us, as long as many a piece of a step: for about that long a
+/// thread only lets others go first.
+template <class Value>
+void wait_while(const std::atomic<Value>& variable, Value old) {
+  for (int i = 0; i < 100 && variable == old; ++i) std::this_thread::yield();
+  variable.wait(old);
+}
+
+}  // namespace
 
 Workers::Workers(int threads) {
   for (int thread = 1; thread < threads; ++thread) {
@@ -34,12 +45,12 @@ void Workers::for_blocks(int count, const std::function<void(int, int, int)>& wo
   ++round_;
   round_.notify_all();
   run_block(0);
-  for (int left = busy_; left > 0; left = busy_) busy_.wait(left);
+  for (int left = busy_; left > 0; left = busy_) wait_while(busy_, left);
 }
 
 void Workers::help(int thread) {
   for (std::uint32_t seen = 0;;) {
-    round_.wait(seen);
+    wait_while(round_, seen);
     seen = round_;
     if (stopping_) return;
     run_block(thread);
