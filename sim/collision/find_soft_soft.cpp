@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pneuma::sim {
 namespace {
 
-struct Ball {
-  Row centre;
-  double radius;
-};
-
-Ball feature_ball(const SurfaceView& surface, int feature_id) {
+/// `margin`: m, added to the radius.
+BoundingSphere bounding_sphere(const SurfaceView& surface, int feature_id, double margin) {
   const Row centre = feature_centre(surface, feature_id);
   const RowReader positions(surface.positions);
   double squared = 0.0;
@@ -20,39 +15,7 @@ Ball feature_ball(const SurfaceView& surface, int feature_id) {
     const Row offset = positions[v] - centre;
     squared = std::max(squared, dot(offset, offset));
   }
-  return {centre, std::sqrt(squared)};
-}
-
-void make_balls(const SurfaceView& surface, const std::vector<int>& features,
-                SoftSoftScratch::Balls& balls) {
-  for (auto* values : {&balls.x, &balls.y, &balls.z, &balls.radius}) {
-    values->resize(features.size() + 3);
-    std::fill(values->end() - 3, values->end(), std::numeric_limits<double>::quiet_NaN());
-  }
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const auto [centre, radius] = feature_ball(surface, features[i]);
-    balls.x[i] = centre[0];
-    balls.y[i] = centre[1];
-    balls.z[i] = centre[2];
-    balls.radius[i] = radius;
-  }
-}
-
-/// Calls visit(i) for all balls within reach (m) of one, which it compares with four at a time.
-template <class Visit>
-void for_each_within(const Ball& ball, double reach, const SoftSoftScratch::Balls& balls,
-                     const Visit& visit) {
-  for (std::size_t i = 0; i + 3 < balls.x.size(); i += 4) {
-    const Row x = load_row(&balls.x[i]) - ball.centre[0];
-    const Row y = load_row(&balls.y[i]) - ball.centre[1];
-    const Row z = load_row(&balls.z[i]) - ball.centre[2];
-    const Row far = load_row(&balls.radius[i]) + (ball.radius + reach);
-    const auto within = x * x + (y * y + z * z) < far * far;
-    if ((within[0] | within[1] | within[2] | within[3]) == 0) continue;
-    for (int lane = 0; lane < 4; ++lane) {
-      if (within[lane] != 0) visit(i + at(lane));
-    }
-  }
+  return {to_vec3(centre), std::sqrt(squared) + margin};
 }
 
 /// How much a vertex and a triangle are to be moved apart so that the skin thickness lies between
@@ -91,13 +54,15 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
   const SurfaceView first{first_body.mesh->topology, first_body.positions};
   const SurfaceView second{second_body.mesh->topology, second_body.positions};
   const double skin = world.settings.skin_thickness;
-  make_balls(second, pair.second_features, scratch.second);
+  scratch.second.resize(pair.second_features.size());
+  for (std::size_t i = 0; i < pair.second_features.size(); ++i) {
+    scratch.second.set(i, bounding_sphere(second, pair.second_features[i], skin));
+  }
 
   std::vector<std::uint64_t>& known = scratch.known;
   known.clear();
   for (const int first_feature : pair.first_features) {
-    const Ball ball = feature_ball(first, first_feature);
-    for_each_within(ball, 2.0 * skin, scratch.second, [&](std::size_t i) {
+    const auto test = [&](std::size_t i) {
       auto found =
           find_touching_parts(first, first.topology.feature(first_feature), second,
                               second.topology.feature(pair.second_features[i]), 2.0 * skin);
@@ -107,7 +72,11 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
       known.push_back(number);
       found->normal = contact_normal(first, second, *found);
       contacts.push_back(soft_soft_contact(pair.first, pair.second, *found, skin));
-    });
+    };
+    const BoundingSphere sphere = bounding_sphere(first, first_feature, skin);
+    for (std::size_t i = 0; i < scratch.second.size(); i += 4) {
+      scratch.second.for_overlapping_of_four(i, sphere, test);
+    }
   }
 }
 

@@ -6,18 +6,14 @@
 
 #include "sim/collision/contact.h"
 #include "sim/collision/feature_contact.h"
+#include "sim/collision/sphere_rows.h"
 #include "sim/world.h"
 
 namespace pneuma::sim {
 
 /// Memory of find_soft_soft; contents mean nothing between calls.
 struct SoftSoftScratch {
-  /// A ball about each particle's feature, for a quick look at whether two can be within reach:
-  /// centre and radius, m. Behind them a few that nothing reaches, for the last row of four.
-  struct Balls {
-    std::vector<double> x, y, z, radius;
-  };
-  Balls second;
+  SphereRows second;                 // about the features of the second body's particles
   std::vector<std::uint64_t> known;  // the pairs of features in contact, by their numbers
 };
 

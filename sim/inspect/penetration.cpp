@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "sim/collision/bounding_sphere.h"
+#include "sim/collision/pair_finder.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/collision/separating_axis.h"
 #include "sim/collision/surface_view.h"

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "sim/collision/bounding_sphere.h"
 #include "sim/collision/deep_pair.h"
 #include "sim/collision/find_body_contacts.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
+#include "sim/collision/pair_finder.h"
 #include "sim/collision/particles.h"
 #include "sim/response/contact_impulse.h"
 #include "sim/response/contact_islands.h"

@@ -12,9 +12,9 @@
 #include "app/simulation.h"
 #include "app/statistics.h"
 #include "scenes/load_scene.h"
-#include "sim/collision/bounding_sphere.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
+#include "sim/collision/pair_finder.h"
 #include "sim/collision/particles.h"
 
 namespace pneuma::app {

@@ -1,6 +1,4 @@
 // Bounding spheres hold their bodies, and the sweep finds the same pairs as trying them all.
-#include "sim/collision/bounding_sphere.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "sim/collision/pair_finder.h"
 #include "sim/mesh/primitives.h"
 
 namespace pneuma::sim {
