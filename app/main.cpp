@@ -4,25 +4,24 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "app/command.h"
-#include "app/errors.h"
-#include "app/interrupt.h"
+#include "app/host/errors.h"
+#include "app/host/interrupt.h"
+#include "app/host/version.h"
 #include "app/study/study_command.h"
-#include "app/version.h"
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/read_command_line.h"
 #include "assets/model.h"
 #include "render/context/context.h"
-#include "render/image/file.h"
-#include "scenes/load_scene.h"
-#include "scenes/nearest.h"
+#include "scenes/loader/load_scene.h"
+#include "sim/base/file.h"
 
 namespace {
 
@@ -39,7 +38,7 @@ ExitCode run(const app::Action& action) {
   try {
     const ExitCode code = action();
     // Only now is it known whether what was printed arrived.
-    if (std::fflush(stdout) != 0) throw render::IoError("cannot write to standard output");
+    if (std::fflush(stdout) != 0) throw base::IoError("cannot write to standard output");
     return code;
   } catch (const app::UsageError& error) {
     return fail(ExitCode::usage, error);
@@ -54,7 +53,7 @@ ExitCode run(const app::Action& action) {
     return fail(ExitCode::no_gl, error);
   } catch (const app::DivergenceError& error) {
     return fail(ExitCode::diverged, error);
-  } catch (const render::IoError& error) {
+  } catch (const base::IoError& error) {
     return fail(ExitCode::input_output, error);
   } catch (const std::system_error& error) {
     return fail(ExitCode::input_output, error);
@@ -65,19 +64,8 @@ ExitCode run(const app::Action& action) {
     return ExitCode::input_output;
   } catch (const std::exception& error) {
     fmt::print(stderr, "pneuma: a mistake in the program itself: {}\n", error.what());
-    return ExitCode::own_mistake;
+    return ExitCode::internal_error;
   }
-}
-
-/// What to say when the first word is no command; none when it is one, or an option.
-std::optional<std::string> unknown_command(const CLI::App& cli,
-                                           const std::vector<std::string>& command_line) {
-  if (command_line.size() < 2 || command_line[1].starts_with('-')) return std::nullopt;
-  std::vector<std::string> names;
-  for (const CLI::App* command : cli.get_subcommands({})) names.push_back(command->get_name());
-  if (std::ranges::find(names, command_line[1]) != names.end()) return std::nullopt;
-  return fmt::format("there is no command {}{}", scenes::in_quotes(command_line[1]),
-                     scenes::suggestion_and_all(command_line[1], {names.begin(), names.end()}));
 }
 
 }  // namespace
@@ -88,7 +76,7 @@ int main(int argc, char** argv) {
   app::Action action;
 
   CLI::App cli("Soft bodies held up by gas pressure, rendered off screen", "pneuma");
-  cli.set_version_flag("--version", "pneuma " + app::version().program);
+  cli.set_version_flag("--version", app::version_text);
   cli.require_subcommand(1);
   app::add_render_command(cli, action, command_line);
   app::add_export_command(cli, action);
@@ -97,13 +85,8 @@ int main(int argc, char** argv) {
   app::add_check_command(cli, action);
   app::add_list_command(cli, action);
   app::add_doctor_command(cli, action);
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (const auto unknown = unknown_command(cli, command_line)) {
-      return static_cast<int>(fail(ExitCode::usage, app::UsageError(*unknown)));
-    }
-    return static_cast<int>(cli.exit(error) == 0 ? ExitCode::done : ExitCode::usage);
-  }
-  return static_cast<int>(run(action));
+  app::add_examples(cli,
+                    {"pneuma doctor", "pneuma list", "pneuma render one_sphere --out pictures"});
+  return static_cast<int>(
+      run([&] { return app::read_command_line(cli, command_line) ? action() : ExitCode::done; }));
 }

@@ -35,17 +35,17 @@ double height(const sim::TriangleMesh& mesh, const Triangle& triangle) {
   return (b - a).cross(c - a).norm() / longest;
 }
 
-std::vector<int> flat_triangles(const sim::TriangleMesh& mesh, double least_height) {
+std::vector<int> flat_triangles(const sim::TriangleMesh& mesh, double min_height) {
   std::vector<int> result;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!(height(mesh, mesh.triangles[t]) > least_height)) result.push_back(static_cast<int>(t));
+    if (!(height(mesh, mesh.triangles[t]) > min_height)) result.push_back(static_cast<int>(t));
   }
   return result;
 }
 
 }  // namespace
 
-void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, double least_height) {
+void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, double min_height) {
   std::vector<std::string> faults;
   const auto open = those(edges, [](const Edge& edge) { return edge.triangles.size() == 1; });
   if (!open.empty()) {
@@ -70,16 +70,16 @@ void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, do
                     first_places(pinched.size(),
                                  [&](std::size_t i) { return vertex_place(mesh, pinched[i]); })));
   }
-  const auto flat = flat_triangles(mesh.mesh, least_height);
+  const auto flat = flat_triangles(mesh.mesh, min_height);
   if (!flat.empty()) {
     faults.push_back(fmt::format(
         "{} without area, lower than {:.2g}{}", counted(flat.size(), "triangle", "triangles"),
-        least_height,
+        min_height,
         first_places(flat.size(), [&](std::size_t i) { return triangle_place(mesh, flat[i]); })));
   }
   if (faults.empty()) return;
   faults.emplace_back(
-      "mend it in a modelling program: close holes, take away inner and doubled faces, merge "
+      "repair it in a modelling program: close holes, take away inner and doubled faces, merge "
       "needles");
   throw ModelError(fmt::format("{}", fmt::join(faults, "\n  ")));
 }

@@ -18,10 +18,10 @@ namespace {
 using sim::at;
 
 // Beyond, squares and cubes of lengths leave the range of numbers.
-constexpr double greatest_extent = 1e30;
-constexpr double least_extent = 1e-30;
+constexpr double max_extent = 1e30;
+constexpr double min_extent = 1e-30;
 constexpr std::size_t most_triangles = 100'000'000;  // their corners are numbered by an int
-constexpr double least_volume = 1e-9;                // of the cubed diagonal
+constexpr double min_volume = 1e-9;                  // of the cubed diagonal
 
 void check_input(const sim::TriangleMesh& mesh) {
   const auto& [vertices, triangles] = mesh;
@@ -45,12 +45,12 @@ void check_input(const sim::TriangleMesh& mesh) {
 double diagonal(const sim::TriangleMesh& mesh) {
   sim::Bounds box;
   for (const Vec3& vertex : mesh.vertices) box.include(vertex);
-  const double greatest = box.size().maxCoeff();
-  if (!(greatest <= greatest_extent)) {
+  const double extent = box.size().maxCoeff();
+  if (!(extent <= max_extent)) {
     throw ModelError(
-        fmt::format("the model is {:.3g} across; the most is {:.0e}", greatest, greatest_extent));
+        fmt::format("the model is {:.3g} across; the most is {:.0e}", extent, max_extent));
   }
-  if (greatest < least_extent) {
+  if (extent < min_extent) {
     throw ModelError(fmt::format("all triangles are in one place, {}",
                                  coordinates(mesh.vertices[at(mesh.triangles[0][0])])));
   }
@@ -248,7 +248,7 @@ class Cleaner {
       volume += orientation.turned[t] ? -part : part;
     }
     const double extent = diagonal(work_.mesh);
-    if (!(std::abs(volume) > least_volume * extent * extent * extent)) {
+    if (!(std::abs(volume) > min_volume * extent * extent * extent)) {
       throw ModelError(fmt::format("the surface holds no volume: {:.3g}, with an extent of {:.3g}",
                                    std::abs(volume), extent));
     }

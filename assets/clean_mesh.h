@@ -39,11 +39,11 @@ struct CleanModel {
   int vertices_welded = 0;  // of all triangles of the file, after welding
 };
 
-/// Greatest and least diagonal of a scaled model's bounding box, in metres: what scenes can show.
+/// Max. and min. diagonal of a scaled model's bounding box, in metres: what scenes can show.
 inline constexpr double largest_model = 1e6;
 inline constexpr double smallest_model = 1e-6;
 
-/// Mends what can be mended without a guess: drops vertices without triangles, welds vertices
+/// Repairs what needs no guess: drops vertices without triangles, welds vertices
 /// (weld.h), drops triangles with a vertex twice and triangles that are there twice, leaves out all
 /// but one component, turns triangles so that all face outwards. Then scales, turns and centres.
 ///

@@ -15,8 +15,8 @@
 #include <set>
 
 #include "assets/model_file.h"
-#include "assets/pack_model.h"
-#include "assets/run_apart.h"
+#include "assets/sandbox.h"
+#include "assets/serialise_model.h"
 
 namespace pneuma::assets {
 namespace {
@@ -252,10 +252,10 @@ Model import_here(const std::filesystem::path& path, const std::string& bytes,
   return Collector(limits).collect(*scene, to_file_axes(format));
 }
 
-/// Twice and more what sound files take: at most 20 bytes of memory per byte of file (FBX as text)
+/// At least twice what valid files take: at most 20 bytes of memory per byte of file (FBX as text)
 /// and 0.02 s per MiB were measured, on OBJ, PLY, STL, DAE and FBX files of 20 to 40 MiB. Damaged
 /// files that go on for ever are refused the sooner.
-ApartLimits apart_limits(std::size_t bytes, const ImportLimits& import) {
+ApartLimits sandbox_limits(std::size_t bytes, const ImportLimits& import) {
   ApartLimits limits;
   // A vertex is three doubles, a triangle three indices and a part; names, too.
   limits.answer = std::max(limits.answer, 32 * import.vertices + 32 * import.triangles);
@@ -271,8 +271,9 @@ Model import_model(const std::filesystem::path& path, const ImportLimits& limits
     const Format format = format_of(path);
     const std::string bytes = read_model_file(path, limits.bytes);
     check_model_header(format, bytes, limits.vertices, limits.triangles);
-    Model model = unpack(run_apart([&] { return pack(import_here(path, bytes, limits)); },
-                                   apart_limits(bytes.size(), limits)));
+    Model model =
+        deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
+                                   sandbox_limits(bytes.size(), limits)));
     if (model.mesh.triangles.empty()) throw ModelError("the model has no triangles");
     return model;
   } catch (const ModelError& error) {

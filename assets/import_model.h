@@ -25,10 +25,10 @@ struct ImportLimits {
 /// Nothing is read but the file, and of glTF the .bin files beside it; no textures, materials,
 /// lights, cameras or animations.
 ///
-/// The importer runs in a process of its own (run_apart.h), because assimp 5.2 has known faults on
-/// damaged files in most of these formats, among them writes beyond the end of its memory:
-/// https://github.com/assimp/assimp/issues/5729 (PLY), 4843 (PLY), 4923 and 4925 (OBJ), 6522 (DAE),
-/// 6772 (FBX). Counts in PLY, OFF and STL headers are checked before.
+/// The importer runs in a process of its own (run_in_sandbox.h), because assimp 5.2 has known
+/// faults on damaged files in most of these formats, among them writes beyond the end of its
+/// memory: https://github.com/assimp/assimp/issues/5729 (PLY), 4843 (PLY), 4923 and 4925 (OBJ),
+/// 6522 (DAE), 6772 (FBX). Counts in PLY, OFF and STL headers are checked before.
 ///
 /// Throws ModelError, whose message begins with the path; std::system_error when no process can be
 /// started.

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
+#include <utility>
+
+#include "sim/base/file.h"
 
 namespace pneuma::assets {
 namespace {
@@ -39,16 +38,12 @@ const std::pair<std::string_view, Format>* find_ending(const std::filesystem::pa
   return found == endings.end() ? nullptr : found;
 }
 
-/// `known` of its bytes were read; a pipe may have more, and does not say.
-[[noreturn]] void refuse_size(const std::filesystem::path& path, std::size_t most_bytes,
-                              std::size_t read_before, std::size_t known) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
+[[noreturn]] void refuse_size(const base::FileTooLarge& error, std::size_t max_bytes,
+                              std::size_t read_before) {
   throw ModelError(fmt::format(
-      "{} bytes{} are more than the limit of {} for a model{}; simplify the model (or, in a scene, "
-      "raise model_file_mib in [limits])",
-      read_before + (error ? known : size), error ? " and more" : "", most_bytes,
-      read_before > 0 ? " with its files" : ""));
+      "{} are more than the limit of {} for a model{}; simplify the model (or, in a scene, raise "
+      "model_file_mib in [limits])",
+      error.size_text(read_before), max_bytes, read_before == 0 ? "" : " with its files"));
 }
 
 }  // namespace
@@ -70,28 +65,17 @@ Format format_of(const std::filesystem::path& path) {
                                path.extension().string(), model_endings()));
 }
 
-std::string read_model_file(const std::filesystem::path& path, std::size_t most_bytes,
+std::string read_model_file(const std::filesystem::path& path, std::size_t max_bytes,
                             std::size_t read_before) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw ModelError("is a folder; name a model file in it");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw ModelError(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  // In pieces, and one byte more than is allowed: the size of a pipe is not known beforehand.
-  constexpr std::size_t piece = 1024 * 1024;
-  const std::size_t left = most_bytes - read_before;
   std::string bytes;
-  while (file && bytes.size() <= left) {
-    const std::size_t before = bytes.size();
-    const std::size_t wanted = std::min(piece, left + 1 - before);
-    bytes.resize(before + wanted);
-    file.read(bytes.data() + before, static_cast<std::streamsize>(wanted));
-    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+  try {
+    bytes = base::read_text_file(path.string(),
+                                 {.max_bytes = max_bytes - read_before, .what = "model file"});
+  } catch (const base::FileTooLarge& error) {
+    refuse_size(error, max_bytes, read_before);
+  } catch (const base::ReadError& error) {
+    throw ModelError(error.reason());
   }
-  if (file.bad()) throw ModelError(fmt::format("cannot be read: {}", std::strerror(errno)));
-  if (bytes.size() > left) refuse_size(path, most_bytes, read_before, bytes.size());
   if (bytes.empty()) throw ModelError("the file is empty");
   return bytes;
 }

@@ -27,16 +27,16 @@ bool has_model_ending(const std::filesystem::path& path);
 std::string model_endings();
 
 /// The whole file. Throws ModelError when it cannot be read, is a folder, is empty or is, with the
-/// `read_before` bytes of the model's other files, larger than `most_bytes`; no more than that is
+/// `read_before` bytes of the model's other files, larger than `max_bytes`; no more than that is
 /// read.
-std::string read_model_file(const std::filesystem::path& path, std::size_t most_bytes,
+std::string read_model_file(const std::filesystem::path& path, std::size_t max_bytes,
                             std::size_t read_before = 0);
 
 /// Throws ModelError when the bytes are not of the format, or when a header announces more than the
-/// file can hold or than `most_vertices` and `most_triangles`: importers believe it, and reserve
+/// file can hold or than `max_vertices` and `max_triangles`: importers believe it, and reserve
 /// memory for it. Formats without counts in one place (obj, gltf, dae, fbx, 3ds) pass when they
 /// begin as they must.
-void check_model_header(Format format, std::string_view bytes, std::size_t most_vertices,
-                        std::size_t most_triangles);
+void check_model_header(Format format, std::string_view bytes, std::size_t max_vertices,
+                        std::size_t max_triangles);
 
 }  // namespace pneuma::assets

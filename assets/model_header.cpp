@@ -19,9 +19,9 @@ struct Limits {
   Count triangles;
 };
 
-/// `least_bytes`: what one of them takes in the file at least.
-void check_count(std::string_view what, Count count, Count most, Count least_bytes, Count bytes) {
-  if (count > bytes / least_bytes) {
+/// `min_bytes`: what one of them takes in the file at least.
+void check_count(std::string_view what, Count count, Count most, Count min_bytes, Count bytes) {
+  if (count > bytes / min_bytes) {
     throw ModelError(fmt::format(
         "the header announces {} {}, more than a file of {} bytes can hold; it is damaged or cut "
         "short",
@@ -66,11 +66,11 @@ void check_ply(std::string_view bytes, const Limits& limits) {
     const Count most = name == "vertex" ? limits.vertices : limits.triangles;
     // Text: three digits with blanks; binary: at least three floats of two bytes. A face has a
     // count and three indices; what else there may be takes a byte or more.
-    const Count least = name == "vertex" ? 6 : name == "face" ? 4 : 1;
+    const Count min_bytes = name == "vertex" ? 6 : name == "face" ? 4 : 1;
     check_count(name == "vertex" ? "vertices"
                 : name == "face" ? "faces"
                                  : "elements",
-                *count, most, least, bytes.size());
+                *count, most, min_bytes, bytes.size());
     vertices = vertices || (name == "vertex" && *count > 0);
     faces = faces || (name == "face" && *count > 0);
   }
@@ -140,9 +140,9 @@ void check_text(std::string_view bytes, std::string_view format, char first) {
 
 }  // namespace
 
-void check_model_header(Format format, std::string_view bytes, std::size_t most_vertices,
-                        std::size_t most_triangles) {
-  const Limits limits{most_vertices, most_triangles};
+void check_model_header(Format format, std::string_view bytes, std::size_t max_vertices,
+                        std::size_t max_triangles) {
+  const Limits limits{max_vertices, max_triangles};
   switch (format) {
     case Format::ply:
       return check_ply(bytes, limits);

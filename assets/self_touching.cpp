@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "assets/exact.h"
+#include "sim/base/exact.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::assets {
@@ -18,17 +18,17 @@ using sim::at;
 /// overlap; only triangles laid across each other in masses come here.
 constexpr std::size_t most_pairs = 200'000'000;
 
-std::vector<GridPoint> to_grid(const std::vector<Vec3>& vertices) {
+std::vector<base::GridPoint> to_grid(const std::vector<Vec3>& vertices) {
   sim::Bounds box;
   for (const Vec3& vertex : vertices) box.include(vertex);
   const double extent = box.size().maxCoeff();
-  std::vector<GridPoint> points;
+  std::vector<base::GridPoint> points;
   points.reserve(vertices.size());
   for (const Vec3& vertex : vertices) {
-    GridPoint point;
+    base::GridPoint point;
     for (int axis = 0; axis < 3; ++axis) {
-      const double share = (vertex[axis] - box.low[axis]) / extent;
-      point[at(axis)] = std::llround(share * static_cast<double>(grid_steps));
+      const double fraction = (vertex[axis] - box.low[axis]) / extent;
+      point[at(axis)] = std::llround(fraction * static_cast<double>(base::grid_steps));
     }
     points.push_back(point);
   }
@@ -36,8 +36,8 @@ std::vector<GridPoint> to_grid(const std::vector<Vec3>& vertices) {
 }
 
 struct Box {
-  GridPoint low = {grid_steps, grid_steps, grid_steps};
-  GridPoint high = {0, 0, 0};
+  base::GridPoint low = {base::grid_steps, base::grid_steps, base::grid_steps};
+  base::GridPoint high = {0, 0, 0};
 
   void include(const Box& other) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -147,7 +147,7 @@ class Tree {
 
 class Tests {
  public:
-  Tests(const std::vector<GridPoint>& points, const std::vector<Triangle>& triangles)
+  Tests(const std::vector<base::GridPoint>& points, const std::vector<Triangle>& triangles)
       : points_(points), triangles_(triangles) {}
 
   Box box(int t) const {
@@ -158,7 +158,7 @@ class Tests {
 
   bool is_flat(int t) const {
     const auto& [a, b, c] = triangles_[at(t)];
-    return on_one_line(point(a), point(b), point(c));
+    return base::on_one_line(point(a), point(b), point(c));
   }
 
   bool touch(int s, int t) const {
@@ -170,15 +170,15 @@ class Tests {
       case 1:  // beyond the shared vertex only if the side opposite to it meets the other triangle
         return any_side_meets(a, b, 1) || any_side_meets(b, a, 1);
       case 2:  // beyond the shared side only if they lie on each other
-        return side_of_plane(point(a[0]), point(a[1]), point(a[2]), point(b[2])) == 0 &&
-               same_side_of_edge(point(a[0]), point(a[1]), point(a[2]), point(b[2]));
+        return base::side_of_plane(point(a[0]), point(a[1]), point(a[2]), point(b[2])) == 0 &&
+               base::same_side_of_edge(point(a[0]), point(a[1]), point(a[2]), point(b[2]));
       default:
         return true;
     }
   }
 
  private:
-  const GridPoint& point(int vertex) const { return points_[at(vertex)]; }
+  const base::GridPoint& point(int vertex) const { return points_[at(vertex)]; }
 
   static bool has(const Triangle& triangle, int vertex) {
     return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
@@ -196,24 +196,24 @@ class Tests {
   /// The first `count` sides of a, from the one opposite to its first corner on, against b.
   bool any_side_meets(const Triangle& a, const Triangle& b, std::size_t count) const {
     for (std::size_t i = 0; i < count; ++i) {
-      if (segment_meets_triangle(point(a[(i + 1) % 3]), point(a[(i + 2) % 3]), point(b[0]),
-                                 point(b[1]), point(b[2]))) {
+      if (base::segment_meets_triangle(point(a[(i + 1) % 3]), point(a[(i + 2) % 3]), point(b[0]),
+                                       point(b[1]), point(b[2]))) {
         return true;
       }
     }
     return false;
   }
 
-  const std::vector<GridPoint>& points_;
+  const std::vector<base::GridPoint>& points_;
   const std::vector<Triangle>& triangles_;
 };
 
 }  // namespace
 
-SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t most_places) {
+SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t max_places) {
   SelfTouching result;
   if (mesh.triangles.empty()) return result;
-  const std::vector<GridPoint> points = to_grid(mesh.vertices);
+  const std::vector<base::GridPoint> points = to_grid(mesh.vertices);
   const Tests tests(points, mesh.triangles);
   std::vector<Box> boxes;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boxes.push_back(tests.box(t));
@@ -223,14 +223,14 @@ SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t most_
     if (tests.is_flat(s) || tests.is_flat(t) || !tests.touch(s, t)) return true;
     ++result.count;
     result.first.push_back({std::min(s, t), std::max(s, t)});
-    if (result.first.size() >= 2 * most_places + 100) {
+    if (result.first.size() >= 2 * max_places + 100) {
       std::sort(result.first.begin(), result.first.end());
-      result.first.resize(most_places);
+      result.first.resize(max_places);
     }
     return true;
   });
   std::sort(result.first.begin(), result.first.end());
-  if (result.first.size() > most_places) result.first.resize(most_places);
+  if (result.first.size() > max_places) result.first.resize(max_places);
   return result;
 }
 

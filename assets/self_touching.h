@@ -22,6 +22,6 @@ struct SelfTouching {
 /// is exact: there are no tolerances, and a surface on that grid is found to touch itself if and
 /// only if it does. Surfaces nearer to each other than the grid's width, a thousandth of the
 /// tolerance for welding, may count as touching.
-SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t most_places);
+SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t max_places);
 
 }  // namespace pneuma::assets

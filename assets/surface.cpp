@@ -86,10 +86,10 @@ std::vector<int> components_of(const std::vector<Triangle>& triangles, int verte
 std::vector<int> vertices_of_several_fans(const std::vector<Triangle>& triangles,
                                           const std::vector<Edge>& edges, int vertex_count) {
   UnionFind corners(3 * triangles.size());
-  std::vector<char> sound(at(vertex_count), 1);
+  std::vector<char> two_sided(at(vertex_count), 1);
   for (const Edge& edge : edges) {
     for (const int vertex : edge.vertices) {
-      if (edge.triangles.size() > 2) sound[at(vertex)] = 0;
+      if (edge.triangles.size() > 2) two_sided[at(vertex)] = 0;
       for (const int triangle : edge.triangles) {
         corners.join(corner_of(triangles, edge.triangles.front(), vertex),
                      corner_of(triangles, triangle, vertex));
@@ -103,7 +103,7 @@ std::vector<int> vertices_of_several_fans(const std::vector<Triangle>& triangles
       const int vertex = triangles[at(t)][at(i)];
       const int root = corners.root(3 * t + i);
       if (fan[at(vertex)] < 0) fan[at(vertex)] = root;
-      if (fan[at(vertex)] != root && sound[at(vertex)]) found.insert(vertex);
+      if (fan[at(vertex)] != root && two_sided[at(vertex)]) found.insert(vertex);
     }
   }
   return {found.begin(), found.end()};

@@ -20,7 +20,8 @@ std::vector<Edge> edges_of(const std::vector<Triangle>& triangles);
 /// in the order of the first triangles.
 std::vector<int> components_of(const std::vector<Triangle>& triangles, int vertex_count);
 
-/// The vertices at which more than one fan of triangles meets, where the edges are sound.
+/// The vertices at which more than one fan of triangles meets, where no edge has more than two
+/// triangles.
 std::vector<int> vertices_of_several_fans(const std::vector<Triangle>& triangles,
                                           const std::vector<Edge>& edges, int vertex_count);
 

@@ -7,9 +7,9 @@
 
 namespace pneuma::assets {
 
-/// Vertices nearer to each other than this share of the bounding box's diagonal are one. Far above
-/// the rounding of the 32-bit numbers that most formats hold (6e-8 of a coordinate), far below the
-/// shortest edge of 100,000 vertices spread evenly (3e-3).
+/// Vertices nearer to each other than this fraction of the bounding box's diagonal are one. Far
+/// above the rounding of the 32-bit numbers that most formats hold (6e-8 of a coordinate), far
+/// below the shortest edge of 100,000 vertices spread evenly (3e-3).
 inline constexpr double weld_tolerance = 1e-6;
 
 struct Weld {

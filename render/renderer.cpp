@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "render/check_frame.h"
 #include "render/context/context.h"
+#include "render/frame/check_frame.h"
 #include "render/passes/discs.h"
 #include "render/passes/ground_plane.h"
 #include "render/passes/ground_shadow.h"

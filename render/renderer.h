@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/image/image.h"
 
 namespace pneuma::render {

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "app/command_line.h"
-#include "app/find_program.h"
-#include "app/run_command.h"
+#include "app/host/command_line.h"
+#include "app/host/find_program.h"
+#include "app/host/run_command.h"
 
 namespace pneuma::app {
 namespace {

@@ -55,7 +55,7 @@ struct DiagramFiles {
 };
 
 /// Writes NAME.gp and runs gnuplot on it. Without gnuplot says on standard error how to. Throws
-/// render::IoError, also when gnuplot fails, and Interrupted.
+/// base::IoError, also when gnuplot fails, and Interrupted.
 DiagramFiles write_diagram(const StudyFolder& folder, const std::string& name,
                            const Diagram& diagram);
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {

@@ -4,6 +4,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "app/terminal/common_options.h"
+
 namespace pneuma::app {
 
 void add_study_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
@@ -15,6 +17,21 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_growth_study(*study, action, command_line);
   add_extreme_study(*study, action, command_line);
   add_stability_study(*study, action, command_line);
+  // Last, because commands below another begin with its examples.
+  add_examples(*study, {"pneuma study error one_sphere --short", "pneuma study extremes"});
+  add_examples(*study->get_subcommand("error"),
+               {"pneuma study error one_sphere --free-flight",
+                "pneuma study error one_sphere --set body.k=80 --short"});
+  add_examples(*study->get_subcommand("choices"),
+               {"pneuma study choices", "pneuma study choices one_torus --short --json"});
+  add_examples(*study->get_subcommand("collision"),
+               {"pneuma study collision", "pneuma study collision sphere_in_torus --seconds 2"});
+  add_examples(*study->get_subcommand("growth"),
+               {"pneuma study growth --short", "pneuma study growth --out out/growth"});
+  add_examples(*study->get_subcommand("extremes"),
+               {"pneuma study extremes --short", "pneuma study extremes --out out/extremes"});
+  add_examples(*study->get_subcommand("stability"),
+               {"pneuma study stability --short", "pneuma study stability one_sphere"});
 }
 
 }  // namespace pneuma::app

@@ -2,7 +2,7 @@
 // own, and a function here that adds it below `study` and that add_study_command calls.
 #pragma once
 
-#include "app/command.h"
+#include "app/terminal/command.h"
 
 namespace pneuma::app {
 

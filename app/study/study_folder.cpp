@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "app/run_folder.h"
-#include "render/image/file.h"
+#include "app/render/log/run_folder.h"
+#include "sim/base/file.h"
 
 namespace pneuma::app {
 
@@ -16,7 +16,7 @@ StudyFolder::StudyFolder(std::filesystem::path folder) : folder_(std::move(folde
 std::filesystem::path StudyFolder::write(const std::string& name, const std::string& text) const {
   std::filesystem::path path = folder_ / name;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  render::write_file_atomically(path.string(), std::span(bytes, text.size()));
+  base::write_file_atomically(path.string(), std::span(bytes, text.size()));
   return path;
 }
 

@@ -125,13 +125,13 @@ Distance distance_to(const Limb& limb, const Vec3& point) {
 /// The lesser of two distances, rounded off where they differ by less than `blend`; twice
 /// continuously differentiable.
 Distance smooth_min(const Distance& a, const Distance& b, double blend) {
-  const Distance& least = a.value < b.value ? a : b;
-  const Distance& greatest = a.value < b.value ? b : a;
-  const double near = blend - (greatest.value - least.value);
-  if (!(near > 0.0)) return least;
-  const double share = near / blend;
-  return {least.value - share * share * share * blend / 6.0,
-          least.gradient + 0.5 * share * share * (greatest.gradient - least.gradient)};
+  const Distance& nearer = a.value < b.value ? a : b;
+  const Distance& farther = a.value < b.value ? b : a;
+  const double near = blend - (farther.value - nearer.value);
+  if (!(near > 0.0)) return nearer;
+  const double fraction = near / blend;
+  return {nearer.value - fraction * fraction * fraction * blend / 6.0,
+          nearer.gradient + 0.5 * fraction * fraction * (farther.gradient - nearer.gradient)};
 }
 
 double smooth_step(double x) {

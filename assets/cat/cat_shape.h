@@ -24,7 +24,8 @@ Distance cat_distance(const Vec3& point);
 /// The nearest surface point, for points near the surface.
 Vec3 project_to_cat(const Vec3& point);
 
-/// The wanted edge length there as a share of that on the trunk, 0..1: thin parts get shorter ones.
+/// The wanted edge length there as a fraction of that on the trunk, 0..1: thin parts get shorter
+/// ones.
 double cat_spacing(const Vec3& point);
 
 /// A box around the cat with some air: low corner and full lengths.

@@ -19,7 +19,7 @@ constexpr int polishing_rounds = 40;  // that flip for angles and slide only
 constexpr double longest = 4.0 / 3.0;
 constexpr double shortest = 4.0 / 5.0;
 
-/// Cosine of the greatest angle by which a change may turn a triangle.
+/// Cosine of the max. angle by which a change may turn a triangle.
 constexpr double least_agreement = 0.7;
 
 class Remesher {
@@ -46,7 +46,7 @@ class Remesher {
   }
 
  private:
-  /// Length of an edge as a share of what is wanted there.
+  /// Length of an edge as a fraction of what is wanted there.
   double relative_length(const Vec3& a, const Vec3& b) const {
     return (b - a).norm() / target_.edge_length(0.5 * (a + b));
   }
@@ -142,15 +142,15 @@ class Remesher {
 
   /// Cosine of a triangle's smallest angle.
   double sharpest(const Triangle& triangle) const {
-    double greatest = -1.0;
+    double max_cosine = -1.0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& corner = mesh_.position(triangle[i]);
       const Vec3 one = mesh_.position(triangle[(i + 1) % 3]) - corner;
       const Vec3 other = mesh_.position(triangle[(i + 2) % 3]) - corner;
-      greatest =
-          std::max(greatest, one.dot(other) / std::sqrt(one.squaredNorm() * other.squaredNorm()));
+      max_cosine =
+          std::max(max_cosine, one.dot(other) / std::sqrt(one.squaredNorm() * other.squaredNorm()));
     }
-    return greatest;
+    return max_cosine;
   }
 
   /// Moves every vertex towards the centre of its triangles, along the surface only. Triangles

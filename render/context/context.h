@@ -31,7 +31,7 @@ class GlError : public std::runtime_error {
 };
 
 struct ContextOptions {
-  int major = 3;  // the core profile's least version
+  int major = 3;  // the min. version with a core profile
   int minor = 3;
 };
 

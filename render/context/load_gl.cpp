@@ -84,6 +84,8 @@ std::array<std::uint8_t, 4> clear_and_read_pixel() {
 
 }  // namespace
 
+std::string glew_version() { return reinterpret_cast<const char*>(glewGetString(GLEW_VERSION)); }
+
 ContextReport load_gl() {
   // GLEW keeps the functions in globals. They are the same for every OSMesa context, so that once
   // is enough, and contexts may be made on several threads.

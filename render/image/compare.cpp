@@ -24,17 +24,17 @@ ImageDifference compare_images(const Image& a, const Image& b, int threshold) {
   std::size_t beyond = 0;
   double sum = 0.0;
   for (std::size_t pixel = 0; pixel < a.pixels.size(); pixel += 3) {
-    int greatest = 0;
+    int max = 0;
     for (std::size_t i = pixel; i < pixel + 3; ++i) {
       const int apart = std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-      greatest = std::max(greatest, apart);
+      max = std::max(max, apart);
       sum += apart;
     }
-    difference.greatest = std::max(difference.greatest, greatest);
-    if (greatest > threshold) ++beyond;
+    difference.max = std::max(difference.max, max);
+    if (max > threshold) ++beyond;
   }
   const auto channels = static_cast<double>(a.pixels.size());
-  difference.share_beyond = 3.0 * static_cast<double>(beyond) / channels;
+  difference.fraction_beyond = 3.0 * static_cast<double>(beyond) / channels;
   difference.mean = sum / channels;
   return difference;
 }

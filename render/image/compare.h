@@ -6,9 +6,9 @@
 namespace pneuma::render {
 
 struct ImageDifference {
-  int greatest = 0;           // of any channel of any pixel, 0..255
-  double share_beyond = 0.0;  // of pixels with a channel further apart than the threshold, 0..1
-  double mean = 0.0;          // over all channels, 0..255
+  int max = 0;                   // of any channel of any pixel, 0..255
+  double fraction_beyond = 0.0;  // of pixels with a channel further apart than the threshold, 0..1
+  double mean = 0.0;             // over all channels, 0..255
 };
 
 /// Throws std::invalid_argument when the sizes differ.

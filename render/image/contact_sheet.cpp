@@ -15,10 +15,10 @@ std::size_t channel_index(const Image& image, int x, int y) {
 }
 
 /// The pixels that a pixel of the smaller picture covers along one axis: whole ones, but for the
-/// first and last, which count by the share of them that is covered.
+/// first and last, which count by the fraction of them that is covered.
 struct Coverage {
   int first;
-  std::vector<float> shares;
+  std::vector<float> fractions;
 };
 
 std::vector<Coverage> coverage(int from_size, int to_size) {
@@ -29,7 +29,7 @@ std::vector<Coverage> coverage(int from_size, int to_size) {
     const double end = std::min((i + 1) * scale, static_cast<double>(from_size));
     Coverage covered{static_cast<int>(begin), {}};
     for (int pixel = covered.first; pixel < end; ++pixel) {
-      covered.shares.push_back(static_cast<float>(
+      covered.fractions.push_back(static_cast<float>(
           (std::min(pixel + 1.0, end) - std::max<double>(pixel, begin)) / (end - begin)));
     }
     all.push_back(std::move(covered));
@@ -59,11 +59,11 @@ Image downscale(const Image& image, int width, int height) {
     for (const Coverage& across : columns) {
       for (std::size_t channel = 0; channel < 3; ++channel) {
         float sum = 0.0f;
-        for (std::size_t j = 0; j < rows.shares.size(); ++j) {
+        for (std::size_t j = 0; j < rows.fractions.size(); ++j) {
           std::size_t i =
               channel_index(image, across.first, rows.first + static_cast<int>(j)) + channel;
-          for (const float share : across.shares) {
-            sum += rows.shares[j] * share * static_cast<float>(image.pixels[i]);
+          for (const float fraction : across.fractions) {
+            sum += rows.fractions[j] * fraction * static_cast<float>(image.pixels[i]);
             i += 3;
           }
         }

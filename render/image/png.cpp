@@ -8,7 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "render/image/file.h"
+#include "sim/base/file.h"
 
 // stb_image_write's own deflate takes three times as long and makes larger files.
 static unsigned char* pneuma_zlib_compress(const unsigned char* data, int size,
@@ -102,6 +102,6 @@ Image decode_png(std::span<const std::uint8_t> bytes) {
   return image;
 }
 
-Image read_png(const std::string& path) { return decode_png(read_file(path)); }
+Image read_png(const std::string& path) { return decode_png(base::read_file(path)); }
 
 }  // namespace pneuma::render

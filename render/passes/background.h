@@ -1,8 +1,7 @@
 // What is seen where nothing else is: a soft vertical gradient.
 #pragma once
 
-#include "render/passes/gl_objects.h"
-#include "render/passes/program.h"
+#include "render/passes/full_screen.h"
 #include "render/passes/view.h"
 
 namespace pneuma::render {
@@ -15,8 +14,7 @@ class Background {
   void draw(const View& view);
 
  private:
-  VertexArray no_attributes_;
-  Program program_;
+  FullScreen gradient_;
   GLint picture_height_;
 };
 

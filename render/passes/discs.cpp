@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "render/passes/layer.h"
-
 namespace pneuma::render {
 namespace {
 
@@ -52,22 +50,10 @@ void main() {
 }  // namespace
 
 Discs::Discs()
-    : program_("points", "", vertex_source, fragment_source),
-      view_(program_.uniform("view")),
-      projection_(program_.uniform("projection")),
-      picture_size_(program_.uniform("picture_size")),
-      opacity_(program_.uniform("opacity")) {
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
-  set_attribute(0, 3, sizeof(Instance), offsetof(Instance, position), 1);
-  set_attribute(1, 3, sizeof(Instance), offsetof(Instance, colour), 1);
-  set_attribute(2, 1, sizeof(Instance), offsetof(Instance, radius), 1);
-}
-
-void Discs::upload(const std::vector<Instance>& instances) {
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
-               instances.data(), GL_STREAM_DRAW);
-}
+    : quads_("points", vertex_source, fragment_source,
+             {{3, offsetof(Instance, position)},
+              {3, offsetof(Instance, colour)},
+              {1, offsetof(Instance, radius)}}) {}
 
 void Discs::draw(const View& view, const std::vector<Point>& points) {
   if (points.empty()) return;
@@ -86,26 +72,9 @@ void Discs::draw(const View& view, const std::vector<Point>& points) {
     if (point.always_visible) shining_through.push_back(instance);
   }
 
-  blend_over_layer();
-  glEnable(GL_DEPTH_TEST);
-  glDepthMask(GL_FALSE);
-  program_.use();
-  set_uniform(view_, view.view);
-  set_uniform(projection_, view.projection);
-  set_uniform(picture_size_,
-              Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
-  if (!shining_through.empty()) {
-    upload(shining_through);
-    glDepthFunc(GL_GEQUAL);
-    set_uniform(opacity_, 0.55f);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(shining_through.size()));
-  }
-  upload(all);
-  glDepthFunc(GL_LESS);
-  set_uniform(opacity_, 1.0f);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(all.size()));
+  quads_.begin(view);
+  if (!shining_through.empty()) quads_.draw(shining_through, GL_GEQUAL, 0.55f);
+  quads_.draw(all, GL_LESS, 1.0f);
 }
 
 }  // namespace pneuma::render

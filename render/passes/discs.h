@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "render/passes/gl_objects.h"
-#include "render/passes/program.h"
+#include "render/passes/instanced_quads.h"
 #include "render/passes/view.h"
 
 namespace pneuma::render {
@@ -21,15 +20,7 @@ class Discs {
     float radius;  // pixels
   };
 
-  void upload(const std::vector<Instance>& instances);
-
-  VertexArray vertex_array_;
-  Buffer instances_buffer_;
-  Program program_;
-  GLint view_;
-  GLint projection_;
-  GLint picture_size_;
-  GLint opacity_;
+  InstancedQuads<Instance> quads_;
 };
 
 }  // namespace pneuma::render

@@ -36,12 +36,12 @@ inline GLuint create_buffer() {
 }
 inline void release_buffer(GLuint name) { glDeleteBuffers(1, &name); }
 
-inline GLuint create_vertex_array() {
+inline GLuint create_vao() {
   GLuint name = 0;
   glGenVertexArrays(1, &name);
   return name;
 }
-inline void release_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void release_vao(GLuint name) { glDeleteVertexArrays(1, &name); }
 
 inline GLuint create_texture() {
   GLuint name = 0;
@@ -74,7 +74,7 @@ inline void release_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 }  // namespace gl
 
 using Buffer = GlObject<gl::create_buffer, gl::release_buffer>;
-using VertexArray = GlObject<gl::create_vertex_array, gl::release_vertex_array>;
+using Vao = GlObject<gl::create_vao, gl::release_vao>;
 using Texture = GlObject<gl::create_texture, gl::release_texture>;
 using Sampler = GlObject<gl::create_sampler, gl::release_sampler>;
 using Renderbuffer = GlObject<gl::create_renderbuffer, gl::release_renderbuffer>;

@@ -72,10 +72,10 @@ constexpr const char* shadow_fragment_source = R"(
 in vec2 from_centre;
 in vec2 in_map;
 uniform sampler2D shadow;
-out vec4 share;  // of the ground's colour that is left
+out vec4 fraction;  // of the ground's colour that is left
 
 void main() {
-  share = vec4(mix(vec3(1.0), texture(shadow, in_map).rgb, nearness(from_centre)), 1.0);
+  fraction = vec4(mix(vec3(1.0), texture(shadow, in_map).rgb, nearness(from_centre)), 1.0);
 }
 )";
 
@@ -154,7 +154,7 @@ GroundPlane::GroundPlane()
       shadow_radius_(shadow_.uniform("radius")),
       depth_("depth of the ground", "", depth_vertex_source, depth_fragment_source),
       depth_view_projection_(depth_.uniform("view_projection")) {
-  glBindVertexArray(vertex_array_.name());
+  glBindVertexArray(vao_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   set_attribute(0, 2, sizeof(Eigen::Vector2f), 0);
   shadow_.use();
@@ -162,7 +162,7 @@ GroundPlane::GroundPlane()
 }
 
 void GroundPlane::draw_triangles(const std::vector<Eigen::Vector2f>& vertices) {
-  glBindVertexArray(vertex_array_.name());
+  glBindVertexArray(vao_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Eigen::Vector2f)),
                vertices.data(), GL_STREAM_DRAW);

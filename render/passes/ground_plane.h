@@ -24,7 +24,7 @@ class GroundPlane {
  private:
   void draw_triangles(const std::vector<Eigen::Vector2f>& vertices);
 
-  VertexArray vertex_array_;
+  Vao vao_;
   Buffer vertices_;
   Program colour_;
   GLint colour_view_projection_;

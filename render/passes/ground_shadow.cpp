@@ -124,12 +124,12 @@ void GroundShadow::measure_cover(const ShadowMap& map) {
         sum += covered[static_cast<std::size_t>(column)];
       }
       const int count = (first(x + 1) - first(x)) * (first(y + 1) - first(y));
-      const float share = sum / static_cast<float>(count);
+      const float fraction = sum / static_cast<float>(count);
       const Vec3f at = {(static_cast<float>(x) + 0.5f) / size,
                         (static_cast<float>(y) + 0.5f) / size, 1.0f};
       const auto texel = static_cast<std::size_t>(y * size + x);
-      cover_[texel] = share;
-      soft_cover_[texel] = share * std::clamp((ground.dot(at) - depth) * softness, 0.0f, 1.0f);
+      cover_[texel] = fraction;
+      soft_cover_[texel] = fraction * std::clamp((ground.dot(at) - depth) * softness, 0.0f, 1.0f);
     }
   }
 }

@@ -42,8 +42,8 @@ class GroundShadow {
 
   std::vector<float> depths_;
   std::vector<float> kernel_;
-  Picture cover_;       // share of the light that is blocked
-  Picture soft_cover_;  // that share times how soft the shadow is to be: 0 for a caster on the
+  Picture cover_;       // fraction of the light that is blocked
+  Picture soft_cover_;  // that fraction times how soft the shadow is to be: 0 for a caster on the
                         // ground, 1 for one well above it
   Picture narrow_;
   Picture scratch_;

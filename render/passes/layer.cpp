@@ -7,13 +7,6 @@
 namespace pneuma::render {
 namespace {
 
-constexpr const char* vertex_source = R"(
-void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;  // one triangle over everything
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
-}
-)";
-
 constexpr const char* fragment_source = R"(
 #if SAMPLES > 1
 uniform sampler2DMS layer;
@@ -38,8 +31,7 @@ Layer::Layer(int width, int height, int samples)
     : texture_target_(samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D),
       width_(width),
       height_(height),
-      program_("layer", fmt::format("#define SAMPLES {}\n", samples), vertex_source,
-               fragment_source) {
+      average_("layer", fmt::format("#define SAMPLES {}\n", samples), fragment_source) {
   glBindTexture(texture_target_, colour_.name());
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
   if (samples > 1) {
@@ -55,8 +47,8 @@ Layer::Layer(int width, int height, int samples)
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture_target_, colour_.name(), 0);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
   check_framebuffer();
-  program_.use();
-  set_uniform(program_.uniform("layer"), 0);
+  average_.program().use();
+  set_uniform(average_.program().uniform("layer"), 0);
 }
 
 void Layer::begin(const Region& region) {
@@ -84,14 +76,13 @@ void Layer::compose() {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDisable(GL_DEPTH_TEST);
-  program_.use();
+  average_.program().use();
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(texture_target_, colour_.name());
   glBindSampler(0, 0);
-  glBindVertexArray(no_attributes_.name());
   glEnable(GL_SCISSOR_TEST);
   glScissor(region_.x, region_.y, region_.width, region_.height);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  average_.draw();
   glDisable(GL_SCISSOR_TEST);
 }
 

@@ -1,8 +1,8 @@
 // The bodies, and what is drawn over them, on a layer of their own.
 #pragma once
 
+#include "render/passes/full_screen.h"
 #include "render/passes/gl_objects.h"
-#include "render/passes/program.h"
 #include "render/passes/view.h"
 
 namespace pneuma::render {
@@ -32,8 +32,7 @@ class Layer {
   Texture colour_;
   Renderbuffer depth_;
   Framebuffer framebuffer_;
-  VertexArray no_attributes_;
-  Program program_;
+  FullScreen average_;
 };
 
 /// Blends what is drawn from here on, whose colours are not multiplied by their alpha, over what

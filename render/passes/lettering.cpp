@@ -79,7 +79,7 @@ void add_rectangle(std::vector<Vertex>& vertices, const Eigen::Vector2f& min,
 Lettering::Lettering()
     : program_("caption", "", vertex_source, fragment_source),
       picture_size_(program_.uniform("picture_size")) {
-  glBindVertexArray(vertex_array_.name());
+  glBindVertexArray(vao_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   set_attribute(0, 2, sizeof(Vertex), offsetof(Vertex, position));
   set_attribute(1, 4, sizeof(Vertex), offsetof(Vertex, ink));
@@ -113,7 +113,7 @@ void Lettering::draw(const View& view, const std::string& caption) {
   program_.use();
   set_uniform(picture_size_,
               Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
-  glBindVertexArray(vertex_array_.name());
+  glBindVertexArray(vao_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
                vertices.data(), GL_STREAM_DRAW);

@@ -19,7 +19,7 @@ class Lettering {
   void draw(const View& view, const std::string& text);
 
  private:
-  VertexArray vertex_array_;
+  Vao vao_;
   Buffer vertices_;
   Program program_;
   GLint picture_size_;

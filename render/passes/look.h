@@ -1,6 +1,6 @@
 // The light and the colours that all passes share, as GLSL.
 //
-// Light is reckoned in linear colours; the framebuffer holds sRGB, which shaders convert to.
+// Light is computed in linear colours; the framebuffer holds sRGB, which shaders convert to.
 // Leaving that to GL_FRAMEBUFFER_SRGB costs a third more on llvmpipe, which then converts each
 // sample at each write.
 #pragma once

@@ -16,7 +16,7 @@ void upload_once(const Buffer& buffer, GLenum target, const std::vector<T>& data
 
 void MeshBuffers::upload(const std::vector<Mesh>& meshes) {
   forget_dead_shapes();
-  while (vertex_arrays_.size() < meshes.size()) vertex_arrays_.emplace_back();
+  while (vaos_.size() < meshes.size()) vaos_.emplace_back();
 
   staging_.clear();
   for (const Mesh& mesh : meshes) {
@@ -32,7 +32,7 @@ void MeshBuffers::upload(const std::vector<Mesh>& meshes) {
     const Mesh& mesh = meshes[i];
     glBindVertexArray(0);
     const Shape& shape = shape_of(mesh.shape);
-    glBindVertexArray(vertex_arrays_[i].name());
+    glBindVertexArray(vaos_[i].name());
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.indices.name());
     glBindBuffer(GL_ARRAY_BUFFER, shape.colours.name());
     set_attribute(2, 3, sizeof(Vec3f), 0);
@@ -42,7 +42,7 @@ void MeshBuffers::upload(const std::vector<Mesh>& meshes) {
     // Flat shading reads no normals; any bytes of the stream will do.
     set_attribute(1, 3, sizeof(Vec3f), mesh.normals.empty() ? 0 : offset);
     offset += mesh.normals.size() * sizeof(Vec3f);
-    drawn_.push_back({vertex_arrays_[i].name(), shape.index_count, !mesh.normals.empty()});
+    drawn_.push_back({vaos_[i].name(), shape.index_count, !mesh.normals.empty()});
   }
   glBindVertexArray(0);
 }

@@ -5,14 +5,14 @@
 #include <memory>
 #include <vector>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/passes/gl_objects.h"
 
 namespace pneuma::render {
 
 /// A mesh of the frame at hand, ready to be drawn. Attributes: 0 position, 1 normal, 2 colour.
 struct DrawnMesh {
-  GLuint vertex_array;
+  GLuint vao;
   GLsizei index_count;
   bool smooth;  // has normals
 };
@@ -44,7 +44,7 @@ class MeshBuffers {
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
   Buffer stream_;
   std::vector<Vec3f> staging_;
-  std::vector<VertexArray> vertex_arrays_;
+  std::vector<Vao> vaos_;
   std::vector<DrawnMesh> drawn_;
 };
 

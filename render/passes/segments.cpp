@@ -2,8 +2,6 @@
 
 #include <cstddef>
 
-#include "render/passes/layer.h"
-
 namespace pneuma::render {
 namespace {
 
@@ -62,19 +60,12 @@ void main() {
 }  // namespace
 
 Segments::Segments()
-    : program_("lines", "", vertex_source, fragment_source),
-      view_(program_.uniform("view")),
-      projection_(program_.uniform("projection")),
-      picture_size_(program_.uniform("picture_size")),
-      near_(program_.uniform("near")),
-      opacity_(program_.uniform("opacity")) {
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
-  set_attribute(0, 3, sizeof(Instance), offsetof(Instance, from), 1);
-  set_attribute(1, 3, sizeof(Instance), offsetof(Instance, to), 1);
-  set_attribute(2, 3, sizeof(Instance), offsetof(Instance, colour), 1);
-  set_attribute(3, 1, sizeof(Instance), offsetof(Instance, width), 1);
-}
+    : quads_("lines", vertex_source, fragment_source,
+             {{3, offsetof(Instance, from)},
+              {3, offsetof(Instance, to)},
+              {3, offsetof(Instance, colour)},
+              {1, offsetof(Instance, width)}}),
+      near_(quads_.program().uniform("near")) {}
 
 void Segments::draw_lines(const View& view, const std::vector<Line>& lines) {
   instances_.clear();
@@ -98,22 +89,9 @@ void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes)
 
 void Segments::draw(const View& view, float opacity) {
   if (instances_.empty()) return;
-  blend_over_layer();
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_FALSE);
-  program_.use();
-  set_uniform(view_, view.view);
-  set_uniform(projection_, view.projection);
-  set_uniform(picture_size_,
-              Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
+  quads_.begin(view);
   set_uniform(near_, view.near);
-  set_uniform(opacity_, opacity);
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, instances_buffer_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)),
-               instances_.data(), GL_STREAM_DRAW);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances_.size()));
+  quads_.draw(instances_, GL_LESS, opacity);
 }
 
 }  // namespace pneuma::render

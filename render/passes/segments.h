@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "render/passes/gl_objects.h"
-#include "render/passes/program.h"
+#include "render/passes/instanced_quads.h"
 #include "render/passes/view.h"
 
 namespace pneuma::render {
@@ -29,15 +28,9 @@ class Segments {
 
   void draw(const View& view, float opacity);
 
-  VertexArray vertex_array_;
-  Buffer instances_buffer_;
   std::vector<Instance> instances_;
-  Program program_;
-  GLint view_;
-  GLint projection_;
-  GLint picture_size_;
+  InstancedQuads<Instance> quads_;
   GLint near_;
-  GLint opacity_;
 };
 
 }  // namespace pneuma::render

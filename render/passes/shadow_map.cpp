@@ -88,7 +88,7 @@ void ShadowMap::draw(const View& view, const Light& light, const std::vector<Dra
   map_to_clip.col(3) = Eigen::Vector4f(-1.0f, -1.0f, -1.0f, 1.0f);
   set_uniform(world_to_clip_, Mat4f(map_to_clip * world_to_map_));
   for (const DrawnMesh& mesh : meshes) {
-    glBindVertexArray(mesh.vertex_array);
+    glBindVertexArray(mesh.vao);
     glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
   }
   glDisable(GL_CULL_FACE);

@@ -28,7 +28,7 @@ class ShadowMap {
   /// Metres from coordinate 0 to coordinate 1.
   float extent() const { return extent_; }
 
-  /// The map for sampler2DShadow: share of lit texels.
+  /// The map for sampler2DShadow: fraction of lit texels.
   void bind(GLuint unit) const;
   /// Its depths, row by row; 1 where there is nothing. Waits until they are drawn.
   void read(std::vector<float>& depths) const;

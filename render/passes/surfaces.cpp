@@ -143,7 +143,7 @@ void Surfaces::draw_variant(const Variant& variant, bool smooth, const View& vie
   glCullFace(GL_BACK);
   for (const DrawnMesh& mesh : meshes) {
     if (mesh.smooth != smooth) continue;
-    glBindVertexArray(mesh.vertex_array);
+    glBindVertexArray(mesh.vao);
     glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
   }
   glDisable(GL_CULL_FACE);

@@ -8,7 +8,7 @@
 namespace pneuma::render {
 namespace {
 
-/// The least and greatest distance before the eye of the box's corners.
+/// The min. and max. distance before the eye of the box's corners.
 struct DepthRange {
   float near = std::numeric_limits<float>::infinity();
   float far = 0.0f;

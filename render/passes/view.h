@@ -1,8 +1,8 @@
 // What all passes need to know of the frame at hand.
 #pragma once
 
-#include "render/camera.h"
-#include "render/frame.h"
+#include "render/frame/camera.h"
+#include "render/frame/frame.h"
 
 namespace pneuma::render {
 

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
 BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bounds, double margin) {
   const Vec3 centre = bounds.centre();
-  const Row middle = to_row(centre);
-  const RowReader x(positions);
+  const Vec4d middle = to_vec4d(centre);
+  const VertexReader x(positions);
   double squared_radius = 0.0;
   for (int i = 0; i < positions.size(); ++i) {
-    const Row offset = x[i] - middle;
+    const Vec4d offset = x[i] - middle;
     squared_radius = std::max(squared_radius, dot(offset, offset));
   }
   return {centre, std::sqrt(squared_radius) + margin};

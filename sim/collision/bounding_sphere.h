@@ -16,8 +16,9 @@ struct BoundingSphere {
 };
 
 /// About the centre of the bounding box, as in the paper, but out to the farthest vertex instead of
-/// the box's corners: as safe, and up to a factor of sqrt(3) smaller. `margin` (m) is added to the
-/// radius: half the reach, so that bodies apart by less than the reach are found (ERRATA row 10).
+/// the box's corners: as safe, and up to a factor of sqrt(3) smaller (ERRATA row 38). `margin` (m)
+/// is added to the radius: half the reach, so that bodies apart by less than the reach are found
+/// (ERRATA row 10).
 BoundingSphere bounding_sphere(const VertexArray& positions, double margin);
 /// The same with the bounds at hand.
 BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bounds, double margin);

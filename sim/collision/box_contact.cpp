@@ -17,7 +17,7 @@ class Polygon {
   int size() const { return size_; }
   const Vec3& operator[](int i) const { return corners_[at(i % size_)]; }
   void add(const Vec3& corner) {
-    if (size_ < BoxContact::most_points) corners_[at(size_++)] = corner;
+    if (size_ < BoxContact::max_points) corners_[at(size_++)] = corner;
   }
   bool is_within(int coordinate, double sign, double limit) const {
     return std::all_of(corners_.begin(), corners_.begin() + size_,
@@ -26,7 +26,7 @@ class Polygon {
 
  private:
   int size_ = 0;
-  std::array<Vec3, BoxContact::most_points> corners_;
+  std::array<Vec3, BoxContact::max_points> corners_;
 };
 
 /// Sutherland and Hodgman's clipping, by sign * coordinate <= limit.
@@ -130,7 +130,7 @@ Vec3 support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
 ///   s = (c b.r - a.r) / (1 - c^2),  t = (b.r - c a.r) / (1 - c^2).
 /// The axis exists, so the edges are not parallel.
 void add_edge_point(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
-                    const LeastOverlap& overlap) {
+                    const MinOverlap& overlap) {
   const Vec3 p = support_edge(first, overlap.first_axis, -overlap.normal);
   const Vec3 q = support_edge(second, overlap.second_axis, overlap.normal);
   const Vec3 a = first.axes.col(overlap.first_axis);
@@ -149,7 +149,7 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
 }  // namespace
 
 std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second) {
-  const auto overlap = find_least_overlap(first, second);
+  const auto overlap = find_min_overlap(first, second);
   if (!overlap) return {};
   BoxContact contact;
   contact.normal = overlap->normal;

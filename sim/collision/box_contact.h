@@ -16,12 +16,12 @@ struct BoxContactPoint {
 
 /// One to eight points that share a normal.
 struct BoxContact {
-  static constexpr int most_points = 8;
+  static constexpr int max_points = 8;
 
   Vec3 normal = Vec3::Zero();  // unit; the impulse on the first box is along +normal
   double depth = 0.0;          // m; moving either box by more than this along the normal parts them
   int count = 0;
-  std::array<BoxContactPoint, most_points> all;
+  std::array<BoxContactPoint, max_points> all;
 
   std::span<const BoxContactPoint> points() const {
     return std::span(all).first(static_cast<std::size_t>(count));

@@ -1,10 +1,10 @@
-// Columns along z over the bounds of a surface, seen from above: a square of them.
+// Vec3x4 along z over the bounds of a surface, seen from above: a square of them.
 #pragma once
 
 #include <bit>
 
 #include "sim/mesh/measure.h"
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
@@ -22,8 +22,8 @@ class ColumnGrid {
     const Vec3 size = bounds.size();
     const double x = size.x() > 0.0 ? side / size.x() : 0.0;
     const double y = size.y() > 0.0 ? side / size.y() : 0.0;
-    per_metre_ = Row{x, y, x, y};
-    origin_ = Row{bounds.low.x(), bounds.low.y(), bounds.low.x(), bounds.low.y()};
+    per_metre_ = Vec4d{x, y, x, y};
+    origin_ = Vec4d{bounds.low.x(), bounds.low.y(), bounds.low.x(), bounds.low.y()};
   }
 
   const Bounds& bounds() const { return bounds_; }
@@ -31,16 +31,16 @@ class ColumnGrid {
   int index_of(int x, int y) const { return x + side_ * y; }
 
   /// The columns that a box from low to high reaches into.
-  ColumnRange range(Row low, Row high) const {
+  ColumnRange range(Vec4d low, Vec4d high) const {
     typedef int Integers __attribute__((vector_size(16)));
-    const Row last = Row{} + (side_ - 1.0);
-    const Row corners = __builtin_shufflevector(low, high, 0, 1, 4, 5);
-    const Row columns = greater(lesser((corners - origin_) * per_metre_, last), Row{});
+    const Vec4d last = Vec4d{} + (side_ - 1.0);
+    const Vec4d corners = __builtin_shufflevector(low, high, 0, 1, 4, 5);
+    const Vec4d columns = max(min((corners - origin_) * per_metre_, last), Vec4d{});
     return std::bit_cast<ColumnRange>(__builtin_convertvector(columns, Integers));
   }
 
   /// The column that a point lies in.
-  int at_point(Row point) const {
+  int at_point(Vec4d point) const {
     const ColumnRange here = range(point, point);
     return index_of(here.first_x, here.first_y);
   }
@@ -48,8 +48,8 @@ class ColumnGrid {
  private:
   Bounds bounds_;
   int side_ = 1;
-  Row per_metre_{};  // columns, along x, y, x, y
-  Row origin_{};     // m, likewise
+  Vec4d per_metre_{};  // columns, along x, y, x, y
+  Vec4d origin_{};     // m, likewise
 };
 
 }  // namespace pneuma::sim

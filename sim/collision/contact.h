@@ -7,11 +7,14 @@
 
 namespace pneuma::sim {
 
-enum class BodyKind : std::uint8_t { soft, rigid, ground };
+/// What takes part in a contact: unlike a body of a scene, also the ground.
+enum class SideKind : std::uint8_t { soft, rigid, ground };
 
-/// One side of a contact: a feature of a soft body, a point of a rigid box, or the ground.
+/// One side of a contact as detection finds it, plain indices: a feature of a soft body, a point of
+/// a rigid box, or the ground. The solver makes a SolverSide of it (sim/response/contact_side.h),
+/// which knows masses and velocities.
 struct ContactSide {
-  BodyKind kind = BodyKind::ground;
+  SideKind kind = SideKind::ground;
   int body = 0;     // index into World::soft or World::rigid
   Feature feature;  // of a soft body
 };
@@ -22,7 +25,9 @@ struct Contact {
   Vec3 point = Vec3::Zero();   // where the bodies touch, m
   Vec3 normal = Vec3::Zero();  // unit; the impulse on `first` is along +normal (section 5.3.1)
   double depth = 0.0;  // m the sides must move apart along the normal; at or below 0 for none
-  double gap = 0.0;    // m by which they may still approach: of boxes, which rest by touching
+  // Speculative margin, m: by how much the sides may still approach within the step. Above 0 only
+  // between boxes, and boxes and the ground, which rest by touching.
+  double speculative_margin = 0.0;
 };
 
 }  // namespace pneuma::sim

@@ -7,7 +7,8 @@
 
 namespace pneuma::sim {
 
-/// What really touches: a triangle that is met at a corner is reported as that vertex.
+/// What really touches: a triangle that is met at a corner is reported as that vertex
+/// (ERRATA row 47).
 struct FeatureContact {
   Feature first;
   Feature second;

@@ -7,9 +7,9 @@ namespace pneuma::sim {
 
 namespace {
 
-// The square of 1e-8. A triangle whose height is less than this share of its longest side counts as
-// its three edges, and edges at a smaller angle have no trusted common normal. The square root of
-// the rounding unit balances two errors: a direction taken from a cross product is wrong by
+// The square of 1e-8. A triangle whose height is less than this fraction of its longest side counts
+// as its three edges, and edges at a smaller angle have no trusted common normal. The square root
+// of the rounding unit balances two errors: a direction taken from a cross product is wrong by
 // rounding / sine, and without its face a sliver's nearest point moves by at most its height.
 constexpr double squared_sine_of_parallel = 1e-16;
 
@@ -43,7 +43,8 @@ std::array<NamedEdge, 3> edges_of(const Corners& t) {
 }
 
 /// Keeps the nearest of all pairs of points offered that are closer than the reach. The paper stops
-/// at the first it finds, often an edge's crossing or clamped end and not the nearest.
+/// at the first it finds, often an edge's crossing or clamped end and not the nearest
+/// (ERRATA row 24).
 class NearestPair {
  public:
   explicit NearestPair(double reach) : squared_(reach * reach) {}
@@ -136,7 +137,7 @@ void offer_edge_face(NearestPair& nearest, const NamedEdge& edge, double from_he
 
 /// The point of the first edge where the lines are nearest, t along it, and what is nearest to that
 /// on the second; if that is an end, what is nearest to the end on the first. The squared distance
-/// is a convex function of where the points are on their edges, and this its least value (Ericson,
+/// is a convex function of where the points are on their edges, and this its minimum (Ericson,
 /// Real-Time Collision Detection, 5.1.9).
 void offer_skew_edges(NearestPair& nearest, const NamedEdge& first, const NamedEdge& second,
                       double t) {
@@ -162,10 +163,10 @@ void offer_edge_edge(NearestPair& nearest, const NamedEdge& first, const NamedEd
   const Vec3 m = first.from - second.from;
   const Vec3 across = d.cross(n);
   const double a = across.squaredNorm();
-  const double gap = m.dot(across);
+  const double distance = m.dot(across);
   const double squared_lengths = n.squaredNorm() * d.squaredNorm();
   const bool parallel = a <= squared_sine_of_parallel * squared_lengths;
-  if (!parallel && gap * gap > nearest.squared_reach() * a) return;
+  if (!parallel && distance * distance > nearest.squared_reach() * a) return;
   // However inexact t is for nearly parallel edges, moving along them hardly changes the distance.
   const double t = a > 0.0 ? -d.cross(m).dot(across) / a : 0.0;
   if (a > squared_sine_of_skew * squared_lengths) {

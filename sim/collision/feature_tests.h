@@ -2,8 +2,9 @@
 //
 // Plain geometry, without normals: feature_contact.h adds those. Lengths in metres. Two features
 // are in contact when their nearest points are less than `reach` apart; the paper's reach is twice
-// the skin thickness. Every finite input is allowed, edges without length and triangles without
-// area too, as long as coordinates stay below 1e70: their fourth powers must be finite.
+// the skin thickness (ERRATA row 46). Every finite input is allowed, edges without length and
+// triangles without area too, as long as coordinates stay below 1e70: their fourth powers must be
+// finite.
 #pragma once
 
 #include <array>

@@ -9,10 +9,10 @@ namespace pneuma::sim {
 namespace {
 
 ContactSide vertex_side(int soft, int vertex) {
-  return {BodyKind::soft, soft, {FeatureKind::vertex, vertex}};
+  return {SideKind::soft, soft, {FeatureKind::vertex, vertex}};
 }
 
-ContactSide box_side(int rigid) { return {BodyKind::rigid, rigid, {}}; }
+ContactSide box_side(int rigid) { return {SideKind::rigid, rigid, {}}; }
 
 /// Vertices of the soft body inside the box, in ascending order.
 void find_vertices_in_box(const World& world, const PlacedBox& placed, int soft, int rigid,
@@ -40,7 +40,7 @@ void find_corners_in_surface(const World& world, const PlacedBox& placed, int so
   for (const Vec3& corner : corners(placed.box)) {
     if (const auto exit = find_surface_exit(surface, columns, corner)) {
       contacts.push_back({box_side(rigid),
-                          {BodyKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
+                          {SideKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
                           corner,
                           exit->normal,
                           exit->depth});
@@ -50,23 +50,23 @@ void find_corners_in_surface(const World& world, const PlacedBox& placed, int so
 
 }  // namespace
 
-PlacedBox place(const RigidBox& box) {
+PlacedBox placed_box(const RigidBox& box) {
   const OrientedBox oriented{box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
   return {oriented, bounds(oriented)};
 }
 
 RestingLengths resting_lengths(double shortest_side) {
-  const double gap = std::min(0.005, 0.05 * shortest_side);
-  return {gap, 0.5 * gap};
+  const double margin = std::min(0.005, 0.05 * shortest_side);
+  return {margin, 0.5 * margin};
 }
 
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts) {
   const VertexArray& positions = world.soft[at(soft)].positions;
-  // The implicit integrators keep vertices above the ground: what they hold is at z = 0 exactly.
-  const bool held_at_zero = is_implicit(world.settings.integrator);
+  // The implicit integrators keep vertices above the ground: what rests on it is at z = 0 exactly.
+  const bool rests_at_zero = is_implicit(world.settings.integrator);
   for (int v = 0; v < positions.size(); ++v) {
     const double height = positions[v].z();
-    if (!(held_at_zero ? height <= 0.0 : height < 0.0)) continue;
+    if (!(rests_at_zero ? height <= 0.0 : height < 0.0)) continue;
     contacts.push_back({vertex_side(soft, v), {}, positions[v], Vec3::UnitZ(), -height});
   }
 }
@@ -75,9 +75,9 @@ void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid,
                        std::vector<Contact>& contacts) {
   const auto& [box, bounds] = boxes[at(rigid)];
   const RestingLengths resting = resting_lengths(2.0 * box.half.minCoeff());
-  if (bounds.low.z() > 2.0 * resting.gap) return;  // no corner is as near, whatever the rounding
+  if (bounds.low.z() > 2.0 * resting.margin) return;  // no corner is as near, whatever the rounding
   for (const Vec3& corner : corners(box)) {
-    if (!(corner.z() < resting.gap)) continue;
+    if (!(corner.z() < resting.margin)) continue;
     contacts.push_back({box_side(rigid),
                         {},
                         corner,
@@ -100,7 +100,7 @@ void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
   OrientedBox b = boxes[at(second)].box;
   const RestingLengths resting =
       resting_lengths(2.0 * std::min(a.half.minCoeff(), b.half.minCoeff()));
-  const double growth = 0.5 * resting.gap;  // of each box on all sides
+  const double growth = 0.5 * resting.margin;  // of each box on all sides
   a.half.array() += growth;
   b.half.array() += growth;
   const auto contact = find_box_contact(a, b);
@@ -110,7 +110,7 @@ void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
                                               (b.axes.transpose() * contact->normal).lpNorm<1>());
   for (const BoxContactPoint& point : contact->points()) {
     const double depth = point.depth - grown_along_normal;
-    if (depth < -resting.gap) continue;
+    if (depth < -resting.margin) continue;
     contacts.push_back({box_side(first), box_side(second), point.point, contact->normal,
                         depth - resting.overlap, std::max(0.0, -depth)});
   }

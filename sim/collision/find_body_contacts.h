@@ -8,30 +8,32 @@
 #include "sim/collision/oriented_box.h"
 #include "sim/collision/triangle_columns.h"
 #include "sim/collision/vertex_columns.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 
-/// How boxes rest. Points this near are contacts already, so that boxes at rest do not lose each
-/// other to rounding; impulses let them close the gap. And boxes are left a little in each other:
-/// pushing the deepest point out altogether would lift the other points off, and they would rattle.
+/// How boxes rest (ERRATA row 63).
 struct RestingLengths {
-  double gap;      // m
-  double overlap;  // m
+  /// Speculative margin, m. Points this near are contacts already, so that boxes at rest do not
+  /// lose each other to rounding; impulses let them come nearer by it.
+  double margin;
+  /// m by which boxes are left in each other: pushing the deepest point out altogether would lift
+  /// the other points off, and the boxes would rattle.
+  double overlap;
 };
 
 /// 5 mm and 2.5 mm, less when the shortest side of the boxes (m) is below 10 cm.
 RestingLengths resting_lengths(double shortest_side);
 
-/// A rigid box where it is now, looked at by every pair that it is in.
+/// A rigid box in the world's axes, computed once for all pairs that it is in.
 struct PlacedBox {
   OrientedBox box;
   Bounds bounds;
 };
 
-PlacedBox place(const RigidBox& box);
+PlacedBox placed_box(const RigidBox& box);
 
-/// A soft body's surface where it is now, likewise.
+/// A soft body's surface, likewise.
 struct SurfaceColumns {
   TriangleColumns triangles;
   VertexColumns vertices;
@@ -48,15 +50,17 @@ struct SurfaceColumns {
 /// Vertices below the plane z = 0 (3.1.4).
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts);
 
-/// Corners below the plane z = 0.
+/// Corners below the plane z = 0, or within the speculative margin above it (ERRATA rows 34 and
+/// 63).
 void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid, std::vector<Contact>& contacts);
 
 /// Vertices of the soft body inside the box, then corners of the box inside the soft body. Each is
-/// to come out through the nearest face or triangle. `columns` filled from the soft body's surface.
+/// to come out through the nearest face or triangle (ERRATA rows 22, 49, 50). `columns` filled from
+/// the soft body's surface.
 void find_soft_rigid(const World& world, std::span<const PlacedBox> boxes, int soft, int rigid,
                      const SurfaceColumns& columns, std::vector<Contact>& contacts);
 
-/// The points in which two boxes touch along their axis of least penetration.
+/// The points in which two boxes touch along their axis of minimal penetration.
 void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
                       std::vector<Contact>& contacts);
 

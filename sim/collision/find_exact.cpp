@@ -83,7 +83,7 @@ int& partner_of(ExactScratch& scratch, const SurfaceView& surface, Feature featu
 }
 
 /// The same contact seen from the other body. The normal of equal orders is the second's (5.3.1),
-/// so it is taken anew.
+/// so it is taken again.
 std::optional<FeatureContact> turned_round(const FeatureContact& contact, const SurfaceView& first,
                                            const SurfaceView& second, double reach) {
   return find_feature_contact(first, contact.second, second, contact.first, reach);

@@ -1,5 +1,6 @@
 // The second search for contacts of two soft bodies: exhaustive, over a spatial subdivision, in
-// place of the collision particles (the paper's section 7 names it as what to try next).
+// stead of the collision particles (the paper's section 7 names it as what to try next;
+// ERRATA row 45).
 //
 // What is tested and what follows from a contact is as with particles: the six feature tests of
 // 5.2.1.1 and the response of 5.3. Only the search differs. Every vertex of either body is tested
@@ -15,7 +16,7 @@
 #include "sim/collision/contact.h"
 #include "sim/collision/feature_contact.h"
 #include "sim/collision/surface_grid.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 

@@ -8,11 +8,11 @@ namespace {
 
 /// `margin`: m, added to the radius.
 BoundingSphere bounding_sphere(const SurfaceView& surface, int feature_id, double margin) {
-  const Row centre = feature_centre(surface, feature_id);
-  const RowReader positions(surface.positions);
+  const Vec4d centre = feature_centre(surface, feature_id);
+  const VertexReader positions(surface.positions);
   double squared = 0.0;
   for (const int v : surface.topology.feature_corners(feature_id).vertices) {
-    const Row offset = positions[v] - centre;
+    const Vec4d offset = positions[v] - centre;
     squared = std::max(squared, dot(offset, offset));
   }
   return {to_vec3(centre), std::sqrt(squared) + margin};
@@ -40,8 +40,8 @@ std::uint64_t number_of(const SurfaceView& first, const SurfaceView& second,
 
 Contact soft_soft_contact(int first, int second, const FeatureContact& found,
                           double skin_thickness) {
-  return {{BodyKind::soft, first, found.first},
-          {BodyKind::soft, second, found.second},
+  return {{SideKind::soft, first, found.first},
+          {SideKind::soft, second, found.second},
           0.5 * (found.first_point + found.second_point),
           found.normal,
           separation_depth(found, skin_thickness)};

@@ -1,6 +1,6 @@
 #include "sim/collision/oriented_box.h"
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
@@ -15,12 +15,12 @@ Bounds bounds(const OrientedBox& box) {
 }
 
 std::array<Vec3, 8> corners(const OrientedBox& box) {
-  const RowMatrix axes = row_matrix(box.axes);
-  const Row x = axes.columns[0] * box.half.x(), y = axes.columns[1] * box.half.y();
-  const Row z = axes.columns[2] * box.half.z(), centre = to_row(box.centre);
+  const Mat3x4 axes = mat3x4(box.axes);
+  const Vec4d x = axes.columns[0] * box.half.x(), y = axes.columns[1] * box.half.y();
+  const Vec4d z = axes.columns[2] * box.half.z(), centre = to_vec4d(box.centre);
   std::array<Vec3, 8> result;
   for (const int i : {0, 1, 2, 3, 4, 5, 6, 7}) {
-    const Row from_centre =
+    const Vec4d from_centre =
         ((i & 1) != 0 ? x : -x) + ((i & 2) != 0 ? y : -y) + ((i & 4) != 0 ? z : -z);
     result[at(i)] = to_vec3(centre + from_centre);
   }

@@ -117,15 +117,15 @@ bool is_inside(const SurfaceView& surface, const Vec3& point) {
 
 std::optional<double> height_of_exit(const SurfaceView& surface, const Vec3& point) {
   bool inside = false;
-  double least = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Triangle& triangle : surface.topology.triangles()) {
     const auto z = find_crossing(surface.positions, triangle, point);
     if (!z || !(*z > point.z())) continue;
     inside = !inside;
-    least = std::min(least, *z);
+    lowest = std::min(lowest, *z);
   }
   if (!inside) return {};
-  return least - point.z();
+  return lowest - point.z();
 }
 
 // The line through the point crosses the surface at a point of it: the nearest is no farther away,

@@ -10,7 +10,7 @@ namespace pneuma::sim {
 
 /// Whether a point lies inside a closed surface: whether a ray along +z crosses it an odd number of
 /// times (ERRATA row 17). Wrong at most for points within rounding of the surface: 8 units in the
-/// last place of the largest coordinate.
+/// last digit of the largest coordinate.
 bool is_inside(const SurfaceView& surface, const Vec3& point);
 
 /// How far above a point inside the body (m, along +z) its surface begins. None for a point
@@ -25,7 +25,7 @@ struct SurfaceExit {
   double depth = 0.0;          // m from there to the inside point
 };
 
-/// None for a point outside. `columns` filled from the surface.
+/// None for a point outside (ERRATA row 50). `columns` filled from the surface.
 std::optional<SurfaceExit> find_surface_exit(const SurfaceView& surface,
                                              const TriangleColumns& columns, const Vec3& point);
 

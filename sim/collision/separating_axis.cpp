@@ -4,63 +4,63 @@
 #include <array>
 #include <cmath>
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
 namespace {
 
 // Edges at less than this angle (its sine) give no axis of their own (ERRATA row 18). Leaving out
-// an axis that would separate overlooks a gap of at most this share of the boxes' size.
-// Rounding turns the axis by up to its share over the sine, here 1e-6; that says nothing untrue, as
-// overlaps are measured along the axis as it came out. Overlaps from RelativePose would be wrong by
-// as much of the boxes' size, and only choose which axes to measure.
+// an axis that would separate overlooks a distance of at most this fraction of the boxes' size.
+// Rounding turns the axis by up to its fraction over the sine, here 1e-6; that says nothing untrue,
+// as overlaps are measured along the axis as it came out. Overlaps from RelativePose would be wrong
+// by as much of the boxes' size, and only choose which axes to measure.
 constexpr double sine_of_parallel = 1e-10;
 
 // Of the boxes' size: far above the rounding of what RelativePose says of an edge axis, before it
 // is divided by the sine.
 constexpr double rounding_of_pose = 1e-13;
 
-Row absolute(Row row) { return -lesser(row, -row); }
+Vec4d absolute(Vec4d row) { return -min(row, -row); }
 
-bool any_negative(Row row) { return row[0] < 0.0 || row[1] < 0.0 || row[2] < 0.0; }
+bool any_negative(Vec4d row) { return row[0] < 0.0 || row[1] < 0.0 || row[2] < 0.0; }
 
 /// How the boxes lie, seen from each other: the axes of the second in the coordinates of the first
 /// and the other way round (Ericson, Real-Time Collision Detection, 4.4.1, after Gottschalk).
 struct RelativePose {
-  Row first_half, second_half;
-  RowMatrix second_axes, first_axes;
-  RowMatrix second_extents, first_extents;  // their absolute values
-  Row from_first, from_second;  // from the second box to the first, in the coordinates of either
+  Vec4d first_half, second_half;
+  Mat3x4 second_axes, first_axes;
+  Mat3x4 second_extents, first_extents;  // their absolute values
+  Vec4d from_first, from_second;  // from the second box to the first, in the coordinates of either
 
   RelativePose(const OrientedBox& first, const OrientedBox& second)
-      : first_half(to_row(first.half)), second_half(to_row(second.half)) {
-    const RowMatrix to_first = transposed(row_matrix(first.axes));
+      : first_half(to_vec4d(first.half)), second_half(to_vec4d(second.half)) {
+    const Mat3x4 to_first = transposed(mat3x4(first.axes));
     for (int k = 0; k < 3; ++k) {
-      second_axes.columns[at(k)] = to_first * to_row(second.axes.col(k));
+      second_axes.columns[at(k)] = to_first * to_vec4d(second.axes.col(k));
     }
     first_axes = transposed(second_axes);
     for (const std::size_t k : {0U, 1U, 2U}) {
       second_extents.columns[k] = absolute(second_axes.columns[k]);
       first_extents.columns[k] = absolute(first_axes.columns[k]);
     }
-    from_first = to_first * (to_row(first.centre) - to_row(second.centre));
+    from_first = to_first * (to_vec4d(first.centre) - to_vec4d(second.centre));
     from_second = first_axes * from_first;
   }
 
   /// By how much the boxes overlap along the normals of the first, and of the second.
-  Row along_first() const {
+  Vec4d along_first() const {
     return first_half + second_extents * second_half - absolute(from_first);
   }
-  Row along_second() const {
+  Vec4d along_second() const {
     return second_half + first_extents * first_half - absolute(from_second);
   }
 };
 
 /// Of the axes a_i x b_j for one i and every j.
 struct EdgeAxes {
-  Row overlaps;  // times the sine
-  Row sines;
+  Vec4d overlaps;  // times the sine
+  Vec4d sines;
 };
 
 /// In the coordinates of the first box a_i is a unit vector, so that a_i x b_j has the two other
@@ -68,30 +68,30 @@ struct EdgeAxes {
 /// second.
 EdgeAxes look_along_edges(const RelativePose& pose, std::size_t i) {
   const std::size_t k = (i + 1) % 3, m = (i + 2) % 3;
-  const Row along_k = pose.first_axes.columns[k], along_m = pose.first_axes.columns[m];
-  const Row first_reach =
+  const Vec4d along_k = pose.first_axes.columns[k], along_m = pose.first_axes.columns[m];
+  const Vec4d first_reach =
       pose.first_half[k] * absolute(along_m) + pose.first_half[m] * absolute(along_k);
-  const Row extents = turned(pose.first_extents.columns[i]), half = turned(pose.second_half);
-  const Row second_reach = half * turned(extents) + turned(half) * extents;
-  const Row distance = pose.from_first[static_cast<int>(m)] * along_k -
-                       pose.from_first[static_cast<int>(k)] * along_m;
+  const Vec4d extents = yzx(pose.first_extents.columns[i]), half = yzx(pose.second_half);
+  const Vec4d second_reach = half * yzx(extents) + yzx(half) * extents;
+  const Vec4d distance = pose.from_first[static_cast<int>(m)] * along_k -
+                         pose.from_first[static_cast<int>(k)] * along_m;
   return {first_reach + second_reach - absolute(distance),
           square_root(along_k * along_k + along_m * along_m)};
 }
 
-int least_lane(Row row) {
+int index_of_min(Vec4d row) {
   const int of_two = row[1] < row[0] ? 1 : 0;
   return row[2] < row[of_two] ? 2 : of_two;
 }
 
-LeastOverlap least_along_first(const OrientedBox& first, const RelativePose& pose, Row overlaps) {
-  const int i = least_lane(overlaps);
+MinOverlap min_along_first(const OrientedBox& first, const RelativePose& pose, Vec4d overlaps) {
+  const int i = index_of_min(overlaps);
   const Vec3 axis = first.axes.col(i);
   return {AxisKind::first_face, i, 0, pose.from_first[i] < 0.0 ? Vec3(-axis) : axis, overlaps[i]};
 }
 
-LeastOverlap least_along_second(const OrientedBox& second, const RelativePose& pose, Row overlaps) {
-  const int j = least_lane(overlaps);
+MinOverlap min_along_second(const OrientedBox& second, const RelativePose& pose, Vec4d overlaps) {
+  const int j = index_of_min(overlaps);
   const Vec3 axis = second.axes.col(j);
   return {AxisKind::second_face, 0, j, pose.from_second[j] < 0.0 ? Vec3(-axis) : axis, overlaps[j]};
 }
@@ -103,8 +103,8 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 /// Along the cross product of two edges as the vector it is in floating point, so that even an
 /// inexact one of nearly parallel edges says nothing untrue. Seldom called, and kept out of the way
 /// of what is looked at each time.
-[[gnu::noinline]] LeastOverlap overlap_of_edges(const OrientedBox& first, const OrientedBox& second,
-                                                int i, int j) {
+[[gnu::noinline]] MinOverlap overlap_of_edges(const OrientedBox& first, const OrientedBox& second,
+                                              int i, int j) {
   const Vec3 axis = first.axes.col(i).cross(second.axes.col(j)).normalized();
   const double distance = (first.centre - second.centre).dot(axis);
   const double overlap =
@@ -121,16 +121,15 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 //
 // Of the nine cross products few separate, and few beat the faces. Those that do neither are seen
 // at a glance, without a division; only what may decide is looked at for itself.
-std::optional<LeastOverlap> find_least_overlap(const OrientedBox& first,
-                                               const OrientedBox& second) {
+std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second) {
   const RelativePose pose(first, second);
-  const Row along_first = pose.along_first(), along_second = pose.along_second();
+  const Vec4d along_first = pose.along_first(), along_second = pose.along_second();
   if (any_negative(along_first) || any_negative(along_second)) return {};
 
   const double slack = 0.001 * std::min(first.half.minCoeff(), second.half.minCoeff());
   const auto clearly_less_than = [slack](double overlap) { return 0.95 * overlap - slack; };
-  LeastOverlap best = least_along_first(first, pose, along_first);
-  const LeastOverlap of_second = least_along_second(second, pose, along_second);
+  MinOverlap best = min_along_first(first, pose, along_first);
+  const MinOverlap of_second = min_along_second(second, pose, along_second);
   if (of_second.overlap < clearly_less_than(best.overlap)) best = of_second;
 
   // At 0 or more an axis does not separate, and from `limit` on it is not preferred either.
@@ -138,11 +137,11 @@ std::optional<LeastOverlap> find_least_overlap(const OrientedBox& first,
   const double rounding = rounding_of_pose * (first.half.sum() + second.half.sum());
   for (int i = 0; i < 3; ++i) {
     const auto [overlaps, sines] = look_along_edges(pose, at(i));
-    const Row surplus = overlaps - std::max(limit, 0.0) * sines - rounding;
+    const Vec4d surplus = overlaps - std::max(limit, 0.0) * sines - rounding;
     if (!any_negative(surplus)) continue;
     for (int j = 0; j < 3; ++j) {
       if (!(surplus[j] < 0.0) || sines[j] < sine_of_parallel) continue;
-      const LeastOverlap of_edges = overlap_of_edges(first, second, i, j);
+      const MinOverlap of_edges = overlap_of_edges(first, second, i, j);
       if (of_edges.overlap < 0.0) return {};
       if (of_edges.overlap < limit) {
         best = of_edges;

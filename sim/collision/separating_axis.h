@@ -9,19 +9,19 @@ namespace pneuma::sim {
 
 enum class AxisKind { first_face, second_face, edges };
 
-/// The axis along which two boxes overlap least: the shortest way apart.
-struct LeastOverlap {
+/// The axis of minimal overlap of two boxes: the shortest way apart.
+struct MinOverlap {
   AxisKind kind = AxisKind::first_face;
   int first_axis = 0;          // of the first box: its face's normal, or its edge's direction
   int second_axis = 0;         // likewise of the second
   Vec3 normal = Vec3::Zero();  // unit; moving the first box along +normal takes it away
-  double overlap = 0.0;        // m; moving it by more than this parts them
+  double overlap = 0.0;        // m; moving it by more than this separates them
 };
 
 /// None when an axis separates the boxes; boxes that touch overlap by 0. Of axes that are nearly as
 /// good a face of the first box is preferred to one of the second, and either to a pair of edges,
 /// so that rounding does not decide between them: `overlap` is at most
-/// (least + 0.001 * shortest half length) / 0.95.
-std::optional<LeastOverlap> find_least_overlap(const OrientedBox& first, const OrientedBox& second);
+/// (smallest + 0.001 * shortest half length) / 0.95 (ERRATA row 51).
+std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second);
 
 }  // namespace pneuma::sim

@@ -7,14 +7,14 @@ namespace pneuma::sim {
 namespace {
 
 /// Along a side, so that a body with a few very small triangles does not fill the memory.
-constexpr int most_cells = 64;
+constexpr int max_cells = 64;
 
 bool meet(const Bounds& a, const Bounds& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-/// Numbers of cells go up and down with every breath of the bodies: room for twice as many spares
-/// an allocation at each new peak.
+/// The number of cells goes up and down as the bodies move: room for twice as many saves an
+/// allocation at each new peak.
 void reserve_ahead(std::vector<int>& values, std::size_t count) {
   if (values.capacity() < count) values.reserve(2 * count);
 }
@@ -67,15 +67,15 @@ void SurfaceGrid::choose_cells(double mean_extent) {
   const Vec3 size = region_.size();
   for (int axis = 0; axis < 3; ++axis) {
     const double wanted = mean_extent > 0.0 ? size[axis] / mean_extent : 1.0;
-    counts_[axis] = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, double{most_cells}));
+    counts_[axis] = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, double{max_cells}));
     inverse_cell_[axis] = size[axis] > 0.0 ? counts_[axis] / size[axis] : 0.0;
   }
 }
 
 SurfaceGrid::CellRange SurfaceGrid::cells_of(const Bounds& box) const {
   const auto cell_of = [&](const Vec3& point) -> Cell {
-    const Eigen::Array3d place = ((point - region_.low).array() * inverse_cell_).floor();
-    return place.max(0.0).min((counts_ - 1).cast<double>()).cast<int>();
+    const Eigen::Array3d cell = ((point - region_.low).array() * inverse_cell_).floor();
+    return cell.max(0.0).min((counts_ - 1).cast<double>()).cast<int>();
   };
   return {cell_of(box.low), cell_of(box.high)};
 }

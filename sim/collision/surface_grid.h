@@ -1,5 +1,5 @@
 // Spatial subdivision: the triangles of a surface in a region, sorted into cells, so that those
-// near a place are found without looking at all (the paper's section 7 asks for it).
+// near a point are found without looking at all (the paper's section 7 asks for it; ERRATA row 45).
 #pragma once
 
 #include <cstdint>

@@ -7,21 +7,21 @@ namespace pneuma::sim {
 namespace {
 
 /// Twice its area long.
-Row normal_of(const SurfaceView& surface, int triangle) {
+Vec4d normal_of(const SurfaceView& surface, int triangle) {
   const auto& [a, b, c] = surface.topology.triangles()[at(triangle)];
-  const RowReader positions(surface.positions);
+  const VertexReader positions(surface.positions);
   return cross(positions[b] - positions[a], positions[c] - positions[a]);
 }
 
-Row unit_or_zero(Row vector) {
+Vec4d unit_or_zero(Vec4d vector) {
   const double length = std::sqrt(dot(vector, vector));
-  return length > 0.0 ? vector / length : Row{};
+  return length > 0.0 ? vector / length : Vec4d{};
 }
 
 }  // namespace
 
 Vec3 feature_normal(const SurfaceView& surface, Feature feature) {
-  Row sum{};
+  Vec4d sum{};
   switch (feature.kind) {
     case FeatureKind::vertex:
       for (const int triangle : surface.topology.vertex_triangles(feature.index)) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sim/collision/feature_tests.h"
-#include "sim/mesh/row.h"
 #include "sim/mesh/topology.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/mesh/vertex_array.h"
 
 namespace pneuma::sim {
@@ -24,21 +24,21 @@ inline Corners triangle_corners(const SurfaceView& surface, int triangle) {
 }
 
 /// The middle of a feature: the mean of its vertices.
-inline Row feature_centre(const SurfaceView& surface, int feature_id) {
+inline Vec4d feature_centre(const SurfaceView& surface, int feature_id) {
   // By FeatureKind, what each corner counts: one formula for all kinds, as in a walk over features
   // they take turns in no order that a processor could foresee.
-  constexpr double shares[3][3] = {
+  constexpr double weights[3][3] = {
       {1.0, 0.0, 0.0}, {0.5, 0.5, 0.0}, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}};
   const auto& [vertices, kind] = surface.topology.feature_corners(feature_id);
-  const double* share = shares[static_cast<std::size_t>(kind)];
-  const RowReader positions(surface.positions);
-  return positions[vertices[0]] * share[0] +
-         (positions[vertices[1]] * share[1] + positions[vertices[2]] * share[2]);
+  const double* weight = weights[static_cast<std::size_t>(kind)];
+  const VertexReader positions(surface.positions);
+  return positions[vertices[0]] * weight[0] +
+         (positions[vertices[1]] * weight[1] + positions[vertices[2]] * weight[2]);
 }
 
 /// Outward unit normal of a feature: a triangle's own, for an edge the average of its two
-/// triangles' (ERRATA row 12), for a vertex the average of its triangles' weighted by area. Zero
-/// where it does not exist: triangles without area, or that cancel.
+/// triangles' (ERRATA row 12), for a vertex the average of its triangles' weighted by area
+/// (ERRATA row 48). Zero where it does not exist: triangles without area, or that cancel.
 Vec3 feature_normal(const SurfaceView& surface, Feature feature);
 
 }  // namespace pneuma::sim

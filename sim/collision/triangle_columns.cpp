@@ -43,15 +43,15 @@ void TriangleColumns::fill(const SurfaceView& surface, const Bounds& bounds) {
 /// The box and the columns of each triangle.
 void TriangleColumns::measure(const SurfaceView& surface) {
   const std::vector<Triangle>& triangles = surface.topology.triangles();
-  const RowReader positions(surface.positions);
-  const Row margin = to_row(margin_);
+  const VertexReader positions(surface.positions);
+  const Vec4d margin = to_vec4d(margin_);
   boxes_.resize(triangles.size());
   ranges_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [first, second, third] = triangles[t];
-    const Row a = positions[first], b = positions[second], c = positions[third];
-    const Row low = lesser(lesser(a, b), c) - margin;
-    const Row high = greater(greater(a, b), c) + margin;
+    const Vec4d a = positions[first], b = positions[second], c = positions[third];
+    const Vec4d low = min(min(a, b), c) - margin;
+    const Vec4d high = max(max(a, b), c) + margin;
     boxes_[t] = {low, high};
     ranges_[t] = grid_.range(low, high);
   }

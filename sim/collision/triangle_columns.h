@@ -43,13 +43,13 @@ class TriangleColumns {
   /// some of them more than once. What it returns is the reach from then on, at most what it was.
   template <class Visit>
   void for_each_near(const Vec3& point, double reach, const Visit& visit) const {
-    const Row place = to_row(point);
-    const ColumnRange columns = grid_.range(place - reach, place + reach);
+    const Vec4d centre = to_vec4d(point);
+    const ColumnRange columns = grid_.range(centre - reach, centre + reach);
     for (int y = columns.first_y; y <= columns.last_y; ++y) {
       const int end = starts_[at(grid_.index_of(columns.last_x, y) + 1)];
       for (int i = starts_[at(grid_.index_of(columns.first_x, y))]; i < end; ++i) {
         const int triangle = entries_[at(i)];
-        if (!boxes_[at(triangle)].is_beyond(place, reach)) reach = visit(triangle);
+        if (!boxes_[at(triangle)].is_beyond(centre, reach)) reach = visit(triangle);
       }
     }
   }
@@ -57,21 +57,21 @@ class TriangleColumns {
  private:
   /// About a triangle, a little wider.
   struct Box {
-    Row low, high;
+    Vec4d low, high;
 
     bool is_crossed_at(double x, double y) const {
       return low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1];
     }
     /// Whether it is farther from the point than `reach` along some axis.
-    bool is_beyond(Row point, double reach) const {
-      const Row way_in = lesser(point - low, high - point) + reach;
+    bool is_beyond(Vec4d point, double reach) const {
+      const Vec4d way_in = min(point - low, high - point) + reach;
       return way_in[0] < 0.0 || way_in[1] < 0.0 || way_in[2] < 0.0;
     }
   };
 
   template <class Visit>
   void for_each_at(const Vec3& point, const Visit& visit) const {
-    const int column = grid_.at_point(to_row(point));
+    const int column = grid_.at_point(to_vec4d(point));
     for (int i = starts_[at(column)]; i < starts_[at(column + 1)]; ++i) {
       const int triangle = entries_[at(i)];
       visit(triangle, boxes_[at(triangle)]);

@@ -10,7 +10,7 @@ namespace pneuma::sim {
 void VertexColumns::fill(const VertexArray& positions, const Bounds& bounds) {
   const int count = positions.size();
   grid_ = ColumnGrid(bounds, std::max(1, static_cast<int>(std::sqrt(count))));
-  const RowReader read(positions);
+  const VertexReader read(positions);
   columns_.resize(at(count));
   starts_.assign(at(grid_.count() + 1), 0);
   for (int v = 0; v < count; ++v) {

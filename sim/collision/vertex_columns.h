@@ -17,7 +17,7 @@ class VertexColumns {
   /// column by column: in no order of their numbers.
   template <class Visit>
   void for_each_near(const Bounds& region, const Visit& visit) const {
-    const ColumnRange columns = grid_.range(to_row(region.low), to_row(region.high));
+    const ColumnRange columns = grid_.range(to_vec4d(region.low), to_vec4d(region.high));
     for (int y = columns.first_y; y <= columns.last_y; ++y) {
       const int end = starts_[at(grid_.index_of(columns.last_x, y) + 1)];
       for (int i = starts_[at(grid_.index_of(columns.first_x, y))]; i < end; ++i) {

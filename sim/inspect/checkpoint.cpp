@@ -140,15 +140,15 @@ std::vector<std::uint8_t> save_state(const World& world) {
     put(writer, pair.second_features);
     writer.put(static_cast<std::uint8_t>(pair.near));
   }
-  writer.put(world.resting_impulses.size());
-  for (const RestingImpulse& impulse : world.resting_impulses) {
+  writer.put(world.warm_start_impulses.size());
+  for (const WarmStartImpulse& impulse : world.warm_start_impulses) {
     writer.put(impulse.first);
     writer.put(impulse.second);
-    writer.put(impulse.place);
+    writer.put(impulse.point);
     writer.put(impulse.impulse);
   }
-  writer.put(world.parting.size());
-  for (const PartingPair& pair : world.parting) {
+  writer.put(world.depenetrating.size());
+  for (const DepenetratingPair& pair : world.depenetrating) {
     writer.put(pair.first);
     writer.put(pair.second);
   }
@@ -176,15 +176,15 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   }
   loaded.particles.assign(reader.count(), {});
   for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
-  loaded.resting_impulses.assign(reader.count(), {});
-  for (RestingImpulse& impulse : loaded.resting_impulses) {
+  loaded.warm_start_impulses.assign(reader.count(), {});
+  for (WarmStartImpulse& impulse : loaded.warm_start_impulses) {
     reader.get(impulse.first);
     reader.get(impulse.second);
-    reader.get(impulse.place);
+    reader.get(impulse.point);
     reader.get(impulse.impulse);
   }
-  loaded.parting.assign(reader.count(), {});
-  for (PartingPair& pair : loaded.parting) get_bodies(reader, loaded, pair);
+  loaded.depenetrating.assign(reader.count(), {});
+  for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
   reader.expect(state_hash(loaded), "checksum");
   reader.end();
   world = std::move(loaded);

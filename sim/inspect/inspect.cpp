@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sim/collision/find_body_contacts.h"
-#include "sim/hash.h"
+#include "sim/mesh/hash_vertices.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
@@ -11,7 +11,7 @@
 namespace pneuma::sim {
 namespace {
 
-void add(Hash& hash, const std::vector<int>& values) {
+void add_list(base::Hash& hash, const std::vector<int>& values) {
   hash.add(static_cast<std::uint64_t>(values.size()));
   for (const int value : values) hash.add(value);
 }
@@ -80,35 +80,36 @@ Momentum momentum(const World& world) {
 Bounds bounds(const World& world) {
   Bounds all;
   for (const SoftBody& body : world.soft) all.include(bounds(body.positions));
-  for (const RigidBox& box : world.rigid) all.include(place(box).bounds);
+  for (const RigidBox& box : world.rigid) all.include(placed_box(box).bounds);
   return all;
 }
 
 std::uint64_t state_hash(const World& world) {
-  Hash hash;
+  base::Hash hash;
   hash.add(static_cast<std::uint64_t>(world.steps));
   for (const SoftBody& body : world.soft) {
-    hash.add(body.positions);
-    hash.add(body.velocities);
+    add(hash, body.positions);
+    add(hash, body.velocities);
   }
   for (const RigidBox& box : world.rigid) {
-    hash.add(box.position);
-    hash.add(box.velocity);
-    hash.add(box.angular_velocity);
+    add(hash, box.position);
+    add(hash, box.velocity);
+    add(hash, box.angular_velocity);
     for (const double q : box.orientation.coeffs()) hash.add(q);
   }
   for (const ParticlePair& pair : world.particles) {
-    add(hash, {pair.first, pair.second});
-    add(hash, pair.first_features);
-    add(hash, pair.second_features);
+    add_list(hash, {pair.first, pair.second});
+    add_list(hash, pair.first_features);
+    add_list(hash, pair.second_features);
     hash.add(static_cast<std::uint64_t>(pair.near));
   }
-  for (const RestingImpulse& impulse : world.resting_impulses) {
-    add(hash, {impulse.first, impulse.second});
-    hash.add(impulse.place);
-    hash.add(impulse.impulse);
+  for (const WarmStartImpulse& impulse : world.warm_start_impulses) {
+    add_list(hash, {impulse.first, impulse.second});
+    add(hash, impulse.point);
+    add(hash, impulse.impulse);
   }
-  for (const PartingPair& pair : world.parting) add(hash, {pair.first, pair.second});
+  for (const DepenetratingPair& pair : world.depenetrating)
+    add_list(hash, {pair.first, pair.second});
   return hash.value();
 }
 

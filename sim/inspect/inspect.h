@@ -7,7 +7,7 @@
 
 #include "sim/collision/contact.h"
 #include "sim/mesh/measure.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 
@@ -34,13 +34,13 @@ Momentum momentum(const SoftBody& body);
 /// Bounding box of all bodies.
 Bounds bounds(const World& world);
 
-/// The greatest depth in metres by which, at this moment, a body reaches into the ground or into
+/// The maximal depth in metres by which, at this moment, a body reaches into the ground or into
 /// another body; 0 when nothing overlaps. Of soft bodies the vertices and the middles of edges and
 /// triangles count, of boxes the corners and four points along each edge, each by its distance from
 /// the other body's surface; of two boxes the shortest way apart. The step itself keeps only
 /// vertices and corners out (5.2.2), so that an edge may cut off a corner of another body. Looks at
 /// all of this on bodies that are near each other: for reports, not for the step.
-double greatest_penetration(const World& world);
+double max_penetration(const World& world);
 
 /// 64-bit hash of the whole state. Equal states, equal hashes, on one build.
 std::uint64_t state_hash(const World& world);

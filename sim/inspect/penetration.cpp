@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "sim/collision/pair_finder.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/collision/separating_axis.h"
 #include "sim/collision/surface_view.h"
+#include "sim/collision/sweep_and_prune.h"
 #include "sim/inspect/inspect.h"
 
 namespace pneuma::sim {
@@ -52,8 +52,8 @@ void sample_box(const OrientedBox& box, const Look& look) {
       const int other = i | 1 << axis;  // corners number their sides bit by bit
       if (other == i) continue;
       for (int part = 1; part < parts; ++part) {
-        const double share = static_cast<double>(part) / parts;
-        look(box.corner(i) + share * (box.corner(other) - box.corner(i)));
+        const double fraction = static_cast<double>(part) / parts;
+        look(box.corner(i) + fraction * (box.corner(other) - box.corner(i)));
       }
     }
   }
@@ -78,7 +78,7 @@ double soft_and_box(const Shapes& shapes, int soft, const OrientedBox& box) {
 }
 
 double box_and_box(const OrientedBox& first, const OrientedBox& second) {
-  const auto overlap = find_least_overlap(first, second);
+  const auto overlap = find_min_overlap(first, second);
   return overlap ? overlap->overlap : 0.0;
 }
 
@@ -95,13 +95,13 @@ double depth_of_pair(const Shapes& shapes, const BodyPair& pair) {
 
 }  // namespace
 
-double greatest_penetration(const World& world) {
+double max_penetration(const World& world) {
   double depth = 0.0;
   if (world.settings.ground) depth = std::max(depth, -bounds(world).low.z());
 
   const Shapes shapes(world);
   std::vector<BodyPair> pairs;
-  PairFinder().find(shapes.spheres, pairs);
+  SweepAndPrune().find(shapes.spheres, pairs);
   for (const BodyPair& pair : pairs) depth = std::max(depth, depth_of_pair(shapes, pair));
   return depth;
 }

@@ -1,16 +1,16 @@
 #include "sim/mesh/measure.h"
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
 Bounds bounds(const VertexArray& positions) {
   if (positions.size() == 0) return {};
-  const RowReader x(positions);
-  Row low = x[0], high = x[0];
+  const VertexReader x(positions);
+  Vec4d low = x[0], high = x[0];
   for (int i = 1; i < positions.size(); ++i) {
-    low = lesser(low, x[i]);
-    high = greater(high, x[i]);
+    low = min(low, x[i]);
+    high = max(high, x[i]);
   }
   return {to_vec3(low), to_vec3(high)};
 }
@@ -22,12 +22,12 @@ Vec3 mean(const VertexArray& values) {
 
 // Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
 double volume(const MeshTopology& topology, const VertexArray& positions) {
-  const RowReader x(positions);
-  const Row origin = x[0];
-  Row six_volumes{};
+  const VertexReader x(positions);
+  const Vec4d origin = x[0];
+  Vec4d six_volumes{};
   for (const auto& [first, second, third, fourth] : topology.quadrangles()) {
-    const Row a = origin - x[first], c = origin - x[third], across = x[second] - x[fourth];
-    six_volumes += a * turned(across * turned(c) - turned(across) * c);
+    const Vec4d a = origin - x[first], c = origin - x[third], across = x[second] - x[fourth];
+    six_volumes = fma(a, cross(across, c), six_volumes);
   }
   return sum_of_lanes(six_volumes) / 6.0;
 }

@@ -98,7 +98,7 @@ class MeshTopology {
 
   /// The same for loops over all kinds of features, which then need not ask which they have.
   struct FeatureCorners {
-    std::array<int, 3> vertices;  // the first again in the place of those it does not have
+    std::array<int, 3> vertices;  // the first again instead of those it does not have
     FeatureKind kind;
   };
   const FeatureCorners& feature_corners(int id) const { return feature_corners_[at(id)]; }

@@ -21,8 +21,8 @@ std::span<const int> ContactIslands::island(int island) const {
 /// Calls visit(entry) for the entry of every vertex of the side, or of its box.
 template <class Visit>
 void ContactIslands::for_nodes(const ContactSide& side, const Visit& visit) {
-  if (side.kind == BodyKind::rigid) visit(node_contact_[at(side.body)]);
-  if (side.kind != BodyKind::soft) return;
+  if (side.kind == SideKind::rigid) visit(node_contact_[at(side.body)]);
+  if (side.kind != SideKind::soft) return;
   int* const nodes = &node_contact_[at(first_node_[at(side.body)])];
   for (const int v : topologies_[at(side.body)]->feature_vertices(side.feature)) visit(nodes[v]);
 }

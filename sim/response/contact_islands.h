@@ -5,20 +5,20 @@
 #include <vector>
 
 #include "sim/collision/contact.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 
 /// Of a vertex of a soft body on the ground.
 inline bool is_soft_ground(const Contact& contact) {
-  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::ground;
+  return contact.first.kind == SideKind::soft && contact.second.kind == SideKind::ground;
 }
 
 /// Contacts that share a box or a soft body's vertex, directly or through others, make an island:
 /// what happens in one does not reach another within the step, so that each is resolved for itself,
-/// for as long as it needs, by any thread. Most vertices that lie on the ground touch nothing else:
-/// they are kept apart, as what such a contact does is known in closed form
-/// (sim/response/vertex_on_ground.h).
+/// for as long as it needs, by any thread (ERRATA row 57). Most vertices that lie on the ground
+/// touch nothing else: they are kept apart, as what such a contact does is known in closed form
+/// (sim/response/vertex_on_ground.h, ERRATA row 31).
 class ContactIslands {
  public:
   explicit ContactIslands(const World& world);

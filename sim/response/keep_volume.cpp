@@ -5,15 +5,15 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr double least_share = 0.01;
-constexpr int greatest_halvings = 30;
+constexpr double min_volume_fraction = 0.01;
+constexpr int max_volume_halvings = 30;
 
 }  // namespace
 
 void keep_volume(const MeshTopology& topology, const VertexArray& before, VertexArray& positions) {
-  const double least = least_share * volume(topology, before);
-  for (int i = 0; i < greatest_halvings; ++i) {
-    if (volume(topology, positions) >= least) return;
+  const double min_volume = min_volume_fraction * volume(topology, before);
+  for (int i = 0; i < max_volume_halvings; ++i) {
+    if (volume(topology, positions) >= min_volume) return;
     positions.rows() = 0.5 * (positions.rows() + before.rows());
   }
   positions.rows() = before.rows();

@@ -1,4 +1,5 @@
-// Contacts put vertices back by whole depths, which may press a body flat or turn it inside out.
+// Contacts put vertices back by whole depths, which may press a body flat or turn it inside out
+// (ERRATA row 33).
 #pragma once
 
 #include "sim/mesh/topology.h"

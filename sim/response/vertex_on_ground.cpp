@@ -6,11 +6,11 @@
 
 namespace pneuma::sim {
 
-bool meet_ground(double start_approach, const Surface& pair, Vec3& velocity) {
+bool meet_ground(double start_approach, const ContactMaterial& pair, Vec3& velocity) {
   const double approach = -velocity.z();
   if (!(approach > 0.0)) return false;
   double bounce = pair.restitution * std::clamp(start_approach, 0.0, approach);
-  if (bounce < least_bounce_speed) bounce = 0.0;
+  if (bounce < min_bounce_speed) bounce = 0.0;
   velocity.z() = bounce;
   if (pair.friction == 0.0) return false;
   const double limit = pair.friction * (approach + bounce);

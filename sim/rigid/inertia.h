@@ -1,7 +1,7 @@
 // Moments of inertia of a box of uniform density (paper 4.1 with ERRATA row 8).
 #pragma once
 
-#include "sim/world.h"
+#include "sim/world/rigid_box.h"
 
 namespace pneuma::sim {
 

@@ -1,7 +1,7 @@
 // Free motion of a rigid box over one step (paper 4.1).
 #pragma once
 
-#include "sim/world.h"
+#include "sim/world/rigid_box.h"
 
 namespace pneuma::sim {
 
@@ -10,14 +10,15 @@ namespace pneuma::sim {
 /// 9).
 Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rotation);
 
-/// Euler-Cromer: by turns v += a t and p += v t, the same for the orientation. A step begins with
-/// p, so that contacts act on a velocity between the force that changed it and the motion it makes:
-/// what they bring to rest does not move at all. Beginning with v, as the paper writes it,
-/// everything at rest would sink by g t^2 in each step and creep down every slope.
+/// Euler-Cromer: alternately v += a t and p += v t, the same for the orientation. A step begins
+/// with p, so that contacts act on a velocity between the force that changed it and the motion it
+/// makes: what they bring to rest does not move at all. Beginning with v, as the paper writes it,
+/// everything at rest would sink by g t^2 in each step and creep down every slope
+/// (ERRATA row 36).
 ///
 /// A box that is not a cube also gets the gyroscopic term (ERRATA row 9), by keeping its angular
-/// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the share
-/// rho_g of both velocities per 1/60 s.
+/// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the
+/// fraction rho_g of both velocities per 1/60 s (ERRATA row 35).
 void move_freely(RigidBox& box, const Vec3& gravity, double step);
 
 }  // namespace pneuma::sim

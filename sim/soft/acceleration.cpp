@@ -18,7 +18,7 @@ SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& mat
       dashpot_(dashpot_constant(material)),
       drag_(drag_rate(material)),
       gas_(gas_strength(material)),
-      valence_(material.pressure == PressureWeighting::valence) {}
+      valence_(material.pressure_weighting == PressureWeighting::valence) {}
 
 Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
                                          const VertexArray& velocities) const {
@@ -50,7 +50,7 @@ Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
 double SoftAcceleration::operator()(const VertexArray& positions, const VertexArray& velocities,
                                     VertexArray& acceleration) const {
   const Accelerations a = evaluate(positions, velocities);
-  const RowWriter out(acceleration);
+  const VertexWriter out(acceleration);
   for (int v = 0; v < positions.size(); ++v) out.put(v, a[v]);
   return a.volume();
 }

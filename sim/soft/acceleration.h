@@ -1,4 +1,4 @@
-// The model's one differential equation (DESIGN "The model"), as a function of positions and
+// The model's one differential equation (README "The model"), as a function of positions and
 // velocities: every integrator, study and reference solves exactly this.
 //
 //   m dv/dt = sum_springs [k (l - L) + c (v_rel . d)] d  +  w P dV/dx  +  m g  -  gamma m v
@@ -6,10 +6,10 @@
 
 #include <vector>
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/soft_mesh.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/soft/ring_forces.h"
-#include "sim/soft/soft_mesh.h"
-#include "sim/world.h"
+#include "sim/world/soft_body.h"
 
 namespace pneuma::sim {
 
@@ -29,10 +29,11 @@ struct AccelerationScratch {
 class Accelerations {
  public:
   /// dv/dt in m/s^2.
-  Row operator[](int vertex) const {
-    return gravity_ - drag_ * velocities_[vertex] +
-           inverse_mass_ * forces_[RingForces::springs(vertex)] +
-           sixth_pressure_over_mass_ * forces_[RingForces::six_volume_gradients(vertex)];
+  Vec4d operator[](int vertex) const {
+    const Vec4d dragged = fma(-drag_, velocities_[vertex], gravity_);
+    const Vec4d sprung = fma(inverse_mass_, forces_[RingForces::springs(vertex)], dragged);
+    return fma(sixth_pressure_over_mass_, forces_[RingForces::six_volume_gradients(vertex)],
+               sprung);
   }
 
   /// m^3 when the body has gas, else 1. Not above zero, or not a number: the body turned inside out
@@ -44,9 +45,9 @@ class Accelerations {
   Accelerations(const RingForces& forces, const VertexArray& velocities)
       : forces_(forces.rows()), velocities_(velocities) {}
 
-  RowReader forces_;
-  RowReader velocities_;
-  Row gravity_{};
+  VertexReader forces_;
+  VertexReader velocities_;
+  Vec4d gravity_{};
   double drag_ = 0.0;
   double inverse_mass_ = 0.0;
   double sixth_pressure_over_mass_ = 0.0;
@@ -71,7 +72,7 @@ class SoftAcceleration {
  private:
   const SoftMesh& mesh_;
   AccelerationScratch& scratch_;
-  Row gravity_;
+  Vec4d gravity_;
   double inverse_mass_;
   double k_;
   double dashpot_;

@@ -6,9 +6,9 @@
 namespace pneuma::sim {
 namespace {
 
-/// So many iterations take a half to a third of the time of new factors, of 162 to 40,962 vertices:
-/// 0.23 of 0.47 ms, and 4.7 of 12.6 s.
-double most_iterations(int vertex_count) { return std::pow(vertex_count, 0.75); }
+/// So many iterations take a half to a third of the time of new factors
+/// (tests/benchmarks/README.md).
+double max_gradient_iterations(int vertex_count) { return std::pow(vertex_count, 0.75); }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ ConjugateGradients::ConjugateGradients(int vertex_count)
 bool ConjugateGradients::promises_to_be_quick(int vertex_count, double stiffness, double inertia) {
   constexpr double mean_valence = 6.0;
   const double condition = 2.0 * mean_valence * stiffness / inertia;
-  return std::sqrt(condition) < 2.0 * most_iterations(vertex_count);
+  return std::sqrt(condition) < 2.0 * max_gradient_iterations(vertex_count);
 }
 
 bool ConjugateGradients::invert_diagonal(const VertexMatrix& matrix, const VertexArray& rank_one) {
@@ -58,21 +58,21 @@ ConjugateGradients::End ConjugateGradients::solve(const VertexMatrix& matrix,
   precondition();
   search_.rows() = preconditioned_.rows();
   double size = dot(residual_, preconditioned_);
-  const double least = forcing_term * forcing_term * size;
-  const int most = static_cast<int>(most_iterations(gradient.size()));
-  for (int i = 0; i < most && size > least; ++i) {
+  const double target = forcing_term * forcing_term * size;
+  const int max_iterations = static_cast<int>(max_gradient_iterations(gradient.size()));
+  for (int i = 0; i < max_iterations && size > target; ++i) {
     multiply(matrix, rank_one);
     const double curvature = dot(search_, product_);
     if (!(curvature > 0.0)) return End::not_positive;
-    const double share = size / curvature;
-    direction.rows() += share * search_.rows();
-    residual_.rows() -= share * product_.rows();
+    const double length = size / curvature;
+    direction.rows() += length * search_.rows();
+    residual_.rows() -= length * product_.rows();
     precondition();
     const double before = size;
     size = dot(residual_, preconditioned_);
     search_.rows() = preconditioned_.rows() + size / before * search_.rows();
   }
-  return size <= least ? End::solved : End::too_slow;
+  return size <= target ? End::solved : End::too_slow;
 }
 
 }  // namespace pneuma::sim

@@ -2,15 +2,9 @@
 // Newton method needs it.
 //
 // Where springs are not stiff beside the inertia, a vertex feels within a step only those near it,
-// and some ten iterations tell the direction; each takes a small share of the time of sparse
-// factors. The preconditioner is block Jacobi: the 3 x 3 blocks on H's diagonal. Milliseconds of
-// the processor per step of 1/60 s of implicit_euler, a sphere of 20 kg blown up on the ground, by
-// conjugate gradients | by factors alone | as it is:
-//
-//   vertices             42                  642                 2,562
-//   k = 50, n = 10       0.09 | 0.14 | 0.09  3.1 | 24.1 | 2.4     16 | 348 | 17
-//   k = 1e4, n = 100     0.12 | 0.12 | 0.12  7.3 | 21.4 | 6.8    142 | 948 | 153
-//   k = 1e6, n = 1e4     0.14 | 0.10 | 0.10  4.2 |  7.0 | 7.1    197 | 557 | 172
+// and some ten iterations tell the direction; each takes a small fraction of the time of sparse
+// factors. The preconditioner is block Jacobi: the 3 x 3 blocks on H's diagonal.
+// tests/benchmarks/README.md compares conjugate gradients with factors.
 #pragma once
 
 #include <vector>
@@ -24,7 +18,8 @@ class ConjugateGradients {
   /// Takes memory for all that follows.
   explicit ConjugateGradients(int vertex_count);
 
-  /// The forcing term: the share of the residual, in the preconditioner's norm, that may be left.
+  /// The forcing term: the fraction of the residual, in the preconditioner's norm, that may be
+  /// left.
   static constexpr double forcing_term = 1e-3;
 
   /// False where springs are so stiff that it would be too slow: a guess.
@@ -33,7 +28,7 @@ class ConjugateGradients {
   enum class End {
     solved,
     not_positive,  // H has been seen not to be positive definite
-    too_slow,      // it has taken a good part of the time of factors
+    too_slow,      // it has taken a good part of the time that factors take
   };
 
   /// `matrix` is S, `rank_one` q. Writes p, which means something only when `solved`: then H is

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double paper_steps_per_second = 60.0;
 
-double spring_share(const SoftMaterial& material) {
+double spring_fraction(const SoftMaterial& material) {
   return std::min(material.k / material.k_max, 1.0);
 }
 
@@ -21,13 +21,13 @@ double drag_rate(const SoftMaterial& material) {
 
 double dashpot_constant(const SoftMaterial& material) {
   if (material.damping == Damping::literal) return 0.0;
-  const double share = std::min(spring_share(material), greatest_spring_share);
-  return -0.5 * material.vertex_mass * paper_steps_per_second * std::log1p(-share);
+  const double fraction = std::min(spring_fraction(material), max_spring_fraction);
+  return -0.5 * material.vertex_mass * paper_steps_per_second * std::log1p(-fraction);
 }
 
-double literal_share(const SoftMaterial& material) {
+double literal_fraction(const SoftMaterial& material) {
   if (material.damping == Damping::dashpot) return 0.0;
-  return material.rho_g + (1.0 - material.rho_g) * spring_share(material);
+  return material.rho_g + (1.0 - material.rho_g) * spring_fraction(material);
 }
 
 }  // namespace pneuma::sim

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "sim/base/text.h"
+#include "sim/mesh/edge_length.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
-#include "sim/soft/spring_force.h"
-#include "sim/text.h"
 
 namespace pneuma::sim {
 namespace {
@@ -18,12 +18,12 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// Rounds of the proximal iteration: what is given up falls off steeply at the softening.
 constexpr int rounds = 10;
 
-/// In place of a softening of 0, as a share of k: far below the stiffness of any load that a mesh
+/// Instead of a softening of 0, as a fraction of k: far below the stiffness of any load that a mesh
 /// of sane triangles balances, far above the 1e-15 to which the equations are solved.
-constexpr double least_softening = 1e-9;
+constexpr double min_softening = 1e-9;
 
-/// Net force and torque up to which they are rounding, as a share of the sum of all forces.
-constexpr double rounding = 1e-9;
+/// Net force and torque up to which they are rounding, as a fraction of the sum of all forces.
+constexpr double equilibrium_rounding = 1e-9;
 
 /// The pressure force on every vertex in N, as one column x0 y0 z0 x1 ...
 Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& positions,
@@ -33,7 +33,7 @@ Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& 
   volume_gradient(topology, positions, gradient);
   const double enclosed = volume(positions, gradient);
   if (!(enclosed > 0.0)) {
-    throw EquilibriumError("the shape's volume is " + text(enclosed) +
+    throw EquilibriumError("the shape's volume is " + base::text(enclosed) +
                            " m^3: gas needs a volume above zero, its triangles must be "
                            "counter-clockwise from outside");
   }
@@ -41,7 +41,7 @@ Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& 
   const double mean_springs = 2.0 * topology.edge_count() / count;
   Eigen::VectorXd force(3 * count);
   for (int v = 0; v < count; ++v) {
-    const bool valence = material.pressure == PressureWeighting::valence;
+    const bool valence = material.pressure_weighting == PressureWeighting::valence;
     const double springs = static_cast<double>(topology.ring(v).size());
     force.segment<3>(3 * v) = (valence ? springs / mean_springs : 1.0) * pressure * gradient[v];
   }
@@ -61,9 +61,11 @@ void check_balance(const VertexArray& positions, const Eigen::VectorXd& force) {
     sum += here.norm();
     sum_of_moments += arm.norm() * here.norm();
   }
-  if (net.norm() <= rounding * sum && torque.norm() <= rounding * sum_of_moments) return;
-  throw EquilibriumError("the pressure has a net force of " + text(net.norm()) +
-                         " N and a net torque of " + text(torque.norm()) +
+  if (net.norm() <= equilibrium_rounding * sum &&
+      torque.norm() <= equilibrium_rounding * sum_of_moments)
+    return;
+  throw EquilibriumError("the pressure has a net force of " + base::text(net.norm()) +
+                         " N and a net torque of " + base::text(torque.norm()) +
                          " N m, which springs cannot balance: use uniform pressure, not valence");
 }
 
@@ -88,15 +90,15 @@ struct Tensions {
   double residual;
 };
 
-/// D t = -f for the least t, where D D^T is k's stiffness over k. The exact t = -D^T (D D^T)^-1 f
-/// does not exist for rigid motions, and is enormous for motions that hardly stretch a spring. With
-/// s added to the diagonal, a load of the stiffness q k is balanced to the share q / (q + s), and
-/// after n rounds on what is left over, to 1 - (s / (q + s))^n.
+/// D t = -f for the smallest t, where D D^T is k's stiffness over k. The exact t = -D^T (D D^T)^-1
+/// f does not exist for rigid motions, and is enormous for motions that hardly stretch a spring.
+/// With s added to the diagonal, a load of the stiffness q k is balanced to the fraction q / (q +
+/// s), and after n rounds on what is left over, to 1 - (s / (q + s))^n.
 Tensions solve(const Sparse& directions, const Eigen::VectorXd& force, double softening) {
   Sparse stiffness = directions * Sparse(directions.transpose());
   Sparse identity(stiffness.rows(), stiffness.cols());
   identity.setIdentity();
-  stiffness += std::max(softening, least_softening) * identity;
+  stiffness += std::max(softening, min_softening) * identity;
   const Eigen::SimplicialLDLT<Sparse> solver(stiffness);
   if (solver.info() != Eigen::Success) {
     throw EquilibriumError("the equations of the springs cannot be solved: an edge has no length");
@@ -117,9 +119,10 @@ double rest_length(const MeshTopology& topology, int edge, double length, double
   if (rest > 0.0) return rest;
   const auto& [a, b] = topology.edges()[at(edge)];
   throw EquilibriumError("edge " + std::to_string(a) + "-" + std::to_string(b) + ", " +
-                         text(length) + " m long, would need a rest length of " + text(rest) +
-                         " m, which must be above zero: it bears " + text(tension) + " N at k = " +
-                         text(k) + " N/m. Use a greater k, less gas, or more softening");
+                         base::text(length) + " m long, would need a rest length of " +
+                         base::text(rest) + " m, which must be above zero: it bears " +
+                         base::text(tension) + " N at k = " + base::text(k) +
+                         " N/m. Use a greater k or less gas (a smaller n)");
 }
 
 }  // namespace
@@ -130,18 +133,20 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
   if (gas_strength(material) > 0.0) {
     if (!(material.k > 0.0)) {
       throw EquilibriumError(
-          "k = " + text(material.k) +
+          "k = " + base::text(material.k) +
           " N/m: without springs nothing balances the gas; k must be above zero");
     }
     const Eigen::VectorXd force = pressure_force(topology, positions, material);
     check_balance(positions, force);
     tensions = solve(spring_directions(topology, positions), force, options.softening);
   }
-  if (!(tensions.residual <= options.greatest_residual)) {
-    throw EquilibriumError("the springs leave " + text(tensions.residual) +
-                           " of the pressure force unbalanced, " + text(options.greatest_residual) +
-                           " is allowed: the shape is too flat for the softening of " +
-                           text(options.softening));
+  if (!(tensions.residual <= options.max_residual)) {
+    throw EquilibriumError("the springs leave " + base::text(tensions.residual) +
+                           " of the pressure force unbalanced, " +
+                           base::text(options.max_residual) +
+                           " is allowed: the shape is too flat to be held by its springs. Use a "
+                           "thicker shape, or springs "
+                           "at rest in the shape (rest = \"shape\")");
   }
   Equilibrium result{{}, tensions.residual};
   for (int e = 0; e < topology.edge_count(); ++e) {

@@ -1,4 +1,4 @@
-// Rest lengths with which a shape is held by its own gas.
+// Rest lengths with which a shape is held by its own gas (ERRATA row 27).
 //
 // A membrane whose springs are at rest in the shape that was modelled leaves it as soon as gas
 // pushes: it wants to be a ball. The shape is the equilibrium instead if the springs are stretched
@@ -8,10 +8,11 @@
 //
 // d along the spring away from the vertex. A closed mesh of genus g has 3 V - 6 + 6 g springs and
 // as many tensions, and 3 V - 6 of these equations are independent: there is one solution on a
-// sphere and a choice on a torus, of which the least (sum of t^2) is taken. Almost every such
-// framework is rigid (Gluck 1975), but where the surface is nearly flat or saddle-shaped it is so
-// by a hair: there are loads that only enormous tensions balance, and with these the equilibrium
-// may be unstable. `softening` leaves such loads alone; the shape then yields to them a little.
+// sphere and a choice on a torus, of which the one with the smallest sum of t^2 is taken. Almost
+// every such framework is rigid (Gluck 1975), but where the surface is nearly flat or saddle-shaped
+// it is so by a hair: there are loads that only enormous tensions balance, and with these the
+// equilibrium may be unstable. `softening` leaves such loads alone; the shape then yields to them a
+// little.
 #pragma once
 
 #include <stdexcept>
@@ -19,16 +20,16 @@
 
 #include "sim/mesh/topology.h"
 #include "sim/mesh/vertex_array.h"
-#include "sim/world.h"
+#include "sim/world/soft_body.h"
 
 namespace pneuma::sim {
 
 struct EquilibriumOptions {
-  /// Loads are given up whose stiffness is well below this share of k; >= 0, and at most about 1.
-  /// 0 balances all of them.
+  /// Loads are given up whose stiffness is well below this fraction of k; >= 0, and at most
+  /// about 1. 0 balances all of them.
   double softening = 0.1;
-  /// Share of the pressure force that may stay unbalanced, 0..1.
-  double greatest_residual = 0.3;
+  /// Fraction of the pressure force that may stay unbalanced, 0..1.
+  double max_residual = 0.3;
 };
 
 /// All of the pressure balanced, up to rounding: for shapes that curve outwards everywhere.
@@ -36,7 +37,7 @@ inline constexpr EquilibriumOptions exact_equilibrium = {0.0, 1e-9};
 
 struct Equilibrium {
   std::vector<double> rest_lengths;  // m, per edge
-  double residual = 0.0;             // share of the pressure force left unbalanced (of its norm)
+  double residual = 0.0;             // fraction of the pressure force left unbalanced (of its norm)
 };
 
 /// There are no such rest lengths. The message says why, and what to do.

@@ -14,18 +14,18 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Of the mean rest length: how far from the least energy a vertex may end.
-constexpr double tolerance_share = 1e-10;
-/// Of the greatest coordinate: what a double can tell.
-constexpr double rounding_share = 4e-15;
+/// Fraction of the mean rest length: how far from the minimum a vertex may end.
+constexpr double tolerance_fraction = 1e-10;
+/// Fraction of the largest coordinate: what a double can resolve.
+constexpr double rounding_fraction = 4e-15;
 
-/// m/s. Slower is held by friction rather than sliding, until it is known better.
-constexpr double slip_speed = 1e-4;
+/// m/s. Slower vertices are taken to stick to their friction anchors, until it is known better.
+constexpr double anchor_speed = 1e-4;
 /// Friction comes from the ground's forces, which it changes in turn: the minimisation is repeated
 /// until no vertex begins or ceases to slide, and the friction of those that do changes by less
-/// than this share in all, but not more often than this.
-constexpr double grip_change = 0.05;
-constexpr int greatest_friction_rounds = 4;
+/// than this fraction in all, but not more often than this.
+constexpr double friction_bound_change = 0.05;
+constexpr int max_friction_rounds = 4;
 
 }  // namespace
 
@@ -65,8 +65,8 @@ void EulerSolver::set_floor(int vertex, double height) {
 
 bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& guess) {
   set_energy(beta, base);
-  const double tolerance = std::max(tolerance_share * mean_rest_length_,
-                                    rounding_share * guess.rows().cwiseAbs().maxCoeff());
+  const double tolerance = std::max(tolerance_fraction * mean_rest_length_,
+                                    rounding_fraction * guess.rows().cwiseAbs().maxCoeff());
   if (!begin(guess, false)) return false;
   predict_friction(base);
   for (int round = 1;; ++round) {
@@ -76,7 +76,7 @@ bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& gu
     effort_.factorizations += report.factorizations;
     effort_.converged &= report.converged;
     minimiser_.update_gradient(energy_);
-    if (!report.converged || round == greatest_friction_rounds || !correct_friction()) break;
+    if (!report.converged || round == max_friction_rounds || !correct_friction()) break;
   }
   positions_.rows() = minimiser_.point().positions.rows();
   keep_momentum();
@@ -93,26 +93,27 @@ void EulerSolver::set_energy(double beta, const EulerBase& base) {
 
   const double dashpot = dashpot_constant(material_) / beta;
   energy_.stiffness = material_.k + dashpot;
-  const double share = energy_.stiffness > 0.0 ? dashpot / energy_.stiffness : 0.0;
+  const double dashpot_fraction = energy_.stiffness > 0.0 ? dashpot / energy_.stiffness : 0.0;
   for (std::size_t e = 0; e < energy_.rest_lengths.size(); ++e) {
-    energy_.rest_lengths[e] = (1.0 - share) * mesh_.rest_lengths[e] + share * base.lengths[e];
+    energy_.rest_lengths[e] =
+        (1.0 - dashpot_fraction) * mesh_.rest_lengths[e] + dashpot_fraction * base.lengths[e];
   }
 
   energy_.gas = gas_strength(material_);
-  energy_.hold.rows() = base.state.positions.rows();
-  energy_.slip = slip_speed * beta;
+  energy_.friction_anchor.rows() = base.state.positions.rows();
+  energy_.regularisation_length = anchor_speed * beta;
   energy_.friction = false;
 }
 
-/// Takes the minimiser to the best of some places: the guess, the guess moved along as a whole,
-/// where the vertices would be by themselves, and, if asked to, where it is.
+/// Starts the minimiser from the best of some positions: the guess, the guess moved along as a
+/// whole, where the vertices would be by themselves, and, if asked to, where it is.
 bool EulerSolver::begin(const VertexArray& guess, bool from_here) {
   EnergyPoint& point = minimiser_.point();
-  double least = std::numeric_limits<double>::infinity();
+  double min_energy = std::numeric_limits<double>::infinity();
   const auto consider = [&] {
     put_where_allowed(point.positions);
-    if (!evaluate(mesh_, energy_, point) || !(point.energy < least)) return;
-    least = point.energy;
+    if (!evaluate(mesh_, energy_, point) || !(point.energy < min_energy)) return;
+    min_energy = point.energy;
     positions_.rows() = point.positions.rows();
   };
   if (from_here) consider();
@@ -124,28 +125,28 @@ bool EulerSolver::begin(const VertexArray& guess, bool from_here) {
   point.positions.rows() = energy_.target.rows();
   consider();
   point.positions.rows() = positions_.rows();
-  return std::isfinite(least) && evaluate(mesh_, energy_, point);
+  return std::isfinite(min_energy) && evaluate(mesh_, energy_, point);
 }
 
 void EulerSolver::put_where_allowed(VertexArray& positions) const {
   if (!energy_.ground) return;
   for (int v = 0; v < positions.size(); ++v) {
     positions[v].z() = std::max(positions[v].z(), energy_.floor[at(v)]);
-    if (!energy_.friction || !energy_.held[at(v)]) continue;
-    positions[v].head<2>() = Vec3(energy_.hold[v]).head<2>();
+    if (!energy_.friction || !energy_.anchored[at(v)]) continue;
+    positions[v].head<2>() = Vec3(energy_.friction_anchor[v]).head<2>();
   }
 }
 
-/// From where the minimiser is: what the ground pushes there is held if it was slow, or slides.
+/// From where the minimiser is: what the ground pushes there sticks if it was slow, or slides.
 void EulerSolver::predict_friction(const EulerBase& base) {
   if (!energy_.ground || friction_ == 0.0) return;
   minimiser_.update_gradient(energy_);
   for (int v = 0; v < positions_.size(); ++v) {
-    const double grip = friction_ * normal_force(v);
-    const bool slow = Vec3(base.state.velocities[v]).head<2>().norm() < slip_speed;
-    energy_.held[at(v)] = grip > 0.0 && slow;
-    energy_.grip[at(v)] = slow ? 0.0 : grip;
-    energy_.friction |= grip > 0.0;
+    const double bound = friction_ * normal_force(v);
+    const bool slow = Vec3(base.state.velocities[v]).head<2>().norm() < anchor_speed;
+    energy_.anchored[at(v)] = bound > 0.0 && slow;
+    energy_.friction_bound[at(v)] = slow ? 0.0 : bound;
+    energy_.friction |= bound > 0.0;
   }
 }
 
@@ -153,22 +154,23 @@ void EulerSolver::predict_friction(const EulerBase& base) {
 bool EulerSolver::correct_friction() {
   if (!energy_.ground || friction_ == 0.0) return false;
   double change = 0.0, sum = 0.0;
-  bool other = false;  // held or not
+  bool other = false;  // anchored or not
   for (int v = 0; v < positions_.size(); ++v) {
-    const double grip = friction_ * normal_force(v);
-    const Vec3 slide = minimiser_.point().positions[v] - energy_.hold[v];
-    const bool was_held = energy_.friction && energy_.held[at(v)];
-    const bool held = grip > 0.0 && (was_held ? minimiser_.hold_force(v) <= grip
-                                              : slide.head<2>().norm() < energy_.slip);
-    const double before = energy_.friction ? energy_.grip[at(v)] : 0.0;
-    energy_.held[at(v)] = held;
-    energy_.grip[at(v)] = held ? 0.0 : grip;
-    change += std::abs(energy_.grip[at(v)] - before);
-    sum += grip;
-    other |= held != was_held;
+    const double bound = friction_ * normal_force(v);
+    const Vec3 slide = minimiser_.point().positions[v] - energy_.friction_anchor[v];
+    const bool was_anchored = energy_.friction && energy_.anchored[at(v)];
+    const bool is_anchored =
+        bound > 0.0 && (was_anchored ? minimiser_.anchor_force(v) <= bound
+                                     : slide.head<2>().norm() < energy_.regularisation_length);
+    const double before = energy_.friction ? energy_.friction_bound[at(v)] : 0.0;
+    energy_.anchored[at(v)] = is_anchored;
+    energy_.friction_bound[at(v)] = is_anchored ? 0.0 : bound;
+    change += std::abs(energy_.friction_bound[at(v)] - before);
+    sum += bound;
+    other |= is_anchored != was_anchored;
   }
   energy_.friction = sum > 0.0;
-  return other || change > grip_change * sum;
+  return other || change > friction_bound_change * sum;
 }
 
 /// Springs and gas do not move the centre: what is left of that, in the air, is the minimisation's

@@ -6,11 +6,11 @@
 
 #include "sim/soft/minimise_energy.h"
 #include "sim/soft/soft_state.h"
-#include "sim/world.h"
+#include "sim/world/soft_body.h"
 
 namespace pneuma::sim {
 
-/// From where a step goes.
+/// The state that a step starts from.
 struct EulerBase {
   explicit EulerBase(const SoftMesh& mesh);
 
@@ -35,9 +35,9 @@ class EulerSolver {
   /// Of the vertices' springs.
   double mean_rest_length() const { return mean_rest_length_; }
 
-  /// Steps `beta` seconds from `base`. `guess` is a place with V > 0 and not below the floor: the
-  /// energy where the step ends is at most what it is there. Returns false when its volume is not
-  /// above 0 by more than rounding, or something is not finite.
+  /// Steps `beta` seconds from `base`. `guess` are positions with V > 0 and not below the floor:
+  /// the energy at the step's end is at most that of the guess. Returns false when its volume is
+  /// not above 0 by more than rounding, or something is not finite.
   [[nodiscard]] bool step(double beta, const EulerBase& base, const VertexArray& guess);
 
   const VertexArray& positions() const { return positions_; }  // where the last step ended
@@ -63,7 +63,7 @@ class EulerSolver {
 
   const SoftMesh& mesh_;
   EnergyMinimiser minimiser_;
-  StepEnergy energy_;
+  IncrementalPotential energy_;
   VertexArray positions_;
   double mean_rest_length_;
   SoftMaterial material_;

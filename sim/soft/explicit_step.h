@@ -2,18 +2,18 @@
 // their stability is known.
 //
 // `acceleration(positions, velocities, result)` writes dv/dt and returns the volume at which it was
-// evaluated (SoftAcceleration). Each step returns the least of these, not a number if one is not.
-// An acceleration may also have `evaluate(positions, velocities)`, which gives one vertex's dv/dt
-// at a time (Accelerations): then nothing is stored in between.
+// evaluated (SoftAcceleration). Each step returns the smallest of these volumes, not a number if
+// one is not. An acceleration may also have `evaluate(positions, velocities)`, which gives one
+// vertex's dv/dt at a time (Accelerations): then nothing is stored in between.
 #pragma once
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/soft/soft_state.h"
-#include "sim/world.h"
+#include "sim/world/settings.h"
 
 namespace pneuma::sim {
 
@@ -24,16 +24,16 @@ struct ExplicitScratch {
   VertexArray stage, first, sum;
 };
 
-/// The least volume met so far; a NaN, once met, stays.
-class LeastVolume {
+/// The smallest volume met so far; a NaN, once met, stays.
+class MinVolume {
  public:
   void meet(double volume) {
-    if (!(volume >= least_)) least_ = std::isnan(least_) ? least_ : volume;
+    if (!(volume >= min_)) min_ = std::isnan(min_) ? min_ : volume;
   }
-  double value() const { return least_; }
+  double value() const { return min_; }
 
  private:
-  double least_ = std::numeric_limits<double>::infinity();
+  double min_ = std::numeric_limits<double>::infinity();
 };
 
 /// Evaluates the acceleration and calls take(vertex, dv/dt) for every vertex in turn, in which the
@@ -49,7 +49,7 @@ double for_each_acceleration(const Acceleration& acceleration, const VertexArray
     return a.volume();
   } else {
     const double volume = acceleration(positions, velocities, scratch.stage);
-    const RowReader a(scratch.stage);
+    const VertexReader a(scratch.stage);
     for (int i = 0; i < count; ++i) take(i, a[i]);
     return volume;
   }
@@ -61,43 +61,45 @@ double for_each_acceleration(const Acceleration& acceleration, const VertexArray
 template <class Acceleration>
 double martin(const Acceleration& acceleration, double h, const SoftState& start,
               VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
-  LeastVolume least;
-  const RowReader x0(start.positions), v0(start.velocities), sum(s.sum);
-  const RowWriter x(positions), v(velocities), new_sum(s.sum);
+  MinVolume min_volume;
+  const VertexReader x0(start.positions), v0(start.velocities), sum(s.sum);
+  const VertexWriter x(positions), v(velocities), new_sum(s.sum);
   /// Sums so far and the velocity to come: a0, then a1, a2 twice each.
-  const auto stage = [=](double share, double weight) {
-    return [=](int i, Row a) {
-      const Row v_i = v0[i] + share * h * a;
+  const auto stage = [=](double fraction, double weight) {
+    return [=](int i, Vec4d a) {
+      const Vec4d v_i = fma(fraction * h, a, v0[i]);
       v.put(i, v_i);
-      x.put(i, x0[i] + share * h * v_i);
-      new_sum.put(i, sum[i] + weight * a);
+      x.put(i, fma(fraction * h, v_i, x0[i]));
+      new_sum.put(i, fma(weight, a, sum[i]));
     };
   };
-  const auto end = [=](int i, Row a) {
-    const Row v_i = v0[i] + h / 6.0 * (sum[i] + a);
+  const auto end = [=](int i, Vec4d a) {
+    const Vec4d v_i = fma(h / 6.0, sum[i] + a, v0[i]);
     v.put(i, v_i);
-    x.put(i, x0[i] + h * v_i);
+    x.put(i, fma(h, v_i, x0[i]));
   };
 
   s.sum.rows().setZero();
-  least.meet(for_each_acceleration(acceleration, start.positions, start.velocities, s,
-                                   stage(0.5, 1.0)));                                          // a0
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, stage(0.5, 2.0)));  // a1
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, stage(1.0, 2.0)));  // a2
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, end));              // a3
-  return least.value();
+  min_volume.meet(for_each_acceleration(acceleration, start.positions, start.velocities, s,
+                                        stage(0.5, 1.0)));  // a0
+  min_volume.meet(
+      for_each_acceleration(acceleration, positions, velocities, s, stage(0.5, 2.0)));  // a1
+  min_volume.meet(
+      for_each_acceleration(acceleration, positions, velocities, s, stage(1.0, 2.0)));  // a2
+  min_volume.meet(for_each_acceleration(acceleration, positions, velocities, s, end));  // a3
+  return min_volume.value();
 }
 
 template <class Acceleration>
 double symplectic_euler(const Acceleration& acceleration, double h, const SoftState& start,
                         VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
-  const RowReader x0(start.positions), v0(start.velocities);
-  const RowWriter x(positions), v(velocities);
+  const VertexReader x0(start.positions), v0(start.velocities);
+  const VertexWriter x(positions), v(velocities);
   return for_each_acceleration(acceleration, start.positions, start.velocities, s,
-                               [=](int i, Row a) {
-                                 const Row v_i = v0[i] + h * a;
+                               [=](int i, Vec4d a) {
+                                 const Vec4d v_i = fma(h, a, v0[i]);
                                  v.put(i, v_i);
-                                 x.put(i, x0[i] + h * v_i);
+                                 x.put(i, fma(h, v_i, x0[i]));
                                });
 }
 
@@ -107,18 +109,18 @@ double symplectic_euler(const Acceleration& acceleration, double h, const SoftSt
 template <class Acceleration>
 double velocity_verlet(const Acceleration& acceleration, double h, const SoftState& start,
                        VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
-  LeastVolume least;
-  const RowReader x0(start.positions), v0(start.velocities), predicted(velocities);
-  const RowWriter x(positions), v(velocities);
-  least.meet(
-      for_each_acceleration(acceleration, start.positions, start.velocities, s, [=](int i, Row a) {
-        x.put(i, x0[i] + h * (v0[i] + 0.5 * h * a));
-        v.put(i, v0[i] + h * a);
-      }));
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
-    v.put(i, 0.5 * (v0[i] + predicted[i] + h * a));
-  }));
-  return least.value();
+  MinVolume min_volume;
+  const VertexReader x0(start.positions), v0(start.velocities), predicted(velocities);
+  const VertexWriter x(positions), v(velocities);
+  min_volume.meet(for_each_acceleration(acceleration, start.positions, start.velocities, s,
+                                        [=](int i, Vec4d a) {
+                                          x.put(i, fma(h, fma(0.5 * h, a, v0[i]), x0[i]));
+                                          v.put(i, fma(h, a, v0[i]));
+                                        }));
+  min_volume.meet(for_each_acceleration(
+      acceleration, positions, velocities, s,
+      [=](int i, Vec4d a) { v.put(i, 0.5 * fma(h, a, v0[i] + predicted[i])); }));
+  return min_volume.value();
 }
 
 /// The classical fourth-order Runge-Kutta method on (x, v). Its velocities are v1 = v0 + h/2 a0, v2
@@ -127,32 +129,35 @@ double velocity_verlet(const Acceleration& acceleration, double h, const SoftSta
 template <class Acceleration>
 double rk4(const Acceleration& acceleration, double h, const SoftState& start,
            VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
-  LeastVolume least;
-  const RowReader x0(start.positions), v0(start.velocities), last_v(velocities);
-  const RowReader a0(s.first), sum(s.sum);
-  const RowWriter x(positions), v(velocities), new_a0(s.first), new_sum(s.sum);
+  MinVolume min_volume;
+  const VertexReader x0(start.positions), v0(start.velocities), last_v(velocities);
+  const VertexReader a0(s.first), sum(s.sum);
+  const VertexWriter x(positions), v(velocities), new_a0(s.first), new_sum(s.sum);
 
-  least.meet(
-      for_each_acceleration(acceleration, start.positions, start.velocities, s, [=](int i, Row a) {
-        x.put(i, x0[i] + 0.5 * h * v0[i]);
-        v.put(i, v0[i] + 0.5 * h * a);
-        new_a0.put(i, a);
+  min_volume.meet(for_each_acceleration(acceleration, start.positions, start.velocities, s,
+                                        [=](int i, Vec4d a) {
+                                          x.put(i, fma(0.5 * h, v0[i], x0[i]));
+                                          v.put(i, fma(0.5 * h, a, v0[i]));
+                                          new_a0.put(i, a);
+                                        }));
+  min_volume.meet(
+      for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Vec4d a) {
+        x.put(i, fma(0.5 * h, last_v[i], x0[i]));
+        v.put(i, fma(0.5 * h, a, v0[i]));
+        new_sum.put(i, a0[i] + a);
       }));
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
-    x.put(i, x0[i] + 0.5 * h * last_v[i]);
-    v.put(i, v0[i] + 0.5 * h * a);
-    new_sum.put(i, a0[i] + a);
-  }));
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
-    x.put(i, x0[i] + h * last_v[i]);
-    v.put(i, v0[i] + h * a);
-    new_sum.put(i, sum[i] + a);
-  }));
-  least.meet(for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Row a) {
-    x.put(i, x0[i] + h * (v0[i] + h / 6.0 * sum[i]));
-    v.put(i, v0[i] + h / 6.0 * (2.0 * sum[i] - a0[i] + a));
-  }));
-  return least.value();
+  min_volume.meet(
+      for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Vec4d a) {
+        x.put(i, fma(h, last_v[i], x0[i]));
+        v.put(i, fma(h, a, v0[i]));
+        new_sum.put(i, sum[i] + a);
+      }));
+  min_volume.meet(
+      for_each_acceleration(acceleration, positions, velocities, s, [=](int i, Vec4d a) {
+        x.put(i, fma(h, fma(h / 6.0, sum[i], v0[i]), x0[i]));
+        v.put(i, fma(h / 6.0, fma(2.0, sum[i], a - a0[i]), v0[i]));
+      }));
+  return min_volume.value();
 }
 
 /// Writes into `positions` and `velocities` the state `step` seconds after `start`.

@@ -6,19 +6,17 @@
 #include <numbers>
 
 #include "sim/mesh/measure.h"
-#include "sim/response/contact_impulse.h"
-#include "sim/response/contact_side.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// Of an energy's terms: the rounding in their sum.
+/// Fraction of an energy's terms: the rounding in their sum.
 constexpr double energy_rounding = 1e-13;
 
-/// Of the mean rest length per step: slower is at rest.
-constexpr double still_share = 1e-10;
+/// Fraction of the mean rest length per step: slower is at rest.
+constexpr double still_fraction = 1e-10;
 
 /// sdirk2: the length of either part, and by how much more of what the first one changes the second
 /// one starts from.
@@ -124,18 +122,18 @@ class ImplicitStep {
     return true;
   }
 
-  /// What hits the ground rests on it afterwards, or parts with the restitution's share of the
+  /// What hits the ground rests on it afterwards, or parts with restitution times the
   /// speed with which it came, as in resolve_contacts. Within the step the ground has only braked
   /// it so far that it has just arrived: the rest of the impulse comes with friction, too.
   void rebound() {
     if (!settings_.ground) return;
-    const Surface pair = combine(material_.surface, *settings_.ground);
+    const ContactMaterial pair = combine(material_.surface, *settings_.ground);
     for (int v = 0; v < s_.result.velocities.size(); ++v) {
       if (!s_.pushed[at(v)]) continue;
       Vec3 velocity = s_.result.velocities[v];
       const double parting = -pair.restitution * s_.start.state.velocities[v].z();
       const double before = velocity.z();
-      velocity.z() = parting > least_bounce_speed ? parting : 0.0;
+      velocity.z() = parting > min_bounce_speed ? parting : 0.0;
       const double sliding = velocity.head<2>().norm();
       if (sliding > 0.0) {
         const double braked = pair.friction * (velocity.z() - before);
@@ -185,7 +183,7 @@ class ImplicitStep {
   /// Whether the ground has pushed a vertex that was not at rest on it.
   bool hits_ground() const {
     if (!settings_.ground) return false;
-    const double still = still_share * s_.solver.mean_rest_length() / step_;
+    const double still = still_fraction * s_.solver.mean_rest_length() / step_;
     for (int v = 0; v < s_.middle.size(); ++v) {
       if (!s_.pushed[at(v)]) continue;
       if (s_.start.state.positions[v].z() + centre_.z() > 0.0) return true;

@@ -1,4 +1,5 @@
-// The implicit integrators: every step is a minimisation, so that it cannot turn a body inside out.
+// The implicit integrators (ERRATA row 32): every step is a minimisation, so that it cannot turn a
+// body inside out.
 //
 // implicit_euler (backward Euler): x1 = x0 + h v1, m (v1 - v0) = h F(x1, v1). These are the
 // equations of a stationary point, in x1 = x and with v1 = (x - x0) / h, of
@@ -21,8 +22,8 @@
 //
 // Ground (3.1.4): z >= 0 is a bound of the minimisation, and friction (Coulomb) a potential in it
 // with the bound's own forces, so that neither can add energy. Restitution is the last act of a
-// step. resolve_contacts sees these vertices at z = 0 and at rest: what is left for it is what
-// other bodies do to them.
+// step. resolve_contacts sees these vertices at z = 0, at rest or on their way up from a rebound:
+// what is left for it is what other bodies do to them.
 //
 // Guarantees, for every step and every material, up to rounding:
 //   V > 0 afterwards, if it was before;
@@ -42,7 +43,7 @@
 
 #include "sim/soft/euler_solver.h"
 #include "sim/soft/soft_state.h"
-#include "sim/world.h"
+#include "sim/world/settings.h"
 
 namespace pneuma::sim {
 

@@ -21,7 +21,7 @@ struct IntegratorScratch {
 };
 
 /// An explicit one. Writes into `positions` and `velocities` the state `step` seconds after
-/// `start`. Returns the least of the volumes at which the force was evaluated (see
+/// `start`. Returns the smallest of the volumes at which the force was evaluated (see
 /// SoftAcceleration): not above zero, or not a number, when the step failed.
 double integrate(Integrator integrator, const SoftAcceleration& acceleration, double step,
                  const SoftState& start, VertexArray& positions, VertexArray& velocities,

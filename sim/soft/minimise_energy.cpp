@@ -10,35 +10,36 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-/// Share of an energy's terms by which its value may be off: 1e-16 for each of their sum's
+/// Fraction of an energy's terms by which its value may be off: 1e-16 for each of their sum's
 /// roundings, of which some hundred do not cancel.
-constexpr double rounding = 1e-13;
+constexpr double energy_rounding_fraction = 1e-13;
 
-constexpr double armijo_share = 1e-4;
-constexpr int greatest_halvings = 60;
+constexpr double armijo_fraction = 1e-4;
+constexpr int max_line_search_halvings = 60;
 
-/// Of nRT, what the last iteration may still promise to take. A body thinner than the tolerance
-/// moves by little and yet has far to go: every iteration doubles its volume.
+/// Fraction of nRT that the last iteration may still promise to take. A body thinner than the
+/// tolerance moves by little and yet has far to go: every iteration doubles its volume.
 constexpr double small_promise = 1e-8;
 
-/// Of the volume, what an iteration leaves at least: closer to 0 the way back is long.
-constexpr double least_volume_left = 0.01;
+/// Fraction of the volume that an iteration leaves at least: closer to 0 the way back is long.
+constexpr double min_volume_left = 0.01;
 
 /// Steps after which E stands still to rounding, but the positions may still become better.
-constexpr int greatest_polishing = 3;
+constexpr int max_polishing = 3;
 
 /// Old factors are kept as long as they shrink the directions at least so much. A solution with
 /// them costs a tenth of new ones or less.
 constexpr double quick = 0.1;
 
-/// Of the inertia, where some must be added; below `negligible` of it none is.
-constexpr double first_addition = 0.1;
-constexpr double negligible_addition = 0.02;
-constexpr double addition_factor = 4.0;
-/// Of the greatest diagonal element: what is lost in rounding would not help.
-constexpr double least_addition = 1e-13;
+/// Diagonal shift as a fraction of the inertia, where one is needed; below `negligible` there is
+/// none.
+constexpr double first_shift = 0.1;
+constexpr double negligible_shift = 0.02;
+constexpr double shift_factor = 4.0;
+/// Fraction of the largest diagonal element: what is lost in rounding would not help.
+constexpr double min_shift = 1e-13;
 
-double greatest_size(const VertexArray& values) {
+double max_size(const VertexArray& values) {
   return std::sqrt(values.rows().colwise().squaredNorm().maxCoeff());
 }
 
@@ -55,10 +56,10 @@ EnergyMinimiser::EnergyMinimiser(const SoftMesh& mesh)
       direction_(mesh.topology.vertex_count()),
       rank_one_(mesh.topology.vertex_count()),
       rank_one_solved_(mesh.topology.vertex_count()),
-      pinned_(at(mesh.topology.vertex_count())),
+      active_set_(at(mesh.topology.vertex_count())),
       conjugate_gradients_(mesh.topology.vertex_count()) {}
 
-void EnergyMinimiser::update_gradient(const StepEnergy& energy) {
+void EnergyMinimiser::update_gradient(const IncrementalPotential& energy) {
   gradient_without_gas(mesh_, energy, point_, other_gradient_);
   gradient_.rows() = other_gradient_.rows();
   if (energy.gas > 0.0) {
@@ -66,65 +67,66 @@ void EnergyMinimiser::update_gradient(const StepEnergy& energy) {
   }
 }
 
-double EnergyMinimiser::floor_force(const StepEnergy& energy, int vertex) const {
+double EnergyMinimiser::floor_force(const IncrementalPotential& energy, int vertex) const {
   if (point_.positions[vertex].z() > energy.floor[at(vertex)]) return 0.0;
   return std::max(0.0, gradient_[vertex].z());
 }
 
-/// Of the vertices on the floor, the heights of those that E would push through it (Bertsekas,
-/// Projected Newton methods, 1982), and the places of those that friction holds.
-void EnergyMinimiser::find_pinned(const StepEnergy& energy) {
+/// Active set: heights of floor vertices with an outward gradient (Bertsekas, Projected Newton
+/// methods, 1982), and x and y of vertices at their friction anchors.
+void EnergyMinimiser::find_active_set(const IncrementalPotential& energy) {
   if (!energy.ground) return;
   for (int v = 0; v < gradient_.size(); ++v) {
-    const Pins pins{floor_force(energy, v) > 0.0, energy.friction && energy.held[at(v)]};
-    has_factors_ &= pins == pinned_[at(v)];
-    pinned_[at(v)] = pins;
+    const ActiveBounds active{floor_force(energy, v) > 0.0,
+                              energy.friction && energy.anchored[at(v)]};
+    has_factors_ &= active == active_set_[at(v)];
+    active_set_[at(v)] = active;
   }
-  clear_pinned(gradient_);
-  clear_pinned(other_gradient_);
+  clear_active(gradient_);
+  clear_active(other_gradient_);
 }
 
-void EnergyMinimiser::clear_pinned(VertexArray& values) const {
+void EnergyMinimiser::clear_active(VertexArray& values) const {
   for (int v = 0; v < values.size(); ++v) {
-    if (pinned_[at(v)].height) values[v].z() = 0.0;
-    if (pinned_[at(v)].place) values[v].head<2>().setZero();
+    if (active_set_[at(v)].height) values[v].z() = 0.0;
+    if (active_set_[at(v)].anchor) values[v].head<2>().setZero();
   }
 }
 
-/// S, with `added_inertia_` on the diagonal, and q.
-void EnergyMinimiser::find_hessian(const StepEnergy& energy) {
+/// S, with `diagonal_shift_` on the diagonal, and q.
+void EnergyMinimiser::find_hessian(const IncrementalPotential& energy) {
   has_factors_ = false;
   hessian_without_rank_one(mesh_, energy, point_, opposite_, matrix_);
-  matrix_.add_identity(added_inertia_);
+  matrix_.add_identity(diagonal_shift_);
   for (int v = 0; energy.ground && v < gradient_.size(); ++v) {
-    if (pinned_[at(v)].place) {
-      matrix_.pin(v, 0);
-      matrix_.pin(v, 1);
+    if (active_set_[at(v)].anchor) {
+      matrix_.fix(v, 0);
+      matrix_.fix(v, 1);
     }
-    if (pinned_[at(v)].height) matrix_.pin(v, 2);
+    if (active_set_[at(v)].height) matrix_.fix(v, 2);
   }
   find_rank_one(energy);
 }
 
-void EnergyMinimiser::find_rank_one(const StepEnergy& energy) {
+void EnergyMinimiser::find_rank_one(const IncrementalPotential& energy) {
   if (energy.gas > 0.0) {
     rank_one_.rows() =
         std::sqrt(pressure(energy, point_) / point_.volume) * point_.volume_gradient.rows();
-    if (energy.ground) clear_pinned(rank_one_);
+    if (energy.ground) clear_active(rank_one_);
   } else {
     rank_one_.rows().setZero();
   }
 }
 
 /// False when S + q q^T cannot be positive definite.
-bool EnergyMinimiser::factorize(const StepEnergy& energy) {
+bool EnergyMinimiser::factorize(const IncrementalPotential& energy) {
   factors_inertia_ = energy.inertia;
   has_factors_ = matrix_.factorize() && matrix_.negative_count() <= (energy.gas > 0.0 ? 1 : 0);
   return has_factors_;
 }
 
 /// p = -H^-1 dE/dx from the factors of S. False when H is not positive definite.
-bool EnergyMinimiser::solve(const StepEnergy& energy) {
+bool EnergyMinimiser::solve(const IncrementalPotential& energy) {
   direction_.rows() = -other_gradient_.rows();
   matrix_.solve(direction_);
   if (energy.gas > 0.0) {
@@ -135,30 +137,32 @@ bool EnergyMinimiser::solve(const StepEnergy& energy) {
     if ((denominator > 0.0) != (matrix_.negative_count() == 0)) return false;
     // The gas's own gradient is -sqrt(PV) q. Put together by hand, since the two terms of the
     // formula for it are far greater than what is left of them.
-    const double share = (std::sqrt(p * point_.volume) - dot(rank_one_, direction_)) / denominator;
-    direction_.rows() += share * rank_one_solved_.rows();
+    const double along_solved =
+        (std::sqrt(p * point_.volume) - dot(rank_one_, direction_)) / denominator;
+    direction_.rows() += along_solved * rank_one_solved_.rows();
   }
   return dot(gradient_, direction_) <= 0.0;
 }
 
 /// With the factors of an earlier iteration, if that does: when the direction comes out much
 /// shorter than the last one was.
-bool EnergyMinimiser::find_direction_by_old_factors(const StepEnergy& energy, double last_size) {
-  has_factors_ &= added_inertia_ == 0.0 && factors_inertia_ == energy.inertia;
+bool EnergyMinimiser::find_direction_by_old_factors(const IncrementalPotential& energy,
+                                                    double last_size) {
+  has_factors_ &= diagonal_shift_ == 0.0 && factors_inertia_ == energy.inertia;
   if (!has_factors_) return false;
   find_rank_one(energy);
-  return solve(energy) && greatest_size(direction_) < quick * last_size;
+  return solve(energy) && max_size(direction_) < quick * last_size;
 }
 
-bool EnergyMinimiser::use_conjugate_gradients(const StepEnergy& energy) const {
+bool EnergyMinimiser::use_conjugate_gradients(const IncrementalPotential& energy) const {
   return !gradients_were_slow_ && ConjugateGradients::promises_to_be_quick(
                                       gradient_.size(), energy.stiffness, energy.inertia);
 }
 
-void EnergyMinimiser::find_direction(const StepEnergy& energy, MinimiserReport& report) {
+void EnergyMinimiser::find_direction(const IncrementalPotential& energy, MinimiserReport& report) {
   using End = ConjugateGradients::End;
-  if (added_inertia_ < negligible_addition * energy.inertia) added_inertia_ = 0.0;
-  while (std::isfinite(added_inertia_)) {  // ends at the latest when all else is negligible
+  if (diagonal_shift_ < negligible_shift * energy.inertia) diagonal_shift_ = 0.0;
+  while (std::isfinite(diagonal_shift_)) {  // ends at the latest when all else is negligible
     find_hessian(energy);
     End end = End::too_slow;
     if (use_conjugate_gradients(energy)) {
@@ -170,74 +174,76 @@ void EnergyMinimiser::find_direction(const StepEnergy& energy, MinimiserReport& 
       ++report.factorizations;
       if (factorize(energy) && solve(energy)) return;
     }
-    const double least =
-        std::max(first_addition * energy.inertia, least_addition * matrix_.greatest_diagonal());
-    added_inertia_ = std::max(addition_factor * added_inertia_, least);
+    const double shift = std::max(first_shift * energy.inertia, min_shift * matrix_.max_diagonal());
+    diagonal_shift_ = std::max(shift_factor * diagonal_shift_, shift);
   }
 }
 
-/// Goes to point + share * direction. A vertex stops at the floor, and at the kink of friction's
-/// energy if it would slide past it: else the one whose kink comes first would stop all the others.
-void EnergyMinimiser::go(const StepEnergy& energy, double share) {
-  trial_.positions.rows() = point_.positions.rows() + share * direction_.rows();
+/// Sets the trial point to point + fraction * direction. A vertex stops at the floor, and at the
+/// kink of friction's energy if it would slide past it: else the one whose kink comes first would
+/// stop all the others.
+void EnergyMinimiser::take_trial_step(const IncrementalPotential& energy, double fraction) {
+  trial_.positions.rows() = point_.positions.rows() + fraction * direction_.rows();
   is_stopped_ = false;
   for (int v = 0; energy.ground && v < direction_.size(); ++v) {
     if (trial_.positions[v].z() < energy.floor[at(v)]) {
       trial_.positions[v].z() = energy.floor[at(v)];
       is_stopped_ = true;
     }
-    if (!energy.friction || energy.grip[at(v)] == 0.0) continue;
+    if (!energy.friction || energy.friction_bound[at(v)] == 0.0) continue;
     const Vec2 before = slide(energy, point_.positions, v);
     const Vec2 ahead = slide(energy, trial_.positions, v) - before;
-    if (before.norm() <= energy.slip || before.dot(before + ahead) >= 0.0) continue;
+    if (before.norm() <= energy.regularisation_length || before.dot(before + ahead) >= 0.0)
+      continue;
     trial_.positions[v].head<2>() -= (1.0 + before.dot(ahead) / ahead.squaredNorm()) * ahead;
     is_stopped_ = true;
   }
 }
 
-/// Backtracks along the direction. Returns the share of it that was gone; 0 when nothing helped.
-double EnergyMinimiser::descend(const StepEnergy& energy) {
-  double share = 1.0;
-  for (int i = 0; i <= greatest_halvings; ++i, share *= 0.5) {
-    go(energy, share);
+/// Backtracking line search. Returns the fraction of the direction that was taken; 0 when none
+/// helped.
+double EnergyMinimiser::search_line(const IncrementalPotential& energy) {
+  double fraction = 1.0;
+  for (int i = 0; i <= max_line_search_halvings; ++i, fraction *= 0.5) {
+    take_trial_step(energy, fraction);
     if (!evaluate(mesh_, energy, trial_)) continue;
-    if (trial_.volume < least_volume_left * point_.volume) continue;
+    if (trial_.volume < min_volume_left * point_.volume) continue;
     const double promised =
         gradient_.rows().cwiseProduct(trial_.positions.rows() - point_.positions.rows()).sum();
-    if (trial_.energy <=
-        point_.energy + armijo_share * std::min(promised, 0.0) + rounding * trial_.magnitude) {
+    if (trial_.energy <= point_.energy + armijo_fraction * std::min(promised, 0.0) +
+                             energy_rounding_fraction * trial_.magnitude) {
       std::swap(point_, trial_);
-      return share;
+      return fraction;
     }
   }
   return 0.0;
 }
 
-MinimiserReport EnergyMinimiser::minimise(const StepEnergy& energy, double tolerance) {
+MinimiserReport EnergyMinimiser::minimise(const IncrementalPotential& energy, double tolerance) {
   MinimiserReport report;
-  added_inertia_ = 0.0;
+  diagonal_shift_ = 0.0;
   double last_size = std::numeric_limits<double>::infinity();  // of the last direction
   int polishing = 0;
-  const double least_gas = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();
-  while (report.iterations < greatest_iterations && !report.converged) {
+  const double gas_scale = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();
+  while (report.iterations < max_newton_iterations && !report.converged) {
     update_gradient(energy);
-    find_pinned(energy);
+    find_active_set(energy);
     if (!find_direction_by_old_factors(energy, last_size)) find_direction(energy, report);
     ++report.iterations;
-    const double size = greatest_size(direction_);
+    const double size = max_size(direction_);
     const double promise = -dot(gradient_, direction_);
-    const double share = descend(energy);
-    if (!(promise > rounding * point_.magnitude)) ++polishing;
+    const double fraction = search_line(energy);
+    if (!(promise > energy_rounding_fraction * point_.magnitude)) ++polishing;
     // The directions shrink by the same factor again, of which the first one does not tell.
-    const bool full = share == 1.0 && !is_stopped_ && added_inertia_ == 0.0;
+    const bool full = fraction == 1.0 && !is_stopped_ && diagonal_shift_ == 0.0;
     const double shrinking =
         full && last_size > 0.0 && std::isfinite(last_size)
             ? std::clamp(size / last_size, ConjugateGradients::forcing_term, 1.0)
             : 1.0;
-    report.converged = (size * shrinking <= tolerance && promise <= small_promise * least_gas) ||
-                       share == 0.0 || polishing > greatest_polishing;
+    report.converged = (size * shrinking <= tolerance && promise <= small_promise * gas_scale) ||
+                       fraction == 0.0 || polishing > max_polishing;
     last_size = full ? size : 0.0;
-    added_inertia_ /= addition_factor;
+    diagonal_shift_ /= shift_factor;
   }
   return report;
 }

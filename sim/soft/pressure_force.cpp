@@ -34,7 +34,7 @@ double volume(const VertexArray& positions, const VertexArray& gradient) {
 }
 
 double volume_rounding(const VertexArray& positions, const VertexArray& gradient) {
-  constexpr double rounding = 1e-15;  // of a term and its share of the sum
+  constexpr double rounding = 1e-15;  // of a term and its part of the sum
   const Vec3 centre = mean(positions);
   double terms = 0.0;
   for (int v = 0; v < positions.size(); ++v) {

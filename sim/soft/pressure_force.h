@@ -2,13 +2,13 @@
 // normal.
 #pragma once
 
-#include "sim/soft/soft_mesh.h"
-#include "sim/world.h"
+#include "sim/mesh/soft_mesh.h"
+#include "sim/world/soft_body.h"
 
 namespace pneuma::sim {
 
 /// Writes dV/dx per vertex, in m^2: a third of the area vectors of the vertex's triangles, taken
-/// over its ring. P times it is the pressure force with each triangle's share split evenly (ERRATA
+/// over its ring. P times it is the pressure force with each triangle's force split evenly (ERRATA
 /// row 3). Its last row stays zero.
 void volume_gradient(const MeshTopology& topology, const VertexArray& positions,
                      VertexArray& gradient);

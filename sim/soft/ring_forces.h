@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "sim/mesh/force_tables.h"
 #include "sim/mesh/vertex_array.h"
-#include "sim/soft/force_tables.h"
 
 namespace pneuma::sim {
 

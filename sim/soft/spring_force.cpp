@@ -1,37 +1,26 @@
 #include "sim/soft/spring_force.h"
 
-#include <cmath>
-
-#include "sim/mesh/row.h"
+#include "sim/mesh/edge_length.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// m^2, added to every squared length: far below the rounding of any that means something, and
-/// nothing is ever divided by zero.
-constexpr double least_squared_length = 1e-200;
-
-/// Edges at a time: the lanes of a Row.
+/// Edges at a time: the lanes of a Vec4d.
 constexpr int lanes = 4;
 
 /// The edges' vectors b - a, or the differences of their ends' velocities. Always inline: as a
 /// call, which is what GCC would make of it, it adds half to the time of the whole loop.
-[[gnu::always_inline]] inline Columns differences(const ForceTables::Ends* ends,
-                                                  const double* rows) {
+[[gnu::always_inline]] inline Vec3x4 differences(const ForceTables::Ends* ends,
+                                                 const double* rows) {
   const auto difference = [ends, rows](int i) {
-    return load_row(rows + ends[i].to) - load_row(rows + ends[i].from);
+    return load_vec4d(rows + ends[i].to) - load_vec4d(rows + ends[i].from);
   };
-  return columns(difference(0), difference(1), difference(2), difference(3));
+  return to_columns(difference(0), difference(1), difference(2), difference(3));
 }
 
 Vec3 difference(const ForceTables::Ends& ends, const double* rows) {
   return Eigen::Map<const Vec3>(rows + ends.to) - Eigen::Map<const Vec3>(rows + ends.from);
-}
-
-/// Of x y z each a number, or each a Row of four edges.
-template <class Coordinates>
-auto squared_length(const Coordinates& x, const Coordinates& y, const Coordinates& z) {
-  return x * x + (y * y + (z * z + least_squared_length));
 }
 
 /// spring_coefficient() four at a time, as (k / l^2) (l (l - L) + c/k v_rel . e).
@@ -44,17 +33,17 @@ struct SpringLoop {
   double dashpot_over_k;
 
   struct Four {
-    Row squared_length;
-    Row parting;  // v_rel . e
+    Vec4d squared_length;
+    Vec4d parting;  // v_rel . e
   };
 
   template <bool damped>
   Four measure(int edge) const {
-    const Columns e = differences(edges + edge, positions);
+    const Vec3x4 e = differences(edges + edge, positions);
     Four four{squared_length(e.x, e.y, e.z), {}};
     if constexpr (damped) {
-      const Columns v_rel = differences(edges + edge, velocities);
-      four.parting = v_rel.x * e.x + v_rel.y * e.y + v_rel.z * e.z;
+      const Vec3x4 v_rel = differences(edges + edge, velocities);
+      four.parting = fma(v_rel.x, e.x, fma(v_rel.y, e.y, v_rel.z * e.z));
     }
     return four;
   }
@@ -67,12 +56,12 @@ struct SpringLoop {
     if (end == 0) return 0;
     Four four = measure<damped>(0);
     for (int edge = 0; edge < end; edge += lanes) {
-      const Row length = square_root(four.squared_length);
-      const Row factor = k / four.squared_length;
+      const Vec4d length = square_root(four.squared_length);
+      const Vec4d factor = k / four.squared_length;
       const Four next = measure<damped>(edge + lanes < end ? edge + lanes : edge);
-      Row pull = length * (length - load_row(rest_lengths + edge));
-      if constexpr (damped) pull += dashpot_over_k * four.parting;
-      store_row(factor * pull, coefficients + edge);
+      Vec4d pull = length * (length - load_vec4d(rest_lengths + edge));
+      if constexpr (damped) pull = fma(dashpot_over_k, four.parting, pull);
+      store_vec4d(factor * pull, coefficients + edge);
       four = next;
     }
     return end;
@@ -80,10 +69,6 @@ struct SpringLoop {
 };
 
 }  // namespace
-
-double edge_length(const Vec3& edge) {
-  return std::sqrt(squared_length(edge.x(), edge.y(), edge.z()));
-}
 
 double spring_coefficient(const Vec3& edge, const Vec3& relative_velocity, double rest_length,
                           double k, double dashpot) {
@@ -117,12 +102,12 @@ double spring_energy(const SoftMesh& mesh, const VertexArray& positions, double 
   const double* const rows = positions.rows().data();
   const int count = mesh.topology.edge_count();
   const int done = count - count % lanes;
-  Row squares{};
+  Vec4d squares{};
   for (int edge = 0; edge < done; edge += lanes) {
-    const Columns e = differences(edges + edge, rows);
-    const Row strain =
-        square_root(squared_length(e.x, e.y, e.z)) - load_row(mesh.rest_lengths.data() + edge);
-    squares += strain * strain;
+    const Vec3x4 e = differences(edges + edge, rows);
+    const Vec4d strain =
+        square_root(squared_length(e.x, e.y, e.z)) - load_vec4d(mesh.rest_lengths.data() + edge);
+    squares = fma(strain, strain, squares);
   }
   double sum = sum_of_lanes(squares);
   for (int edge = done; edge < count; ++edge) {

@@ -4,13 +4,9 @@
 
 #include <span>
 
-#include "sim/soft/soft_mesh.h"
+#include "sim/mesh/soft_mesh.h"
 
 namespace pneuma::sim {
-
-/// m. Measured as spring_coefficient() does, so that a mesh whose rest lengths are these pulls at
-/// nothing, to the last bit.
-double edge_length(const Vec3& edge);
 
 /// The coefficient s in N/m with which spring and dashpot pull on the end a of an edge e = b - a
 /// with s e, and on b with the exact negative:

@@ -36,7 +36,7 @@ struct OscillatorAcceleration {
   }
 };
 
-/// The size of the greatest eigenvalue of one step's matrix, whose columns are what becomes of (1,
+/// The size of the largest eigenvalue of one step's matrix, whose columns are what becomes of (1,
 /// 0) and (0, 1): those go along x and y of one vertex.
 double amplification(Integrator integrator, const Oscillation& motion, double kept, double step) {
   ExplicitScratch scratch(1);
@@ -76,26 +76,26 @@ double stability_limit(Integrator integrator, const Oscillation& motion, double 
 
 StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
                                const SoftMaterial& material, const VertexArray& positions) {
-  StabilityLimit least{infinite, {}};
-  if (is_implicit(integrator)) return least;
-  const SmallMotion motions(mesh, material, positions);
-  const double kept = 1.0 - literal_share(material);
+  StabilityLimit limit{infinite, {}};
+  if (is_implicit(integrator)) return limit;
+  const VibrationMode motions(mesh, material, positions);
+  const double kept = 1.0 - literal_fraction(material);
   double weight = 0.0;
   for (int round = 0; round <= weight_rounds; ++round) {
     const Oscillation motion = motions.along(motions.fastest(weight));
     const double step = stability_limit(integrator, motion, kept);
-    if (step < least.step) least = {step, motion};
-    if (!std::isfinite(least.step)) break;
+    if (step < limit.step) limit = {step, motion};
+    if (!std::isfinite(limit.step)) break;
     // symplectic_euler fails where h^2 omega^2 + 2 h delta = 4, the others nearly so.
-    weight = 2.0 / least.step;
+    weight = 2.0 / limit.step;
   }
-  return least;
+  return limit;
 }
 
 StabilityLimit settled_stability_limit(Integrator integrator, const SoftBody& body) {
   const SoftMesh& mesh = *body.mesh;
   const StabilityLimit now = stability_limit(integrator, mesh, body.material, body.positions);
-  // At s times the size the energy k/2 sum (s l - L)^2 - 3 nRT ln s is least where
+  // At s times the size the energy k/2 sum (s l - L)^2 - 3 nRT ln s is minimal where
   // s^2 k sum l^2 - s k sum l L = 3 nRT.
   double squares = 0.0, products = 0.0;
   for (int e = 0; e < mesh.topology.edge_count(); ++e) {

@@ -4,16 +4,16 @@
 // that depends on h omega and h delta alone. It is stable while no eigenvalue of it exceeds 1 in
 // size: on undamped motions up to h omega = 2 for martin, symplectic_euler and velocity_verlet, and
 // 2 sqrt 2 for rk4. The matrix is taken from the integrators themselves. The fastest motion of a
-// body is that of the greatest eigenvalue of its springs and gas; dashpots may make another one the
+// body is that of the largest eigenvalue of its springs and gas; dashpots may make another one the
 // first to fail, so that the fastest of both together is looked at, too.
 //
 // Small motions are those of a body at rest. One that is hit hard, whose springs are drawn out to
 // many times their length, or that presses its gas together, is stiffer.
 #pragma once
 
-#include "sim/soft/small_motion.h"
-#include "sim/soft/soft_mesh.h"
-#include "sim/world.h"
+#include "sim/mesh/soft_mesh.h"
+#include "sim/soft/vibration_mode.h"
+#include "sim/world/settings.h"
 
 namespace pneuma::sim {
 
@@ -22,15 +22,15 @@ struct StabilityLimit {
   Oscillation motion;  // that which fails first
 };
 
-/// Of one motion. `kept`: the share of velocity that `literal` damping leaves after each step.
+/// Of one motion. `kept`: the fraction of velocity that `literal` damping leaves after each step.
 double stability_limit(Integrator integrator, const Oscillation& motion, double kept = 1.0);
 
 /// Of a body whose springs and gas are as at these positions.
 StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
                                const SoftMaterial& material, const VertexArray& positions);
 
-/// Of a body that has come to rest from there, its gas having blown it up: the less of the limits
-/// at these positions and at those, enlarged so far that springs and gas balance each other.
+/// Of a body that has come to rest from there, its gas having blown it up: the smaller of the
+/// limits at these positions and at those, enlarged so far that springs and gas balance each other.
 StabilityLimit settled_stability_limit(Integrator integrator, const SoftBody& body);
 
 }  // namespace pneuma::sim

@@ -30,22 +30,22 @@ class VertexMatrix {
 
   void add(int vertex, const Mat3& block);  // symmetric
   /// The block of an edge in the rows of its first vertex and the columns of its second, and the
-  /// transposed one in its mirror place.
+  /// transposed one in the mirrored position.
   void add_between(int edge, const Mat3& block);
 
   /// Adds to the whole diagonal.
   void add_identity(double diagonal);
-  double greatest_diagonal() const;
+  double max_diagonal() const;
 
-  /// Takes a coordinate out: its row and column become those of the identity.
-  void pin(int vertex, int axis);
+  /// Fixes a coordinate of the active set: its row and column become those of the identity.
+  void fix(int vertex, int axis);
 
   /// L D L^T without pivoting. False when a pivot is zero.
   [[nodiscard]] bool factorize();
   /// Of the eigenvalues, as many are negative as of D (Sylvester's law of inertia).
   int negative_count() const { return negative_count_; }
 
-  /// Puts the solution in the place of the right side. After a successful factorize().
+  /// Replaces the right side by the solution. After a successful factorize().
   void solve(VertexArray& values) const;
 
   /// The matrix itself times `values`.
@@ -68,7 +68,7 @@ class VertexMatrix {
   void take_from_order(VertexArray& values) const;     // from solution_
 
   const MeshTopology& topology_;
-  std::vector<int> place_;            // of each vertex in the order of elimination
+  std::vector<int> rank_;             // of each vertex in the order of elimination
   std::vector<int> edge_offset_;      // of an edge's block in each column of its later vertex
   std::vector<int> diagonal_offset_;  // of a vertex' own block in each of its columns
   Sparse upper_;

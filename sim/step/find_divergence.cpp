@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/text.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
-#include "sim/text.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// Of the energy of springs at twice their length, and of nRT: what is gained below is rounding.
+/// Fraction of the energy of springs at twice their length, and of nRT: less gained is rounding.
 constexpr double energy_rounding = 1e-9;
 
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
@@ -27,13 +27,13 @@ int fastest_vertex(const SoftBody& body) {
 
 std::string fastest_text(const SoftBody& body, int vertex) {
   return "; vertex " + std::to_string(vertex) + " is its fastest, at " +
-         text(Vec3(body.velocities[vertex]).norm()) + " m/s";
+         base::text(Vec3(body.velocities[vertex]).norm()) + " m/s";
 }
 
 std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body) {
   // A sum is finite only if all its terms are, and far quicker to look at; likewise the squares.
   const double squares = body.velocities.rows().squaredNorm();
-  if (std::isfinite(body.positions.rows().sum()) && squares <= greatest_speed * greatest_speed) {
+  if (std::isfinite(body.positions.rows().sum()) && squares <= max_speed * max_speed) {
     return std::nullopt;
   }
   for (int v = 0; v < body.positions.size(); ++v) {
@@ -43,36 +43,36 @@ std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, cons
                      name + " has a position or velocity that is not a finite number");
     }
     const double speed = Vec3(body.velocities[v]).norm();
-    if (speed > greatest_speed) {
-      return failure(
-          world, stage, body, v,
-          name + " moves at " + text(speed) + " m/s, faster than " + text(greatest_speed) + " m/s");
+    if (speed > max_speed) {
+      return failure(world, stage, body, v,
+                     name + " moves at " + base::text(speed) + " m/s, faster than " +
+                         base::text(max_speed) + " m/s");
     }
   }
   return std::nullopt;
 }
 
 std::optional<Divergence> find_lost_volume(const World& world, Stage stage, const SoftBody& body,
-                                           const SoftState& start, double least_volume) {
+                                           const SoftState& start, double min_volume) {
   if (gas_strength(body.material) == 0.0) return std::nullopt;
   const MeshTopology& topology = body.mesh->topology;
   const double end = volume(topology, body.positions);
-  const double least = least_volume < end || std::isnan(least_volume) ? least_volume : end;
+  const double smallest = min_volume < end || std::isnan(min_volume) ? min_volume : end;
   const auto report = [&](const std::string& what) {
     const int vertex = fastest_vertex(body);
     return failure(world, stage, body, vertex,
-                   "its volume " + what + text(volume(topology, start.positions)) +
+                   "its volume " + what + base::text(volume(topology, start.positions)) +
                        " m^3 before the step" + fastest_text(body, vertex));
   };
-  if (!(least > 0.0)) {
+  if (!(smallest > 0.0)) {
     Divergence lost =
-        report("is " + text(least) + " m^3, so that it is flat or inside out, after ");
+        report("is " + base::text(smallest) + " m^3, so that it is flat or inside out, after ");
     lost.inverted = true;
     return lost;
   }
-  if (end > greatest_growth * least_volume) {
-    return report("grew to " + text(end) + " m^3 by a force that it had at " + text(least_volume) +
-                  " m^3, after ");
+  if (end > max_growth * min_volume) {
+    return report("grew to " + base::text(end) + " m^3 by a force that it had at " +
+                  base::text(min_volume) + " m^3, after ");
   }
   return std::nullopt;
 }
@@ -88,7 +88,7 @@ double work(const World& world, const SoftBody& body, const SoftState& start) {
   return std::max(0.0, by_gravity) + std::max(0.0, by_gas);
 }
 
-double least_energy(const SoftBody& body) {
+double rounding_energy(const SoftBody& body) {
   double squares = 0.0;
   for (const double length : body.mesh->rest_lengths) squares += length * length;
   return energy_rounding * (0.5 * body.material.k * squares + gas_strength(body.material));
@@ -103,16 +103,16 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
   const double after =
       kinetic(body.velocities) + spring_energy(*body.mesh, body.positions, material.k);
   const double moving = kinetic(start.velocities);
-  if (after <= greatest_gain * moving) return std::nullopt;
+  if (after <= max_gain * moving) return std::nullopt;
   const double before = moving + spring_energy(*body.mesh, start.positions, material.k);
-  if (after <= greatest_gain * before) return std::nullopt;
+  if (after <= max_gain * before) return std::nullopt;
   const double added = work(world, body, start);
-  if (after <= greatest_gain * (before + added) + least_energy(body)) return std::nullopt;
+  if (after <= max_gain * (before + added) + rounding_energy(body)) return std::nullopt;
   const int vertex = fastest_vertex(body);
   return failure(world, Stage::integrate_soft, body, vertex,
-                 "its energy of motion and springs jumped from " + text(before) + " to " +
-                     text(after) + " J, to which gas and gravity added " + text(added) + " J" +
-                     fastest_text(body, vertex));
+                 "its energy of motion and springs jumped from " + base::text(before) + " to " +
+                     base::text(after) + " J, to which gas and gravity added " + base::text(added) +
+                     " J" + fastest_text(body, vertex));
 }
 
 /// No body can have strained its springs much without having moved much.
@@ -123,28 +123,28 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
 /// where d is the number of springs of a vertex.
 bool may_have_gained_energy(const SoftBody& body, const SoftState& start) {
   const double kinetic_before = start.velocities.rows().squaredNorm();
-  if (body.velocities.rows().squaredNorm() > 0.5 * greatest_gain * kinetic_before) return true;
+  if (body.velocities.rows().squaredNorm() > 0.5 * max_gain * kinetic_before) return true;
   const SoftMesh& mesh = *body.mesh;
   const double mean_springs = 2.0 * mesh.topology.edge_count() / mesh.topology.vertex_count();
-  const Eigen::Map<const Eigen::RowVectorXd> share(mesh.valence_weights.data(),
-                                                   body.positions.size());
+  const Eigen::Map<const Eigen::RowVectorXd> relative_valence(mesh.valence_weights.data(),
+                                                              body.positions.size());
   const double moved = (body.positions.rows() - start.positions.rows())
                            .colwise()
                            .squaredNorm()
-                           .cwiseProduct(share)
+                           .cwiseProduct(relative_valence)
                            .sum();
   const double strained = body.material.k * mean_springs * moved;
-  return strained > 0.36 * greatest_gain * 0.5 * body.material.vertex_mass * kinetic_before;
+  return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * kinetic_before;
 }
 
 }  // namespace
 
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
-                                          const SoftState& start, double least_volume) {
+                                          const SoftState& start, double min_volume) {
   constexpr Stage stage = Stage::integrate_soft;
   if (auto wild = find_wild_vertex(world, stage, body)) return wild;
-  if (auto lost = find_lost_volume(world, stage, body, start, least_volume)) return lost;
-  // Of the implicit integrators no energy is asked: they look at it themselves.
+  if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
+  // The implicit integrators check the energy themselves.
   if (is_implicit(world.settings.integrator) || !may_have_gained_energy(body, start)) {
     return std::nullopt;
   }
@@ -159,7 +159,7 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   if (left > 0.0) return std::nullopt;
   const int vertex = fastest_vertex(body);
   Divergence pressed = failure(world, stage, body, vertex,
-                               "its contacts pressed it flat, to a volume of " + text(left) +
+                               "its contacts pressed it flat, to a volume of " + base::text(left) +
                                    " m^3" + fastest_text(body, vertex));
   pressed.inverted = true;
   return pressed;

@@ -2,22 +2,39 @@
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
+namespace {
 
-std::optional<Divergence> integrate_rigid(World& world, StepWorkspace& workspace) {
+std::optional<Divergence> integrate(const World& world, RigidBox& box) {
+  move_freely(box, world.settings.gravity, time_step(world.settings));
+  if (box.position.allFinite() && box.orientation.coeffs().allFinite() &&
+      box.velocity.allFinite() && box.angular_velocity.allFinite()) {
+    return std::nullopt;
+  }
+  return Divergence{Stage::integrate_rigid, world.steps + 1, box.name,
+                    "its position, orientation or velocity is not a finite number: it was hit "
+                    "too hard"};
+}
+
+}  // namespace
+
+std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start) {
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     const RigidBox& box = world.rigid[i];
-    workspace.rigid_start[i] = {box.position, box.orientation, box.velocity, box.angular_velocity};
+    start[i] = {box.position, box.orientation, box.velocity, box.angular_velocity};
   }
   for (RigidBox& box : world.rigid) {
-    move_freely(box, world.settings.gravity, time_step(world.settings));
-    if (!box.position.allFinite() || !box.orientation.coeffs().allFinite() ||
-        !box.velocity.allFinite() || !box.angular_velocity.allFinite()) {
-      return Divergence{Stage::integrate_rigid, world.steps + 1, box.name,
-                        "its position, orientation or velocity is not a finite number: it was hit "
-                        "too hard"};
-    }
+    if (auto divergence = integrate(world, box)) return divergence;
   }
   return std::nullopt;
+}
+
+std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidStart& start) {
+  RigidBox& moved = world.rigid[at(box)];
+  moved.position = start.position;
+  moved.orientation = start.orientation;
+  moved.velocity = start.velocity;
+  moved.angular_velocity = start.angular_velocity;
+  return integrate(world, moved);
 }
 
 }  // namespace pneuma::sim

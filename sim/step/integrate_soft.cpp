@@ -19,43 +19,53 @@ void hand_over(SoftBody& body, SoftState& start, bool keep) {
   std::swap(start.velocities, body.velocities);
 }
 
-std::optional<Divergence> integrate(const World& world, SoftBody& body, SoftState& start,
+/// From `start`, which is also in the body if the integrator is implicit.
+std::optional<Divergence> integrate(const World& world, SoftBody& body, const SoftState& start,
                                     IntegratorScratch& scratch) {
   const Settings& settings = world.settings;
-  hand_over(body, start, is_implicit(settings.integrator));
-  double least_volume = 0.0;
+  double min_volume = 0.0;
   if (scratch.implicit) {
-    least_volume = implicit_step(*body.mesh, body.material, settings, start, body.positions,
-                                 body.velocities, *scratch.implicit)
-                       .volume;
+    min_volume = implicit_step(*body.mesh, body.material, settings, start, body.positions,
+                               body.velocities, *scratch.implicit)
+                     .volume;
   } else {
     const SoftAcceleration acceleration(*body.mesh, body.material, settings.gravity,
                                         scratch.acceleration);
-    least_volume = integrate(settings.integrator, acceleration, time_step(settings), start,
-                             body.positions, body.velocities, scratch);
+    min_volume = integrate(settings.integrator, acceleration, time_step(settings), start,
+                           body.positions, body.velocities, scratch);
   }
   if (body.material.damping == Damping::literal) {
-    body.velocities.rows() *= 1.0 - literal_share(body.material);
+    body.velocities.rows() *= 1.0 - literal_fraction(body.material);
   }
-  return find_divergence(world, body, start, least_volume);
+  return find_divergence(world, body, start, min_volume);
 }
 
 }  // namespace
 
-std::optional<Divergence> integrate_soft(World& world, StepWorkspace& workspace) {
-  const auto block = [&world, &workspace](int begin, int end, int thread) {
+std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& start,
+                                         IntegrateSoftMemory& memory, Workers& workers) {
+  const auto block = [&](int begin, int end, int thread) {
     for (int i = begin; i < end; ++i) {
-      const int mesh = workspace.soft.mesh_of_body[at(i)];
-      workspace.soft_outcome[at(i)] =
-          integrate(world, world.soft[at(i)], workspace.soft_start[at(i)],
-                    workspace.soft.per_thread[at(thread)][at(mesh)]);
+      const int mesh = memory.mesh_of_body[at(i)];
+      hand_over(world.soft[at(i)], start[at(i)], is_implicit(world.settings.integrator));
+      memory.outcomes[at(i)] =
+          integrate(world, world.soft[at(i)], start[at(i)], memory.scratch[at(thread)][at(mesh)]);
     }
   };
-  workspace.workers.for_blocks(static_cast<int>(world.soft.size()), block);
-  for (const std::optional<Divergence>& outcome : workspace.soft_outcome) {
+  workers.for_blocks(static_cast<int>(world.soft.size()), block);
+  for (const std::optional<Divergence>& outcome : memory.outcomes) {
     if (outcome) return outcome;
   }
   return std::nullopt;
+}
+
+std::optional<Divergence> integrate_soft_again(World& world, int body, const SoftState& start,
+                                               IntegrateSoftMemory& memory, int thread) {
+  SoftBody& moved = world.soft[at(body)];
+  moved.positions = start.positions;
+  moved.velocities = start.velocities;
+  const int mesh = memory.mesh_of_body[at(body)];
+  return integrate(world, moved, start, memory.scratch[at(thread)][at(mesh)]);
 }
 
 }  // namespace pneuma::sim

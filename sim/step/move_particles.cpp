@@ -3,11 +3,11 @@
 
 namespace pneuma::sim {
 
-void move_particles(World& world, StepWorkspace& workspace) {
-  if (workspace.soft_pairs.empty()) return;  // none is near
-  // Two references are all that std::function holds without allocating.
-  const auto block = [&world, &workspace](int begin, int end, int thread) {
-    const double least_distance = least_particle_distance(world.settings.skin_thickness);
+void move_particles(World& world, const NearBodies& near_bodies, MoveParticlesMemory& memory,
+                    Workers& workers) {
+  if (near_bodies.soft_pairs.empty()) return;
+  const auto block = [&](int begin, int end, int thread) {
+    const double min_distance = min_particle_distance(world.settings.skin_thickness);
     for (int i = begin; i < end; ++i) {
       ParticlePair& pair = world.particles[at(i)];
       if (!pair.near) continue;
@@ -15,10 +15,10 @@ void move_particles(World& world, StepWorkspace& workspace) {
       const SoftBody& second = world.soft[at(pair.second)];
       settle_particles({first.mesh->topology, first.positions},
                        {second.mesh->topology, second.positions}, world.settings.particles,
-                       least_distance, pair, workspace.particles[at(thread)]);
+                       min_distance, pair, memory.scratch[at(thread)]);
     }
   };
-  workspace.workers.for_blocks(static_cast<int>(world.particles.size()), block);
+  workers.for_blocks(static_cast<int>(world.particles.size()), block);
 }
 
 }  // namespace pneuma::sim

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/collision/deep_pair.h"
-#include "sim/soft/damping.h"
+#include "sim/base/enum_name.h"
+#include "sim/collision/overlapping_pair.h"
 
 namespace pneuma::sim {
 namespace {
@@ -19,42 +19,27 @@ Item& item(Plan& plan, ContactKind kind) {
   return plan.contact_kinds[static_cast<std::size_t>(kind)];
 }
 
+void leave_out_what_swept_contacts_do(Plan& plan) {
+  item(plan, Stage::broad_phase) = {false, "swept contacts are found over the whole step"};
+  item(plan, Stage::move_particles) = {false, "swept contacts are found by bounding hierarchies"};
+  item(plan, Stage::depenetrate) = {false, "what is swept does not overlap"};
+}
+
 }  // namespace
 
 std::string_view to_string(Stage stage) {
-  switch (stage) {
-    case Stage::integrate_soft:
-      return "integrate_soft";
-    case Stage::integrate_rigid:
-      return "integrate_rigid";
-    case Stage::find_pairs:
-      return "find_pairs";
-    case Stage::move_particles:
-      return "move_particles";
-    case Stage::find_contacts:
-      return "find_contacts";
-    case Stage::resolve_contacts:
-      return "resolve_contacts";
-    case Stage::part_bodies:
-      break;
-  }
-  return "part_bodies";
+  static constexpr auto names = std::to_array<std::string_view>(
+      {"integrate_soft", "integrate_rigid", "broad_phase", "move_particles", "find_contacts",
+       "resolve_contacts", "depenetrate"});
+  static_assert(names.size() == stage_count);
+  return base::enum_name(names, stage);
 }
 
 std::string_view to_string(ContactKind kind) {
-  switch (kind) {
-    case ContactKind::soft_ground:
-      return "soft_ground";
-    case ContactKind::rigid_ground:
-      return "rigid_ground";
-    case ContactKind::soft_soft:
-      return "soft_soft";
-    case ContactKind::soft_rigid:
-      return "soft_rigid";
-    case ContactKind::rigid_rigid:
-      break;
-  }
-  return "rigid_rigid";
+  static constexpr auto names = std::to_array<std::string_view>(
+      {"soft_ground", "rigid_ground", "soft_soft", "soft_rigid", "rigid_rigid"});
+  static_assert(names.size() == contact_kind_count);
+  return base::enum_name(names, kind);
 }
 
 Plan make_plan(const World& world) {
@@ -64,7 +49,7 @@ Plan make_plan(const World& world) {
 
   item(plan, Stage::integrate_soft) = needs(soft > 0, "no soft body");
   item(plan, Stage::integrate_rigid) = needs(rigid > 0, "no rigid box");
-  item(plan, Stage::find_pairs) = needs(soft + rigid > 1, "a single body has no pair");
+  item(plan, Stage::broad_phase) = needs(soft + rigid > 1, "a single body has no pair");
   item(plan, Stage::move_particles) = needs(soft > 1, "particles need two soft bodies");
   if (soft > 1 && world.settings.soft_search == SoftSearch::exact) {
     item(plan, Stage::move_particles) = {false, "the search for soft contacts is exact"};
@@ -85,16 +70,9 @@ Plan make_plan(const World& world) {
 
   const auto filled = std::ranges::count_if(
       world.soft, [](const SoftBody& body) { return has_filled_centre(*body.mesh); });
-  item(plan, Stage::part_bodies) =
+  item(plan, Stage::depenetrate) =
       needs(filled > 1, "fewer than two soft bodies that are filled at their centre");
-
-  bool valence = false, dashpots = false;
-  for (const SoftBody& body : world.soft) {
-    valence |= body.material.pressure == PressureWeighting::valence;
-    dashpots |= dashpot_constant(body.material) > 0.0;
-  }
-  plan.valence_weights = needs(valence, "every body's pressure is uniform");
-  plan.spring_damping = needs(dashpots, "no body has dashpots");
+  if (world.settings.contact == ContactMethod::swept) leave_out_what_swept_contacts_do(plan);
   return plan;
 }
 

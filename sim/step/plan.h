@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 
@@ -14,11 +14,11 @@ namespace pneuma::sim {
 enum class Stage {
   integrate_soft,
   integrate_rigid,
-  find_pairs,
+  broad_phase,
   move_particles,
   find_contacts,
   resolve_contacts,
-  part_bodies,
+  depenetrate,
 };
 inline constexpr int stage_count = 7;
 std::string_view to_string(Stage stage);
@@ -36,8 +36,6 @@ struct Plan {
   };
   std::array<Item, stage_count> stages;
   std::array<Item, contact_kind_count> contact_kinds;
-  Item valence_weights;
-  Item spring_damping;
 
   bool runs(Stage stage) const { return stages[static_cast<std::size_t>(stage)].runs; }
   bool runs(ContactKind kind) const { return contact_kinds[static_cast<std::size_t>(kind)].runs; }

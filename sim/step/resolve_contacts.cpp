@@ -8,83 +8,80 @@
 namespace pneuma::sim {
 namespace {
 
-void prepare(const World& world, StepWorkspace& workspace) {
-  workspace.islands.divide(workspace.contacts);
-  workspace.box_masses.clear();
-  for (const RigidBox& box : world.rigid) workspace.box_masses.push_back(box_mass(box));
-  const std::size_t count = workspace.islands.ordered().size();
-  if (workspace.impulses.size() < count) {
-    workspace.impulses.resize(count);
-    workspace.pair_work.resize(count);
+void prepare(const World& world, std::span<const Contact> contacts, ResolveContactsMemory& memory) {
+  memory.islands.divide(contacts);
+  memory.box_masses.clear();
+  for (const RigidBox& box : world.rigid) memory.box_masses.push_back(box_mass(box));
+  const std::size_t count = memory.islands.ordered().size();
+  if (memory.impulses.size() < count) {
+    memory.impulses.resize(count);
+    memory.pair_work.resize(count);
   }
 }
 
-void resolve_alone(World& world, const StepWorkspace& workspace, int number) {
-  const Contact& contact = workspace.contacts[at(workspace.islands.alone()[at(number)])];
+void resolve_alone(World& world, const MotionStart& motion, const Contact& contact) {
   SoftBody& body = world.soft[at(contact.first.body)];
-  const SoftState& start = workspace.soft_start[at(contact.first.body)];
+  const SoftState& start = motion.soft[at(contact.first.body)];
   const int v = contact.first.feature.index;
-  const Surface pair = combine(body.material.surface, *world.settings.ground);
+  const ContactMaterial pair = combine(body.material.surface, *world.settings.ground);
   Vec3 velocity = body.velocities[v];
   const bool sticks = meet_ground(-start.velocities[v].z(), pair, velocity);
   body.velocities[v] = velocity;
-  put_onto_ground(world, workspace, contact, sticks);
+  put_onto_ground(world, start, contact, sticks);
 }
 
 /// No island touches what another does.
-void resolve_all(World& world, StepWorkspace& workspace) {
-  const auto alone = [&world, &workspace](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) resolve_alone(world, workspace, i);
-  };
-  workspace.workers.for_blocks(static_cast<int>(workspace.islands.alone().size()), alone);
-  const auto islands = [&world, &workspace](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) resolve_island(world, workspace, i);
-  };
-  workspace.workers.for_blocks(workspace.islands.count(), islands);
+void resolve_all(World& world, const MotionStart& start, std::span<const Contact> contacts,
+                 ResolveContactsMemory& memory, Workers& workers) {
+  const std::span<const int> alone = memory.islands.alone();
+  workers.for_blocks(static_cast<int>(alone.size()), [&](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) resolve_alone(world, start, contacts[at(alone[at(i)])]);
+  });
+  workers.for_blocks(memory.islands.count(), [&](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) resolve_island(world, start, contacts, i, memory);
+  });
 }
 
-void keep_positions(const World& world, StepWorkspace& workspace) {
-  workspace.before_contacts.resize(world.soft.size());
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    workspace.before_contacts[i] = world.soft[i].positions;
-  }
+void keep_positions(const World& world, std::vector<VertexArray>& before_contacts) {
+  before_contacts.resize(world.soft.size());
+  for (std::size_t i = 0; i < world.soft.size(); ++i) before_contacts[i] = world.soft[i].positions;
 }
 
 /// What an implicit integrator promises, contacts keep: a body that holds gas has a volume.
-void keep_volumes(World& world, const StepWorkspace& workspace) {
+void keep_volumes(World& world, const std::vector<VertexArray>& before_contacts) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     SoftBody& body = world.soft[i];
     if (gas_strength(body.material) == 0.0) continue;
-    keep_volume(body.mesh->topology, workspace.before_contacts[i], body.positions);
+    keep_volume(body.mesh->topology, before_contacts[i], body.positions);
   }
 }
 
 /// In the order in which the contacts were found, whichever islands they are in.
-void remember(World& world, StepWorkspace& workspace) {
-  world.resting_impulses.clear();
+void remember(World& world, std::span<const Contact> contacts, ResolveContactsMemory& memory) {
+  world.warm_start_impulses.clear();
   if (world.rigid.empty()) return;
-  const std::span<const int> ordered = workspace.islands.ordered();
-  std::vector<int>& number = workspace.impulse_number;
-  number.resize(workspace.contacts.size());
+  const std::span<const int> ordered = memory.islands.ordered();
+  std::vector<int>& number = memory.impulse_number;
+  number.resize(contacts.size());
   for (std::size_t i = 0; i < ordered.size(); ++i) number[at(ordered[i])] = static_cast<int>(i);
-  for (std::size_t i = 0; i < workspace.contacts.size(); ++i) {
-    const Contact& contact = workspace.contacts[i];
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
     if (!is_rigid(contact)) continue;
-    const int second = contact.second.kind == BodyKind::ground ? -1 : contact.second.body;
-    world.resting_impulses.push_back({contact.first.body, second, place_on_first(world, contact),
-                                      workspace.impulses[at(number[i])].total()});
+    const int second = contact.second.kind == SideKind::ground ? -1 : contact.second.body;
+    world.warm_start_impulses.push_back({contact.first.body, second, point_on_first(world, contact),
+                                         memory.impulses[at(number[i])].total()});
   }
 }
 
 /// The last look at a step: the first of all bodies.
-std::optional<Divergence> find_first_divergence(const World& world, StepWorkspace& workspace) {
-  const auto block = [&world, &workspace](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) {
-      workspace.soft_outcome[at(i)] = find_divergence(world, world.soft[at(i)]);
-    }
-  };
-  workspace.workers.for_blocks(static_cast<int>(world.soft.size()), block);
-  for (const std::optional<Divergence>& outcome : workspace.soft_outcome) {
+std::optional<Divergence> find_first_divergence(const World& world,
+                                                std::vector<std::optional<Divergence>>& outcomes,
+                                                Workers& workers) {
+  outcomes.resize(world.soft.size());
+  workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
+  });
+  for (const std::optional<Divergence>& outcome : outcomes) {
     if (outcome) return outcome;
   }
   for (const RigidBox& box : world.rigid) {
@@ -95,18 +92,20 @@ std::optional<Divergence> find_first_divergence(const World& world, StepWorkspac
 
 }  // namespace
 
-std::optional<Divergence> resolve_contacts(World& world, StepWorkspace& workspace) {
-  if (workspace.contacts.empty()) {
-    world.resting_impulses.clear();
+std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
+                                           std::span<const Contact> contacts,
+                                           ResolveContactsMemory& memory, Workers& workers) {
+  if (contacts.empty()) {
+    world.warm_start_impulses.clear();
     return std::nullopt;
   }
   const bool keeps_volume = is_implicit(world.settings.integrator);
-  if (keeps_volume) keep_positions(world, workspace);
-  prepare(world, workspace);
-  resolve_all(world, workspace);
-  if (keeps_volume) keep_volumes(world, workspace);
-  if (auto divergence = find_first_divergence(world, workspace)) return divergence;
-  remember(world, workspace);
+  if (keeps_volume) keep_positions(world, memory.before_contacts);
+  prepare(world, contacts, memory);
+  resolve_all(world, start, contacts, memory, workers);
+  if (keeps_volume) keep_volumes(world, memory.before_contacts);
+  if (auto divergence = find_first_divergence(world, memory.outcomes, workers)) return divergence;
+  remember(world, contacts, memory);
   return std::nullopt;
 }
 

@@ -4,31 +4,31 @@
 #include <cmath>
 #include <memory>
 
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// Of moving boxes apart: in a stack each correction pushes into the next box.
-constexpr int separation_sweeps = 4;
+/// Iterations that move boxes apart: in a stack each correction pushes into the next box.
+constexpr int separation_iterations = 4;
 
-/// Where no box rests on another or on the ground. The paper makes one; with more than three the
-/// scenes of soft bodies penetrate no less, rise in energy no less and end no more at rest (tried:
-/// 1, 2, 3, 5, 10, 30): their springs go on with what is left.
-constexpr int most_soft_sweeps = 3;
+/// Gauss-Seidel iterations where no box rests on another or on the ground. The paper makes one;
+/// more than three do not improve scenes of soft bodies (tests/benchmarks/README.md): their springs
+/// go on with what is left (ERRATA row 57).
+constexpr int max_soft_iterations = 3;
 
-/// Of the shortest side of a box: points nearer than this are one, a step later.
+/// Fraction of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_point = 0.05;
 
 /// The contacts of an island, and the impulse of each.
 class Island {
  public:
-  Island(StepWorkspace& workspace, int island)
-      : contacts_(workspace.contacts),
-        numbers_(workspace.islands.island(island)),
-        begin_(at(workspace.islands.begin(island))),
-        impulses_(std::span(workspace.impulses).subspan(begin_, numbers_.size())),
-        work_(std::span(workspace.pair_work).subspan(begin_, numbers_.size())) {}
+  Island(std::span<const Contact> contacts, int number, ResolveContactsMemory& memory)
+      : contacts_(contacts),
+        numbers_(memory.islands.island(number)),
+        begin_(at(memory.islands.begin(number))),
+        impulses_(std::span(memory.impulses).subspan(begin_, numbers_.size())),
+        work_(std::span(memory.pair_work).subspan(begin_, numbers_.size())) {}
 
   std::size_t size() const { return numbers_.size(); }
   const Contact& contact(std::size_t i) const { return contacts_[at(numbers_[i])]; }
@@ -48,30 +48,30 @@ class Island {
   std::span<double> work_;
 };
 
-Vec3 start_velocity(const World& world, const StepWorkspace& workspace, const ContactSide& side,
+Vec3 start_velocity(const World& world, const MotionStart& motion, const ContactSide& side,
                     const Vec3& point) {
   switch (side.kind) {
-    case BodyKind::soft: {
+    case SideKind::soft: {
       const auto vertices = world.soft[at(side.body)].mesh->topology.feature_vertices(side.feature);
-      const RowReader velocities(workspace.soft_start[at(side.body)].velocities);
-      Row sum{};
+      const VertexReader velocities(motion.soft[at(side.body)].velocities);
+      Vec4d sum{};
       for (const int v : vertices) sum += velocities[v];
       return to_vec3(sum / static_cast<double>(vertices.size()));
     }
-    case BodyKind::rigid: {
-      const RigidStart& start = workspace.rigid_start[at(side.body)];
+    case SideKind::rigid: {
+      const RigidStart& start = motion.rigid[at(side.body)];
       const Vec3 arm = point - world.rigid[at(side.body)].position;
       return start.velocity + start.angular_velocity.cross(arm);
     }
-    case BodyKind::ground:
+    case SideKind::ground:
       break;
   }
   return Vec3::Zero();
 }
 
-double start_approach(const World& world, const StepWorkspace& workspace, const Contact& contact) {
-  const Vec3 relative = start_velocity(world, workspace, contact.first, contact.point) -
-                        start_velocity(world, workspace, contact.second, contact.point);
+double start_approach(const World& world, const MotionStart& motion, const Contact& contact) {
+  const Vec3 relative = start_velocity(world, motion, contact.first, contact.point) -
+                        start_velocity(world, motion, contact.second, contact.point);
   return -relative.dot(contact.normal);
 }
 
@@ -83,42 +83,44 @@ bool are_of_same_bodies(const Contact& a, const Contact& b) {
   return !is_soft_ground(a) && same(a.first, b.first) && same(a.second, b.second);
 }
 
-void make_impulses(World& world, StepWorkspace& workspace, const Island& island) {
+void make_impulses(World& world, const MotionStart& motion, std::span<const BoxMass> box_masses,
+                   const Island& island) {
   std::size_t pair = 0;
   for (std::size_t i = 0; i < island.size(); ++i) {
     const Contact& contact = island.contact(i);
     if (i > 0 && !are_of_same_bodies(island.contact(i - 1), contact)) pair = i;
     island.work(i) = 0.0;
-    std::construct_at(&island.impulse(i), world, workspace.box_masses, contact,
-                      start_approach(world, workspace, contact), island.work(pair));
+    std::construct_at(&island.impulse(i), world, box_masses, contact,
+                      start_approach(world, motion, contact), island.work(pair));
   }
 }
 
-/// What held a point of a box in the last step goes to the nearest of the contacts begin..end of
-/// the same boxes, if that is near enough to be the same point. Names of corners and edges would
-/// not do: of aligned boxes in a stack, which corner lies inside which face changes with every
-/// breath. With it their number changes, so several may go to one contact: none of them may be
-/// lost, or the stack gets a jolt.
-void hand_on(const World& world, const Island& island, std::size_t begin, std::size_t end,
-             const RestingImpulse& resting) {
+/// Gives the impulse that held a point of a box in the last step to the nearest of the contacts
+/// begin..end of the same boxes, if that is near enough to be the same point. Names of corners and
+/// edges would not do: of aligned boxes in a stack, rounding decides in each step which corner lies
+/// inside which face. With it the number of contacts changes, so several impulses may go to one
+/// contact: if one were lost, the stack would get a jolt (ERRATA row 59).
+void warm_start_nearest(const World& world, const Island& island, std::size_t begin,
+                        std::size_t end, const WarmStartImpulse& resting) {
   const RigidBox& first = world.rigid[at(resting.first)];
-  const Vec3 place = first.position + first.orientation * resting.place;
+  const Vec3 point = first.position + first.orientation * resting.point;
   const double near = same_point * first.size.minCoeff();
-  double least = near * near;
+  double min_squared = near * near;
   ContactImpulse* nearest = nullptr;
   for (std::size_t i = begin; i < end; ++i) {
-    const double squared = (island.contact(i).point - place).squaredNorm();
-    if (squared < least) {
-      least = squared;
+    const double squared = (island.contact(i).point - point).squaredNorm();
+    if (squared < min_squared) {
+      min_squared = squared;
       nearest = &island.impulse(i);
     }
   }
-  if (nearest) nearest->start_from(resting.impulse);
+  if (nearest) nearest->warm_start(resting.impulse);
 }
 
-/// The contacts of one pair of boxes follow each other.
-void start_from_last_step(const World& world, const Island& island) {
-  const std::vector<RestingImpulse>& resting = world.resting_impulses;
+/// Starts resting contacts from their impulses of the last step. The contacts of one pair of boxes
+/// follow each other.
+void warm_start_island(const World& world, const Island& island) {
+  const std::vector<WarmStartImpulse>& resting = world.warm_start_impulses;
   std::size_t end = 0;
   for (std::size_t begin = 0; begin < island.size(); begin = end) {
     end = begin + 1;
@@ -129,18 +131,18 @@ void start_from_last_step(const World& world, const Island& island) {
       ++end;
     }
     auto known = std::lower_bound(resting.begin(), resting.end(), pair,
-                                  [](const RestingImpulse& r, const std::pair<int, int>& wanted) {
+                                  [](const WarmStartImpulse& r, const std::pair<int, int>& wanted) {
                                     return boxes(r) < wanted;
                                   });
     for (; known != resting.end() && boxes(*known) == pair; ++known) {
-      hand_on(world, island, begin, end, *known);
+      warm_start_nearest(world, island, begin, end, *known);
     }
   }
 }
 
-/// Until the corrections have died away, or for so many sweeps.
-void correct_all(std::span<ContactImpulse> impulses, int sweeps) {
-  for (int i = 0; i < sweeps; ++i) {
+/// Projected Gauss-Seidel: at most so many iterations, fewer if the corrections die away.
+void correct_all(std::span<ContactImpulse> impulses, int iterations) {
+  for (int i = 0; i < iterations; ++i) {
     double change = 0.0, total = 0.0;
     const auto correct = [&](ContactImpulse& impulse) {
       change += impulse.correct();
@@ -156,70 +158,72 @@ void correct_all(std::span<ContactImpulse> impulses, int sweeps) {
   }
 }
 
-/// First what stops bodies from approaching, then what makes them bounce.
-void apply_impulses(std::span<ContactImpulse> impulses, int sweeps) {
-  correct_all(impulses, sweeps);
+/// Stops bodies from approaching, then lets them bounce (ERRATA row 56). Where anything bounces,
+/// all iterations run a second time.
+void apply_impulses(std::span<ContactImpulse> impulses, int iterations) {
+  correct_all(impulses, iterations);
   bool bounces = false;
   for (ContactImpulse& impulse : impulses) bounces |= impulse.bounce();
-  if (bounces) correct_all(impulses, sweeps);
+  if (bounces) correct_all(impulses, iterations);
 }
 
 bool is_soft_soft(const Contact& contact) {
-  return contact.first.kind == BodyKind::soft && contact.second.kind == BodyKind::soft;
+  return contact.first.kind == SideKind::soft && contact.second.kind == SideKind::soft;
 }
 
 /// The paper moves a vertex out of the skin of a triangle at once. A particle that comes to a new
 /// feature finds it deep in the skin, and to push it out in one step strains the springs by far
 /// more than they bear at rest: bodies that lie on each other never come to rest. Given a few
-/// steps, the membrane yields instead.
-double separation_share(const Settings& settings) {
-  if (settings.separation_time == 0.0) return 1.0;
-  return -std::expm1(-time_step(settings) / settings.separation_time);
+/// steps, the membrane yields instead (ERRATA row 61).
+double separation_fraction(const Settings& settings) {
+  if (settings.relaxation_time == 0.0) return 1.0;
+  return -std::expm1(-time_step(settings) / settings.relaxation_time);
 }
 
-void separate(World& world, const StepWorkspace& workspace, const Island& island) {
-  const double soft_share = separation_share(world.settings);
+void separate(World& world, const MotionStart& motion, const Island& island) {
+  const double soft_fraction = separation_fraction(world.settings);
   bool moves = true;
-  for (int sweep = 0; sweep < separation_sweeps && moves; ++sweep) {
+  for (int i = 0; i < separation_iterations && moves; ++i) {
     moves = false;
-    for (std::size_t i = 0; i < island.size(); ++i) {
-      const Contact& contact = island.contact(i);
+    for (std::size_t c = 0; c < island.size(); ++c) {
+      const Contact& contact = island.contact(c);
       if (is_soft_ground(contact)) continue;
-      moves |= island.impulse(i).separate(is_soft_soft(contact) ? soft_share : 1.0);
+      moves |= island.impulse(c).separate(is_soft_soft(contact) ? soft_fraction : 1.0);
     }
   }
   for (std::size_t i = 0; i < island.size() && is_soft_ground(island.contact(i)); ++i) {
-    put_onto_ground(world, workspace, island.contact(i), island.impulse(i).sticks());
+    const Contact& contact = island.contact(i);
+    put_onto_ground(world, motion.soft[at(contact.first.body)], contact,
+                    island.impulse(i).sticks());
   }
 }
 
 }  // namespace
 
-void put_onto_ground(World& world, const StepWorkspace& workspace, const Contact& contact,
-                     bool sticks) {
+void put_onto_ground(World& world, const SoftState& start, const Contact& contact, bool sticks) {
   VertexArray& positions = world.soft[at(contact.first.body)].positions;
   const int v = contact.first.feature.index;
   Vec3 position = positions[v];
-  // Implicit integrators hold by friction what is on the ground, and below it, themselves.
+  // Implicit integrators apply friction to what is on or below the ground themselves.
   if (sticks && !is_implicit(world.settings.integrator)) {
-    const SoftState& start = workspace.soft_start[at(contact.first.body)];
     position = start.positions[v] + 0.5 * time_step(world.settings) * Vec3(start.velocities[v]);
   }
   position.z() = 0.0;
   positions[v] = position;
 }
 
-void resolve_island(World& world, StepWorkspace& workspace, int number) {
-  const Island island(workspace, number);
-  make_impulses(world, workspace, island);
-  int sweeps = world.settings.impulse_sweeps;
+void resolve_island(World& world, const MotionStart& start, std::span<const Contact> contacts,
+                    int number, ResolveContactsMemory& memory) {
+  const Island island(contacts, number, memory);
+  make_impulses(world, start, memory.box_masses, island);
+  int iterations = world.settings.contact_iterations;
   if (island.has_resting_box()) {
-    start_from_last_step(world, island);
+    warm_start_island(world, island);
   } else {
-    sweeps = std::min(sweeps, most_soft_sweeps);
+    iterations = std::min(iterations, max_soft_iterations);
   }
-  apply_impulses(island.impulses(), sweeps);
-  separate(world, workspace, island);
+  apply_impulses(island.impulses(), iterations);
+  separate(world, start, island);
 }
 
 }  // namespace pneuma::sim

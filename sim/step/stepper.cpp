@@ -1,98 +1,83 @@
 #include "sim/step/stepper.h"
 
-#include <chrono>
 #include <map>
 #include <stdexcept>
 
+#include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
+#include "sim/step/swept_step.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// Runs one stage if the plan has it, and takes its time if asked to.
-class StageRunner {
- public:
-  explicit StageRunner(StepWorkspace& workspace) : workspace_(workspace) {}
-
-  template <class Work>
-  void operator()(Stage stage, const Work& work) const {
-    if (!workspace_.plan.runs(stage)) return;
-    if (!workspace_.options.profile) return work();
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    workspace_.stage_times[static_cast<std::size_t>(stage)] += taken.count();
+/// Takes back what the stages up to the one that failed have done.
+void restore(World& world, const StepWorkspace& workspace, Stage failed) {
+  const MotionStart& motion = workspace.motion_start;
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    world.soft[i].positions = motion.soft[i].positions;
+    world.soft[i].velocities = motion.soft[i].velocities;
   }
+  if (failed == Stage::integrate_soft) return;
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    RigidBox& box = world.rigid[i];
+    const RigidStart& start = motion.rigid[i];
+    box.position = start.position;
+    box.orientation = start.orientation;
+    box.velocity = start.velocity;
+    box.angular_velocity = start.angular_velocity;
+  }
+  if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::broad_phase)) return;
+  world.particles = workspace.pair_start.particles;
+  world.depenetrating = workspace.pair_start.depenetrating;
+  world.warm_start_impulses = workspace.pair_start.warm_start_impulses;
+}
 
- private:
-  StepWorkspace& workspace_;
-};
+}  // namespace
 
-SoftScratch make_soft_scratch(const World& world, int threads) {
-  SoftScratch scratch;
-  scratch.per_thread.resize(at(threads));
+IntegrateSoftMemory::IntegrateSoftMemory(const World& world, int threads)
+    : scratch(at(threads)), outcomes(world.soft.size()) {
   std::map<const SoftMesh*, int> known;
   for (const SoftBody& body : world.soft) {
     if (!can_integrate(world.settings.integrator, body.material)) {
       throw std::invalid_argument(body.name +
                                   ": implicit integrators cannot step valence pressure");
     }
-    const auto [entry, added] = known.try_emplace(body.mesh.get(), static_cast<int>(known.size()));
-    if (added) {
-      for (auto& meshes : scratch.per_thread) {
-        meshes.emplace_back(*body.mesh, world.settings.integrator);
-      }
+    const auto [entry, is_new] = known.try_emplace(body.mesh.get(), static_cast<int>(known.size()));
+    if (is_new) {
+      for (auto& meshes : scratch) meshes.emplace_back(*body.mesh, world.settings.integrator);
     }
-    scratch.mesh_of_body.push_back(entry->second);
+    mesh_of_body.push_back(entry->second);
   }
-  return scratch;
 }
 
-std::vector<std::uint8_t> find_filled_centres(const World& world) {
-  std::vector<std::uint8_t> filled;
-  for (const SoftBody& body : world.soft) filled.push_back(has_filled_centre(*body.mesh) ? 1 : 0);
-  return filled;
+BroadPhaseMemory::BroadPhaseMemory(const World& world, bool depenetrates) {
+  if (!depenetrates) return;
+  for (const SoftBody& body : world.soft) {
+    has_filled_centre.push_back(sim::has_filled_centre(*body.mesh) ? 1 : 0);
+  }
 }
 
-/// Takes back what the stages up to the one that failed have done.
-void restore(World& world, StepWorkspace& workspace, Stage failed) {
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    world.soft[i].positions = workspace.soft_start[i].positions;
-    world.soft[i].velocities = workspace.soft_start[i].velocities;
-  }
-  if (failed == Stage::integrate_soft) return;
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    RigidBox& box = world.rigid[i];
-    const RigidStart& start = workspace.rigid_start[i];
-    box.position = start.position;
-    box.orientation = start.orientation;
-    box.velocity = start.velocity;
-    box.angular_velocity = start.angular_velocity;
-  }
-  if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::find_pairs)) return;
-  world.particles = workspace.particles_start;
-  world.parting = workspace.parting_start;
-  world.resting_impulses = workspace.resting_start;
-}
+FindContactsMemory::FindContactsMemory(int threads)
+    : soft_soft(at(threads)), exact(at(threads)), columns(at(threads)), found(at(threads - 1)) {}
 
-}  // namespace
+ResolveContactsMemory::ResolveContactsMemory(const World& world)
+    : islands(world), outcomes(world.soft.size()) {}
 
 StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     : options(std::move(given)),
       plan(options.plan ? *options.plan : make_plan(world)),
       workers(options.threads),
-      soft(make_soft_scratch(world, options.threads)),
-      soft_start(world.soft.size()),
-      rigid_start(world.rigid.size()),
-      soft_outcome(world.soft.size()),
-      has_filled_centre(plan.runs(Stage::part_bodies) ? find_filled_centres(world)
-                                                      : std::vector<std::uint8_t>{}),
-      particles(at(options.threads)),
-      soft_soft(at(options.threads)),
-      exact(at(options.threads)),
-      columns(at(options.threads)),
-      found(at(options.threads - 1)),
-      islands(world) {}
+      motion_start{std::vector<SoftState>(world.soft.size()),
+                   std::vector<RigidStart>(world.rigid.size())},
+      integrate_soft(world, options.threads),
+      broad_phase(world, plan.runs(Stage::depenetrate)),
+      move_particles{std::vector<ParticleScratch>(at(options.threads))},
+      find_contacts(options.threads),
+      resolve_contacts(world) {
+  if (world.settings.contact == ContactMethod::swept && plan.runs(Stage::resolve_contacts)) {
+    swept.emplace(world);
+  }
+}
 
 Stepper::Stepper(const World& world, StepperOptions options)
     : workspace_(std::make_unique<StepWorkspace>(world, std::move(options))) {}
@@ -101,25 +86,35 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
 std::optional<Divergence> Stepper::step(World& world) {
-  StepWorkspace& workspace = *workspace_;
-  const StageRunner run(workspace);
+  StepWorkspace& w = *workspace_;
+  if (w.swept) return step_swept(world);
+  const StageRunner run(w);
   std::optional<Divergence> divergence;
 
-  run(Stage::integrate_soft, [&] { divergence = integrate_soft(world, workspace); });
+  run(Stage::integrate_soft, [&] {
+    divergence = integrate_soft(world, w.motion_start.soft, w.integrate_soft, w.workers);
+  });
   if (!divergence) {
-    run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, workspace); });
+    run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, w.motion_start.rigid); });
   }
   if (!divergence) {
-    run(Stage::find_pairs, [&] { find_pairs(world, workspace); });
-    run(Stage::move_particles, [&] { move_particles(world, workspace); });
-    run(Stage::find_contacts, [&] { find_contacts(world, workspace); });
-    run(Stage::resolve_contacts, [&] { divergence = resolve_contacts(world, workspace); });
+    run(Stage::broad_phase,
+        [&] { broad_phase(world, w.plan, w.pair_start, w.near_bodies, w.broad_phase, w.workers); });
+    run(Stage::move_particles,
+        [&] { move_particles(world, w.near_bodies, w.move_particles, w.workers); });
+    run(Stage::find_contacts, [&] {
+      find_contacts(world, w.plan, w.near_bodies, w.contacts, w.find_contacts, w.workers);
+    });
+    run(Stage::resolve_contacts, [&] {
+      divergence =
+          resolve_contacts(world, w.motion_start, w.contacts, w.resolve_contacts, w.workers);
+    });
   }
   if (!divergence) {
-    run(Stage::part_bodies, [&] { divergence = part_bodies(world, workspace); });
+    run(Stage::depenetrate, [&] { divergence = depenetrate(world, w.near_bodies, w.depenetrate); });
   }
   if (divergence) {
-    restore(world, workspace, divergence->stage);
+    restore(world, w, divergence->stage);
     return divergence;
   }
 
@@ -127,6 +122,13 @@ std::optional<Divergence> Stepper::step(World& world) {
   return std::nullopt;
 }
 
+std::optional<Divergence> Stepper::step_swept(World& world) {
+  auto divergence = swept_step(world, *workspace_);
+  if (!divergence) ++world.steps;
+  return divergence;
+}
+
+double Stepper::contact_work() const { return workspace_->swept ? workspace_->swept->work : 0.0; }
 const Plan& Stepper::plan() const { return workspace_->plan; }
 std::span<const Contact> Stepper::contacts() const { return workspace_->contacts; }
 const StageTimes& Stepper::stage_times() const { return workspace_->stage_times; }

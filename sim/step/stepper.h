@@ -10,14 +10,14 @@
 
 #include "sim/collision/contact.h"
 #include "sim/step/plan.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 
 /// Seconds spent in each stage since the stepper was made.
 using StageTimes = std::array<double, stage_count>;
 
-/// A step that did not end in a sound state: something is not finite, a volume is not above zero, a
+/// A step that did not end in a valid state: something is not finite, a volume is not above zero, a
 /// vertex is faster than anything, or energy came from nowhere (find_divergence.h). Found in the
 /// step in which it happens.
 struct Divergence {
@@ -48,7 +48,7 @@ class Stepper {
   Stepper& operator=(Stepper&&) noexcept;
 
   /// One step of the world this was made for. On divergence the world is left as the step found it:
-  /// in its last sound state. Allocates nothing once the numbers of contacts, and
+  /// in its last valid state. Allocates nothing once the numbers of contacts, and
   /// of cells of the exact search, have peaked (but see sim/soft/vertex_matrix.h).
   [[nodiscard]] std::optional<Divergence> step(World& world);
 
@@ -56,8 +56,12 @@ class Stepper {
   /// The contacts that the last step found and resolved.
   std::span<const Contact> contacts() const;
   const StageTimes& stage_times() const;
+  /// J, the work of all impulses of the last step; of swept contacts only, which do nothing else.
+  double contact_work() const;
 
  private:
+  std::optional<Divergence> step_swept(World& world);
+
   std::unique_ptr<StepWorkspace> workspace_;
 };
 

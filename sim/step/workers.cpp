@@ -3,8 +3,8 @@
 namespace pneuma::sim {
 namespace {
 
-/// To sleep and be waked takes some 50 us, as long as many a piece of a step: for about that long a
-/// thread only lets others go first.
+/// Sleeping and being woken takes as long as many a piece of a step (tests/benchmarks/README.md):
+/// for about that long a thread only yields to others.
 template <class Value>
 void wait_while(const std::atomic<Value>& variable, Value old) {
   for (int i = 0; i < 100 && variable == old; ++i) std::this_thread::yield();
@@ -27,19 +27,19 @@ Workers::~Workers() {
 }
 
 void Workers::run_block(int thread) const {
-  const auto share = [this](int i) {
+  const auto boundary = [this](int i) {
     return static_cast<int>(static_cast<std::int64_t>(count_) * i / threads());
   };
-  const int begin = share(thread), end = share(thread + 1);
-  if (begin < end) (*work_)(begin, end, thread);
+  const int begin = boundary(thread), end = boundary(thread + 1);
+  if (begin < end) work_.call(work_.work, begin, end, thread);
 }
 
-void Workers::for_blocks(int count, const std::function<void(int, int, int)>& work) {
+void Workers::run(const AnyWork& work, int count) {
   if (helpers_.empty() || count <= 1) {
-    if (count > 0) work(0, count, 0);
+    if (count > 0) work.call(work.work, 0, count, 0);
     return;
   }
-  work_ = &work;
+  work_ = work;
   count_ = count;
   busy_ = static_cast<int>(helpers_.size());
   ++round_;

@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
 #include <thread>
 #include <vector>
 
@@ -22,15 +21,27 @@ class Workers {
 
   /// Calls work(begin, end, thread) once per thread on consecutive blocks of 0..count, none of them
   /// empty, and returns when all are done. `work` must not throw. A single piece is done by the
-  /// calling thread: to wake another takes some 50 us.
-  void for_blocks(int count, const std::function<void(int begin, int end, int thread)>& work);
+  /// calling thread, because waking another takes longer. Allocates nothing.
+  template <class Work>
+  void for_blocks(int count, const Work& work) {
+    run({&work, [](const void* known, int begin, int end,
+                   int thread) { (*static_cast<const Work*>(known))(begin, end, thread); }},
+        count);
+  }
 
  private:
+  /// Refers to a callable of any type.
+  struct AnyWork {
+    const void* work = nullptr;
+    void (*call)(const void* work, int begin, int end, int thread) = nullptr;
+  };
+
+  void run(const AnyWork& work, int count);
   void help(int thread);
   void run_block(int thread) const;
 
   std::vector<std::thread> helpers_;
-  const std::function<void(int, int, int)>* work_ = nullptr;
+  AnyWork work_;
   int count_ = 0;
   std::atomic<std::uint32_t> round_ = 0;  // a new value starts the helpers
   std::atomic<int> busy_ = 0;

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Cat, testing::ValuesIn(cat_sizes), [](const auto
 
 TEST_P(Cat, IsWhatTheGeneratorWrites) {
   EXPECT_TRUE(write_ply(make_cat(GetParam().edge_length)) == read_asset(GetParam().file))
-      << "make it anew as assets/cat/README.md says";
+      << "make it again as assets/cat/README.md says";
 }
 
 TEST_P(Cat, IsOneClosedOutwardSurfaceWithoutHandles) {

@@ -10,7 +10,7 @@
 
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
-#include "sim/soft/soft_mesh.h"
+#include "sim/mesh/soft_mesh.h"
 #include "tests/assets/model_writers.h"
 
 namespace pneuma::assets {

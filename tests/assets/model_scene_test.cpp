@@ -4,12 +4,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/build_world.h"
-#include "app/find_model.h"
-#include "app/find_scene.h"
+#include "app/world/build_world.h"
+#include "app/world/find_model.h"
+#include "app/world/find_scene.h"
 #include "assets/model.h"
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/primitives.h"
 #include "tests/assets/model_writers.h"

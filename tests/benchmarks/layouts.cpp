@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/mesh/measure.h"
-#include "sim/mesh/row.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/ring_forces.h"
@@ -156,33 +156,33 @@ class ColouredScatter : public Layout {
     double* force = force_.rows().data();
     const double k = body_.material.k, c = dashpot_constant(body_.material);
     for (std::size_t e = 0; e < edges_.size(); e += 4) {
-      std::array<Row, 4> edge, rate;
+      std::array<Vec4d, 4> edge, rate;
       for (std::size_t i = 0; i < 4; ++i) {
         const auto& [a, b] = edges_[e + i];
-        edge[i] = load_row(x + b) - load_row(x + a);
-        rate[i] = load_row(v + b) - load_row(v + a);
+        edge[i] = load_vec4d(x + b) - load_vec4d(x + a);
+        rate[i] = load_vec4d(v + b) - load_vec4d(v + a);
       }
-      const Columns d = columns(edge[0], edge[1], edge[2], edge[3]);
-      const Columns u = columns(rate[0], rate[1], rate[2], rate[3]);
-      const Row squared = d.x * d.x + d.y * d.y + d.z * d.z + 1e-200;
-      const Row length = square_root(squared);
-      const Row pull = k * length * (length - load_row(&rest_lengths_[e])) +
-                       c * (d.x * u.x + d.y * u.y + d.z * u.z);
-      const Row coefficient = pull / squared;
+      const Vec3x4 d = to_columns(edge[0], edge[1], edge[2], edge[3]);
+      const Vec3x4 u = to_columns(rate[0], rate[1], rate[2], rate[3]);
+      const Vec4d squared = d.x * d.x + d.y * d.y + d.z * d.z + 1e-200;
+      const Vec4d length = square_root(squared);
+      const Vec4d pull = k * length * (length - load_vec4d(&rest_lengths_[e])) +
+                         c * (d.x * u.x + d.y * u.y + d.z * u.z);
+      const Vec4d coefficient = pull / squared;
       for (int i = 0; i < 4; ++i) {
         const auto& [a, b] = edges_[e + at(i)];
-        const Row part = coefficient[i] * edge[at(i)];
-        store_row(load_row(force + a) + part, force + a);
-        store_row(load_row(force + b) - part, force + b);
+        const Vec4d part = coefficient[i] * edge[at(i)];
+        store_vec4d(load_vec4d(force + a) + part, force + a);
+        store_vec4d(load_vec4d(force + b) - part, force + b);
       }
     }
   }
   void add_triangles() {
-    const RowReader x(body_.positions), sum(gradient_);
-    const RowWriter out(gradient_);
+    const VertexReader x(body_.positions), sum(gradient_);
+    const VertexWriter out(gradient_);
     for (const auto& [a, b, c] : triangles_) {
-      const Row side = x[b] - x[a], other = x[c] - x[a];
-      const Row sixth = turned(side * turned(other) - turned(side) * other) / 6.0;
+      const Vec4d side = x[b] - x[a], other = x[c] - x[a];
+      const Vec4d sixth = yzx(side * yzx(other) - yzx(side) * other) / 6.0;
       for (const int v : {a, b, c}) out.put(v, sum[v] + sixth);
     }
   }
@@ -194,7 +194,7 @@ class ColouredScatter : public Layout {
   VertexArray gradient_, force_;
 };
 
-/// Columns x, y, z: the loops over edges and rings gather single numbers, and the compiler
+/// Vec3x4 x, y, z: the loops over edges and rings gather single numbers, and the compiler
 /// vectorises what it can.
 class ColumnsWithGathers : public Layout {
  public:
@@ -281,9 +281,9 @@ class BodiesInLanes : public Layout {
   int bodies() const override { return 4; }
   void evaluate() override {
     measure_edges();
-    Row volume{};
+    Vec4d volume{};
     for (int i = 0; i < body_.positions.size(); ++i) volume += gather(i);
-    const Row pressure = gas_strength(body_.material) / volume;
+    const Vec4d pressure = gas_strength(body_.material) / volume;
     for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += pressure * gradient_[i];
   }
   VertexArray forces() const override {
@@ -295,50 +295,50 @@ class BodiesInLanes : public Layout {
   }
 
  private:
-  static std::vector<Row> all_lanes(const VertexArray& values) {
-    std::vector<Row> result;
+  static std::vector<Vec4d> all_lanes(const VertexArray& values) {
+    std::vector<Vec4d> result;
     for (int i = 0; i < values.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis) result.push_back(Row{} + values[i][axis]);
+      for (int axis = 0; axis < 3; ++axis) result.push_back(Vec4d{} + values[i][axis]);
     }
     return result;
   }
-  static Columns difference(const std::vector<Row>& values, int a, int b) {
-    const Row *from = &values[at(3 * a)], *to = &values[at(3 * b)];
+  static Vec3x4 difference(const std::vector<Vec4d>& values, int a, int b) {
+    const Vec4d *from = &values[at(3 * a)], *to = &values[at(3 * b)];
     return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
   }
   void measure_edges() {
     const double k = body_.material.k, c = dashpot_constant(body_.material);
     for (std::size_t e = 0; e < coefficients_.size(); ++e) {
       const auto& [a, b] = body_.mesh->topology.edges()[e];
-      const Columns d = difference(x_, a, b), u = difference(v_, a, b);
-      const Row squared = d.x * d.x + d.y * d.y + d.z * d.z;
-      const Row pull = k * body_.mesh->rest_lengths[e] * square_root(squared) -
-                       c * (d.x * u.x + d.y * u.y + d.z * u.z);
+      const Vec3x4 d = difference(x_, a, b), u = difference(v_, a, b);
+      const Vec4d squared = d.x * d.x + d.y * d.y + d.z * d.z;
+      const Vec4d pull = k * body_.mesh->rest_lengths[e] * square_root(squared) -
+                         c * (d.x * u.x + d.y * u.y + d.z * u.z);
       coefficients_[e] = k - pull / squared;
     }
   }
-  Row gather(int i) {
+  Vec4d gather(int i) {
     const auto ring = body_.mesh->topology.ring(i);
-    Columns previous = difference(x_, i, ring.back().vertex), f{}, g{};
+    Vec3x4 previous = difference(x_, i, ring.back().vertex), f{}, g{};
     for (const auto& spoke : ring) {
-      const Columns d = difference(x_, i, spoke.vertex);
-      const Row s = coefficients_[at(spoke.edge)];
+      const Vec3x4 d = difference(x_, i, spoke.vertex);
+      const Vec4d s = coefficients_[at(spoke.edge)];
       f.x += s * d.x, f.y += s * d.y, f.z += s * d.z;
       g.x += previous.y * d.z - previous.z * d.y;
       g.y += previous.z * d.x - previous.x * d.z;
       g.z += previous.x * d.y - previous.y * d.x;
       previous = d;
     }
-    const std::array<Row, 3> force = {f.x, f.y, f.z};
-    const std::array<Row, 3> gradient = {g.x / 6.0, g.y / 6.0, g.z / 6.0};
+    const std::array<Vec4d, 3> force = {f.x, f.y, f.z};
+    const std::array<Vec4d, 3> gradient = {g.x / 6.0, g.y / 6.0, g.z / 6.0};
     std::copy(force.begin(), force.end(), &force_[at(3 * i)]);
     std::copy(gradient.begin(), gradient.end(), &gradient_[at(3 * i)]);
-    const Columns r = difference(x_, 0, i);
+    const Vec3x4 r = difference(x_, 0, i);
     return (r.x * gradient[0] + r.y * gradient[1] + r.z * gradient[2]) / 3.0;
   }
 
   SoftBody body_;
-  std::vector<Row> x_, v_, force_, gradient_, coefficients_;
+  std::vector<Vec4d> x_, v_, force_, gradient_, coefficients_;
 };
 
 template <class T>

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "sim/soft/soft_mesh.h"
+#include "sim/mesh/soft_mesh.h"
 #include "tests/fuzz/surface_promises.h"
 #include "tests/fuzz/targets.h"
 #include "tests/fuzz/triangle_soup.h"

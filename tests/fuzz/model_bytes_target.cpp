@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "assets/model_file.h"
-#include "assets/pack_model.h"
+#include "assets/serialise_model.h"
 #include "tests/fuzz/targets.h"
 
 namespace pneuma::fuzz {
@@ -28,11 +28,11 @@ void try_headers(std::string_view bytes) {
 void try_answer(std::string_view bytes) {
   std::string again;
   try {
-    again = assets::pack(assets::unpack(bytes));
+    again = assets::serialise(assets::deserialise(bytes));
   } catch (const assets::ModelError&) {
     return;
   }
-  if (!bytes.starts_with(again)) throw std::logic_error("packed otherwise than unpacked");
+  if (!bytes.starts_with(again)) throw std::logic_error("serialised otherwise than before");
 }
 
 }  // namespace

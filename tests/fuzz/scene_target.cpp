@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
 #include "tests/fuzz/targets.h"
 #include "tests/scenes/same_scene.h"
 

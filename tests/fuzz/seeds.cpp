@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
-#include "assets/pack_model.h"
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
-#include "scenes/sections.h"
+#include "assets/serialise_model.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "scenes/loader/sections.h"
 #include "sim/mesh/primitives.h"
 #include "tests/assets/model_writers.h"
 #include "tests/fuzz/triangle_soup.h"
@@ -92,7 +92,7 @@ std::vector<std::string> model_byte_seeds() {
           fbx_text(mesh),
           glb_bytes(mesh),
           gltf_text(mesh, "it.bin"),
-          pack({mesh, std::vector<int>(mesh.triangles.size(), 1), {"left", "right"}})};
+          serialise({mesh, std::vector<int>(mesh.triangles.size(), 1), {"left", "right"}})};
 }
 
 std::string scene_dictionary() {

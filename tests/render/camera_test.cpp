@@ -1,4 +1,4 @@
-#include "render/camera.h"
+#include "render/frame/camera.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ Eigen::Vector4f clip(const Camera& camera, float aspect, const Vec3f& point) {
          point.homogeneous();
 }
 
-TEST(ViewMatrix, puts_the_target_straight_ahead_and_keeps_lengths) {
+TEST(ViewMatrix, PutsTheTargetStraightAheadAndKeepsLengths) {
   const Camera camera = {{3.0f, -4.0f, 2.0f}, {1.0f, 1.0f, 0.5f}, 40.0f};
   const Mat4f view = view_matrix(camera);
   const Vec3f target = (view * camera.target.homogeneous()).head<3>();
@@ -31,7 +31,7 @@ TEST(ViewMatrix, puts_the_target_straight_ahead_and_keeps_lengths) {
   EXPECT_GT(up.y(), 0.0f);
 }
 
-TEST(ViewMatrix, is_finite_looking_straight_down_and_up) {
+TEST(ViewMatrix, IsFiniteLookingStraightDownAndUp) {
   for (const float height : {10.0f, -10.0f}) {
     const Mat4f view = view_matrix({{0.0f, 0.0f, height}, Vec3f::Zero(), 40.0f});
     ASSERT_TRUE(view.allFinite());
@@ -40,7 +40,7 @@ TEST(ViewMatrix, is_finite_looking_straight_down_and_up) {
   }
 }
 
-TEST(ProjectionMatrix, agrees_with_similar_triangles) {
+TEST(ProjectionMatrix, AgreesWithSimilarTriangles) {
   const Camera camera = {{2.0f, -7.0f, 3.0f}, {0.0f, 1.0f, 1.0f}, 50.0f};
   constexpr int width = 640;
   constexpr int height = 480;
@@ -56,7 +56,7 @@ TEST(ProjectionMatrix, agrees_with_similar_triangles) {
   }
 }
 
-TEST(ProjectionMatrix, maps_near_and_far_to_the_ends_of_depth) {
+TEST(ProjectionMatrix, MapsNearAndFarToTheEndsOfDepth) {
   const Mat4f projection = projection_matrix(40.0f, 1.5f, 0.5f, 20.0f);
   const Eigen::Vector4f near = projection * Eigen::Vector4f(0, 0, -0.5f, 1);
   const Eigen::Vector4f far = projection * Eigen::Vector4f(0, 0, -20.0f, 1);
@@ -64,7 +64,7 @@ TEST(ProjectionMatrix, maps_near_and_far_to_the_ends_of_depth) {
   EXPECT_NEAR(far.z() / far.w(), 1.0f, 1e-5f);
 }
 
-TEST(LookAtBounds, stands_where_the_angles_say) {
+TEST(LookAtBounds, StandsWhereTheAnglesSay) {
   const Box box = {Vec3f::Constant(-1.0f), Vec3f::Constant(1.0f)};
   const auto direction_of = [&box](float azimuth, float elevation) {
     const Camera camera = look_at_bounds(box, {azimuth, elevation}, 40.0f, 1.0f);
@@ -100,7 +100,7 @@ struct RandomView {
 
 class LookAtBoundsProperty : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(LookAtBoundsProperty, has_all_corners_in_view_and_one_pair_of_sides_at_the_margin) {
+TEST_P(LookAtBoundsProperty, HasAllCornersInViewAndOnePairOfSidesAtTheMargin) {
   const RandomView v(GetParam());
   const Camera camera = look_at_bounds(v.box, v.direction, v.field_of_view, v.aspect, v.margin);
   float widest = 0.0f;
@@ -122,9 +122,9 @@ TEST_P(LookAtBoundsProperty, has_all_corners_in_view_and_one_pair_of_sides_at_th
   EXPECT_NEAR(middle[tight], 0.0f, rounding) << "not centred";
 }
 
-INSTANTIATE_TEST_SUITE_P(random, LookAtBoundsProperty, testing::Range(0u, 60u));
+INSTANTIATE_TEST_SUITE_P(Random, LookAtBoundsProperty, testing::Range(0u, 60u));
 
-TEST(LookAtBounds, refuses_what_cannot_be_seen) {
+TEST(LookAtBounds, RefusesWhatCannotBeSeen) {
   const Box box = {Vec3f::Zero(), Vec3f::Ones()};
   EXPECT_THROW(look_at_bounds(Box{}, {}, 40.0f, 1.0f), std::invalid_argument);
   EXPECT_THROW(look_at_bounds({Vec3f::Zero(), Vec3f::Constant(NAN)}, {}, 40.0f, 1.0f),
@@ -136,7 +136,7 @@ TEST(LookAtBounds, refuses_what_cannot_be_seen) {
   EXPECT_THROW(look_at_bounds(box, {}, 40.0f, 1.0f, 1.0f), std::invalid_argument);
 }
 
-TEST(LookAtBounds, stands_off_from_a_box_without_size) {
+TEST(LookAtBounds, StandsOffFromABoxWithoutSize) {
   const Vec3f point = {1.0f, 2.0f, 3.0f};
   const Camera camera = look_at_bounds({point, point}, {10.0f, 20.0f}, 40.0f, 1.0f);
   EXPECT_TRUE(camera.eye.allFinite());

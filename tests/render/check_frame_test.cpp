@@ -1,4 +1,4 @@
-#include "render/check_frame.h"
+#include "render/frame/check_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }
 
 class BadFrame : public testing::TestWithParam<BadCase> {};
 
-TEST_P(BadFrame, is_refused_by_name) {
+TEST_P(BadFrame, IsRefusedByName) {
   Frame frame = good_frame();
   ASSERT_NO_THROW(check_frame(frame));
   GetParam().spoil(frame);
@@ -80,10 +80,10 @@ TEST_P(BadFrame, is_refused_by_name) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(each, BadFrame, testing::ValuesIn(bad_cases),
+INSTANTIATE_TEST_SUITE_P(Each, BadFrame, testing::ValuesIn(bad_cases),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST(CheckFrame, a_refused_frame_leaves_image_and_renderer_as_they_were) {
+TEST(CheckFrame, ARefusedFrameLeavesImageAndRendererAsTheyWere) {
   Renderer renderer(small_picture());
   Image image;
   renderer.draw(good_frame(), image);

@@ -27,7 +27,7 @@ GlFailure failure_of(Action action) {
 
 ContextReport good_report() { return {"3.3 (Core Profile) Mesa", "llvmpipe", 3, 3, probe_colour}; }
 
-TEST(Context, says_what_runs) {
+TEST(Context, SaysWhatRuns) {
   const Context context;
   EXPECT_GE(10 * context.report().major + context.report().minor, 33);
   EXPECT_EQ(context.report().pixel, probe_colour);
@@ -37,18 +37,18 @@ TEST(Context, says_what_runs) {
   EXPECT_EQ(renderer.description().find('\n'), std::string::npos);
 }
 
-TEST(Context, an_impossible_version_is_refused) {
+TEST(Context, AnImpossibleVersionIsRefused) {
   EXPECT_EQ(failure_of([] { Context context({9, 9}); }), GlFailure::context_refused);
 }
 
-TEST(Context, can_be_switched_off) {
+TEST(Context, CanBeSwitchedOff) {
   setenv("PNEUMA_GL", "none", 1);
   EXPECT_EQ(failure_of([] { Renderer renderer(small_picture()); }), GlFailure::switched_off);
   unsetenv("PNEUMA_GL");
   EXPECT_NO_THROW(draw_once(Frame{}, small_picture()));
 }
 
-TEST(Context, a_version_that_is_too_old_is_refused) {
+TEST(Context, AVersionThatIsTooOldIsRefused) {
   ContextReport report = good_report();
   EXPECT_NO_THROW(check_report(report, {3, 3}));
   EXPECT_EQ(failure_of([&] { check_report(report, {3, 4}); }), GlFailure::version_too_old);
@@ -58,13 +58,13 @@ TEST(Context, a_version_that_is_too_old_is_refused) {
   EXPECT_NO_THROW(check_report(report, {3, 3}));
 }
 
-TEST(Context, black_pixels_are_refused) {
+TEST(Context, BlackPixelsAreRefused) {
   ContextReport report = good_report();
   report.pixel = {0, 0, 0, 0};
   EXPECT_EQ(failure_of([&] { check_report(report, {}); }), GlFailure::pixels_wrong);
 }
 
-TEST(Context, only_osmesa_is_loaded) {
+TEST(Context, OnlyOsmesaIsLoaded) {
   // libGL ahead of libOSMesa gives black frames without an error.
   const Context context;
   std::ifstream maps("/proc/self/maps");
@@ -84,7 +84,7 @@ Frame ball_frame() {
   return frame;
 }
 
-TEST(Renderer, two_take_turns_on_one_thread) {
+TEST(Renderer, TwoTakeTurnsOnOneThread) {
   const Frame frame = ball_frame();
   const Image alone = draw_once(frame, small_picture());
   Renderer first(small_picture());
@@ -104,7 +104,7 @@ TEST(Renderer, two_take_turns_on_one_thread) {
   EXPECT_EQ(image.pixels, alone.pixels) << "after the other one is gone";
 }
 
-TEST(Renderer, two_run_on_two_threads) {
+TEST(Renderer, TwoRunOnTwoThreads) {
   const Frame frame = ball_frame();
   const Image expected = draw_once(frame, small_picture());
   Image a;
@@ -117,7 +117,7 @@ TEST(Renderer, two_run_on_two_threads) {
   EXPECT_EQ(b.pixels, expected.pixels);
 }
 
-TEST(Renderer, refuses_options_out_of_range) {
+TEST(Renderer, RefusesOptionsOutOfRange) {
   const auto with = [](int width, int height, int samples, int shadow_size) {
     Renderer renderer({width, height, samples, shadow_size});
   };
@@ -127,7 +127,7 @@ TEST(Renderer, refuses_options_out_of_range) {
   EXPECT_THROW(with(320, 240, 4, 100), std::invalid_argument);
 }
 
-TEST(Renderer, takes_each_number_of_samples_and_odd_sizes) {
+TEST(Renderer, TakesEachNumberOfSamplesAndOddSizes) {
   for (const int samples : {1, 2, 4}) {
     const Image image = draw_once(ball_frame(), {331, 173, samples, 256});
     EXPECT_EQ(image.width, 331);

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "render/image/compare.h"
-#include "render/image/file.h"
 #include "render/image/png.h"
+#include "sim/base/file.h"
 
 namespace pneuma::render {
 namespace {
@@ -22,7 +22,7 @@ constexpr double allowed_share = 0.0005;
 constexpr double allowed_mean = 0.03;
 
 void save(const std::filesystem::path& path, const Image& image) {
-  write_file_atomically(path.string(), encode_png(image));
+  base::write_file_atomically(path.string(), encode_png(image));
 }
 
 bool updating() {
@@ -44,15 +44,15 @@ void expect_golden(const std::string& name, const Image& image) {
   ASSERT_EQ(expected.width, image.width);
   ASSERT_EQ(expected.height, image.height);
   const ImageDifference difference = compare_images(image, expected, threshold);
-  if (difference.share_beyond <= allowed_share && difference.mean <= allowed_mean) return;
+  if (difference.fraction_beyond <= allowed_share && difference.mean <= allowed_mean) return;
 
   const std::filesystem::path folder = PNEUMA_FAILURE_FOLDER;
   std::filesystem::create_directories(folder);
   save(folder / (name + ".actual.png"), image);
   save(folder / (name + ".expected.png"), expected);
   save(folder / (name + ".difference.png"), difference_picture(image, expected));
-  ADD_FAILURE() << name << " looks different: greatest difference " << difference.greatest << ", "
-                << 100.0 * difference.share_beyond << " % of pixels beyond " << threshold
+  ADD_FAILURE() << name << " looks different: max. difference " << difference.max << ", "
+                << 100.0 * difference.fraction_beyond << " % of pixels beyond " << threshold
                 << " (allowed " << 100.0 * allowed_share << " %), mean " << difference.mean
                 << " (allowed " << allowed_mean << "). Look at " << folder
                 << "; if it is meant, replace the picture with PNEUMA_UPDATE_GOLDEN=1";

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/camera.h"
+#include "render/frame/camera.h"
 #include "tests/render/probe.h"
 #include "tests/render/shapes.h"
 
@@ -94,12 +94,12 @@ void PrintTo(const GoldenCase& golden, std::ostream* out) { *out << golden.name;
 
 class Golden : public testing::TestWithParam<GoldenCase> {};
 
-TEST_P(Golden, looks_as_it_did) {
+TEST_P(Golden, LooksAsItDid) {
   expect_golden(GetParam().name, draw_once(GetParam().frame(), small_picture()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    render, Golden,
+    Render, Golden,
     testing::Values(GoldenCase{"balls", balls},
                     GoldenCase{"balls_with_particles_and_caption",
                                balls_with_particles_and_caption},

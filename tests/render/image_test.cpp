@@ -29,7 +29,7 @@ Image plain(int width, int height, const Pixel& colour) {
   return image;
 }
 
-TEST(Png, comes_back_as_it_went) {
+TEST(Png, ComesBackAsItWent) {
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 64}, {641, 479}}) {
     const Image image = noise(width, height, static_cast<std::uint32_t>(width));
     const Image back = decode_png(encode_png(image));
@@ -39,7 +39,7 @@ TEST(Png, comes_back_as_it_went) {
   }
 }
 
-TEST(Png, has_signature_and_right_checksums) {
+TEST(Png, HasSignatureAndRightChecksums) {
   const std::vector<std::uint8_t> bytes = encode_png(noise(20, 10, 3));
   const std::vector<std::uint8_t> signature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   ASSERT_TRUE(std::equal(signature.begin(), signature.end(), bytes.begin()));
@@ -65,7 +65,7 @@ TEST(Png, has_signature_and_right_checksums) {
   EXPECT_EQ(chunks, 3) << "IHDR, IDAT, IEND";
 }
 
-TEST(Png, is_the_same_from_each_thread) {
+TEST(Png, IsTheSameFromEachThread) {
   const Image image = noise(100, 80, 5);
   const auto expected = encode_png(image);
   std::vector<std::vector<std::uint8_t>> made(4);
@@ -76,7 +76,7 @@ TEST(Png, is_the_same_from_each_thread) {
   for (const auto& bytes : made) EXPECT_EQ(bytes, expected);
 }
 
-TEST(Png, refuses_what_is_not_a_picture) {
+TEST(Png, RefusesWhatIsNotAPicture) {
   EXPECT_THROW(encode_png(Image{}), std::invalid_argument);
   EXPECT_THROW(encode_png(Image{4, 4, std::vector<std::uint8_t>(47)}), std::invalid_argument);
   EXPECT_THROW(decode_png(std::vector<std::uint8_t>{1, 2, 3}), std::invalid_argument);
@@ -85,21 +85,21 @@ TEST(Png, refuses_what_is_not_a_picture) {
   EXPECT_THROW(decode_png(cut), std::invalid_argument);
 }
 
-TEST(CompareImages, counts_pixels_and_channels) {
+TEST(CompareImages, CountsPixelsAndChannels) {
   const Image a = plain(10, 10, {100, 100, 100});
   Image b = a;
   b.pixels[0] = 110;  // one pixel, two of its channels
   b.pixels[1] = 80;
   b.pixels[3] = 103;  // another, within the threshold
   const ImageDifference difference = compare_images(a, b, 5);
-  EXPECT_EQ(difference.greatest, 20);
-  EXPECT_DOUBLE_EQ(difference.share_beyond, 0.01);
+  EXPECT_EQ(difference.max, 20);
+  EXPECT_DOUBLE_EQ(difference.fraction_beyond, 0.01);
   EXPECT_DOUBLE_EQ(difference.mean, (10.0 + 20.0 + 3.0) / 300.0);
-  EXPECT_EQ(compare_images(a, a, 0).greatest, 0);
+  EXPECT_EQ(compare_images(a, a, 0).max, 0);
   EXPECT_THROW(compare_images(a, plain(10, 9, {0, 0, 0}), 0), std::invalid_argument);
 }
 
-TEST(DifferencePicture, is_grey_where_nothing_differs) {
+TEST(DifferencePicture, IsGreyWhereNothingDiffers) {
   const Image a = plain(2, 1, {100, 100, 100});
   Image b = a;
   b.pixels[0] = 90;
@@ -109,7 +109,7 @@ TEST(DifferencePicture, is_grey_where_nothing_differs) {
   EXPECT_EQ(pixel_at(difference, 1, 0), (Pixel{128, 128, 0}));
 }
 
-TEST(Downscale, averages_blocks) {
+TEST(Downscale, AveragesBlocks) {
   const Image image = noise(12, 8, 2);
   const Image small = downscale(image, 4, 4);
   for (int y = 0; y < 4; ++y) {
@@ -126,7 +126,7 @@ TEST(Downscale, averages_blocks) {
   }
 }
 
-TEST(Downscale, keeps_the_mean_at_sizes_that_do_not_divide) {
+TEST(Downscale, KeepsTheMeanAtSizesThatDoNotDivide) {
   const Image image = noise(101, 67, 9);
   const Image small = downscale(image, 37, 29);
   const auto mean = [](const Image& i) {
@@ -140,7 +140,7 @@ TEST(Downscale, keeps_the_mean_at_sizes_that_do_not_divide) {
   EXPECT_THROW(downscale(image, 10, 0), std::invalid_argument);
 }
 
-TEST(ContactSheet, puts_pictures_row_by_row) {
+TEST(ContactSheet, PutsPicturesRowByRow) {
   const std::vector<Image> images = {plain(200, 100, {255, 0, 0}), plain(200, 100, {0, 255, 0}),
                                      plain(200, 100, {0, 0, 255})};
   const Image sheet = contact_sheet(images, 2, 2, 202);
@@ -157,7 +157,7 @@ TEST(ContactSheet, puts_pictures_row_by_row) {
   EXPECT_EQ(pixel_at(sheet, 150, 80), paper) << "no fourth picture";
 }
 
-TEST(ContactSheet, centres_what_does_not_fill_its_cell) {
+TEST(ContactSheet, CentresWhatDoesNotFillItsCell) {
   const std::vector<Image> images = {plain(100, 100, {0, 0, 0}), plain(10, 10, {255, 0, 0})};
   const Image sheet = contact_sheet(images, 2, 1, 206);
   ASSERT_EQ(sheet.height, 104);
@@ -165,7 +165,7 @@ TEST(ContactSheet, centres_what_does_not_fill_its_cell) {
   EXPECT_EQ(pixel_at(sheet, 140, 52), (Pixel{250, 250, 250})) << "not enlarged";
 }
 
-TEST(ContactSheet, is_no_wider_than_its_pictures_fill) {
+TEST(ContactSheet, IsNoWiderThanItsPicturesFill) {
   const std::vector<Image> images(5, plain(64, 48, {255, 0, 0}));
   const Image sheet = contact_sheet(images, 4, 3, 1920);
   // Margins of 1920 / 320 = 6 about cells of 64 x 48.
@@ -176,7 +176,7 @@ TEST(ContactSheet, is_no_wider_than_its_pictures_fill) {
   EXPECT_EQ(pixel_at(sheet, 6 + 64, 6), (Pixel{250, 250, 250}));
 }
 
-TEST(ContactSheet, refuses_too_many_or_too_few) {
+TEST(ContactSheet, RefusesTooManyOrTooFew) {
   const std::vector<Image> images(5, plain(10, 10, {0, 0, 0}));
   EXPECT_THROW(contact_sheet(images, 2, 2), std::invalid_argument);
   EXPECT_THROW(contact_sheet({}, 2, 2), std::invalid_argument);

@@ -11,7 +11,7 @@
 namespace pneuma::render {
 namespace {
 
-TEST(Layer, holds_all_of_the_bodies_wherever_they_are_seen) {
+TEST(Layer, HoldsAllOfTheBodiesWhereverTheyAreSeen) {
   Renderer renderer(small_picture());
   Image part;
   Image whole;
@@ -35,7 +35,7 @@ TEST(Layer, holds_all_of_the_bodies_wherever_they_are_seen) {
   }
 }
 
-TEST(Layer, holds_bodies_that_reach_behind_the_eye) {
+TEST(Layer, HoldsBodiesThatReachBehindTheEye) {
   // A wall beside the eye, from 5 m behind it to 10 m before it: to the right of where its far end
   // is seen, it fills the picture.
   Frame frame = empty_frame();
@@ -52,7 +52,7 @@ TEST(Layer, holds_bodies_that_reach_behind_the_eye) {
   }
 }
 
-TEST(Ground, hides_what_lies_below_it) {
+TEST(Ground, HidesWhatLiesBelowIt) {
   Frame frame;
   frame.camera = {{0, -12, 5}, Vec3f::Zero(), 40.0f};
   frame.light.shadows = false;
@@ -70,7 +70,7 @@ TEST(Ground, hides_what_lies_below_it) {
   }
 }
 
-TEST(Ground, is_drawn_anew_when_anything_in_it_changes) {
+TEST(Ground, IsDrawnAnewWhenAnythingInItChanges) {
   Renderer renderer(small_picture());
   Frame frame;
   frame.camera = {{0, -12, 5}, Vec3f::Zero(), 40.0f};

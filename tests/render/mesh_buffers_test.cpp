@@ -9,7 +9,7 @@
 namespace pneuma::render {
 namespace {
 
-TEST(MeshBuffers, a_shape_is_kept_once_and_while_it_lives) {
+TEST(MeshBuffers, AShapeIsKeptOnceAndWhileItLives) {
   Context context;
   MeshBuffers buffers;
   std::vector<Mesh> meshes = {make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0})};
@@ -31,7 +31,7 @@ TEST(MeshBuffers, a_shape_is_kept_once_and_while_it_lives) {
   EXPECT_EQ(buffers.shape_count(), 0u);
 }
 
-TEST(MeshBuffers, says_how_each_mesh_is_drawn) {
+TEST(MeshBuffers, SaysHowEachMeshIsDrawn) {
   Context context;
   MeshBuffers buffers;
   buffers.upload(
@@ -43,7 +43,7 @@ TEST(MeshBuffers, says_how_each_mesh_is_drawn) {
   EXPECT_EQ(buffers.meshes()[1].index_count, 6 * 12 * 6);
 }
 
-TEST(MeshBuffers, a_new_shape_in_a_dead_ones_place_is_another_one) {
+TEST(MeshBuffers, ANewShapeInADeadOnesPlaceIsAnotherOne) {
   const auto box_frame = [](const Colour& colour) {
     Frame frame = empty_frame();
     frame.meshes = {make_box({0, 0, 0}, {2, 2, 2}, colour)};

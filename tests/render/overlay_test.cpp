@@ -11,7 +11,7 @@ namespace {
 
 const Colour magenta = {1, 0, 1};
 
-TEST(Points, are_discs_at_their_projection_with_a_dark_rim) {
+TEST(Points, AreDiscsAtTheirProjectionWithADarkRim) {
   Frame frame = empty_frame();
   frame.camera = {{2, -9, 4}, {0.3f, 0, 0.5f}, 40.0f};
   const Image empty = draw_once(frame, small_picture());
@@ -38,7 +38,7 @@ TEST(Points, are_discs_at_their_projection_with_a_dark_rim) {
   EXPECT_LT(*std::max_element(rim.begin(), rim.end()), 60);
 }
 
-TEST(Points, behind_a_body_shine_through_faintly_or_not_at_all) {
+TEST(Points, BehindABodyShineThroughFaintlyOrNotAtAll) {
   Frame frame = empty_frame();
   frame.meshes = {make_ball({0, 0, 0}, 1.0f, {0.2f, 0.6f, 0.2f})};
   const Image ball = draw_once(frame, small_picture());
@@ -57,7 +57,7 @@ TEST(Points, behind_a_body_shine_through_faintly_or_not_at_all) {
       << "in front";
 }
 
-TEST(Points, on_a_surface_are_not_lost_in_it) {
+TEST(Points, OnASurfaceAreNotLostInIt) {
   Frame frame = empty_frame();
   frame.meshes = {make_ball({0, 0, 0}, 1.0f, {0.2f, 0.6f, 0.2f}, 48)};
   // Two pixels' radius is a ball of 0.055 m there: it looks out when its centre is 0.02 m below.
@@ -76,7 +76,7 @@ double black_in_column(const Image& image, const Image& empty, int x) {
   return sum;
 }
 
-TEST(Lines, are_as_wide_as_asked) {
+TEST(Lines, AreAsWideAsAsked) {
   Frame frame = empty_frame();
   for (const int samples : {1, 4}) {
     frame.lines.clear();
@@ -92,7 +92,7 @@ TEST(Lines, are_as_wide_as_asked) {
   }
 }
 
-TEST(Lines, go_from_end_to_end) {
+TEST(Lines, GoFromEndToEnd) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture());
   frame.lines = {{{-1, 0, -1}, {1.5f, 0, 0.5f}, magenta, 3.0f}};
@@ -108,7 +108,7 @@ TEST(Lines, go_from_end_to_end) {
   EXPECT_NEAR(right, seen_at(frame.camera, {1.5f, 0, 0.5f}, 320, 240).x(), 2.0);
 }
 
-TEST(Lines, from_behind_the_eye_are_cut_off) {
+TEST(Lines, FromBehindTheEyeAreCutOff) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture());
   const Vec3f ahead = {0.4f, 5, 1};
@@ -130,7 +130,7 @@ TEST(Lines, from_behind_the_eye_are_cut_off) {
   EXPECT_EQ(draw_once(frame, small_picture()).pixels, empty.pixels) << "all of it behind";
 }
 
-TEST(Wireframe, shows_the_edges_that_face_the_eye) {
+TEST(Wireframe, ShowsTheEdgesThatFaceTheEye) {
   Frame frame = empty_frame();
   frame.camera.eye = {4, -9, 5};
   frame.meshes = {make_box({0, 0, 0}, {3, 3, 3}, {0.8f, 0.8f, 0.8f})};
@@ -181,7 +181,7 @@ Extent caption_extent(const std::string& text, const RenderOptions& options) {
   return extent;
 }
 
-TEST(CaptionText, stands_in_the_lower_left_corner) {
+TEST(CaptionText, StandsInTheLowerLeftCorner) {
   const Extent one = caption_extent("t = 1.25 s", small_picture());
   EXPECT_LT(one.left, 10);
   EXPECT_LT(one.right, 160);
@@ -193,14 +193,14 @@ TEST(CaptionText, stands_in_the_lower_left_corner) {
   EXPECT_GT(two.height(), one.height() + 6);
 }
 
-TEST(CaptionText, grows_with_the_picture) {
+TEST(CaptionText, GrowsWithThePicture) {
   RenderOptions large = small_picture();
   large.width *= 2;
   large.height *= 2;
   EXPECT_EQ(caption_extent("t", large).height(), 2 * caption_extent("t", small_picture()).height());
 }
 
-TEST(CaptionText, is_light_on_dark) {
+TEST(CaptionText, IsLightOnDark) {
   Frame frame = empty_frame();
   frame.caption = Caption{"MMMM"};
   const Image image = draw_once(frame, small_picture());
@@ -217,7 +217,7 @@ TEST(CaptionText, is_light_on_dark) {
   EXPECT_GT(dark, 40);
 }
 
-TEST(CaptionText, without_text_is_nothing_and_bytes_beyond_ascii_are_question_marks) {
+TEST(CaptionText, WithoutTextIsNothingAndBytesBeyondAsciiAreQuestionMarks) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture());
   const auto with = [&frame](const std::string& text) {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "render/camera.h"
+#include "render/frame/camera.h"
 #include "tests/render/probe.h"
 #include "tests/render/shapes.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double radians = std::numbers::pi / 180.0;
 
-TEST(Background, is_a_vertical_gradient_brighter_at_the_foot) {
+TEST(Background, IsAVerticalGradientBrighterAtTheFoot) {
   const Image image = draw_once(empty_frame(), small_picture());
   for (int y = 0; y < image.height; ++y) {
     const Pixel left = pixel_at(image, 0, y);
@@ -26,7 +26,7 @@ TEST(Background, is_a_vertical_gradient_brighter_at_the_foot) {
   EXPECT_GT(pixel_at(image, 0, 239)[0], pixel_at(image, 0, 0)[0] + 20);
 }
 
-TEST(Background, is_untouched_by_meshes_out_of_view) {
+TEST(Background, IsUntouchedByMeshesOutOfView) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture());
   frame.meshes = {make_ball({0, -20, 0}, 3.0f, {1, 0, 0}), make_ball({30, 0, 0}, 3.0f, {0, 1, 0}),
@@ -34,7 +34,7 @@ TEST(Background, is_untouched_by_meshes_out_of_view) {
   EXPECT_EQ(draw_once(frame, small_picture()).pixels, empty.pixels);
 }
 
-TEST(Silhouette, of_a_ball_has_the_area_of_its_projection) {
+TEST(Silhouette, OfABallHasTheAreaOfItsProjection) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture(1));
   frame.meshes = {make_ball({0, 0, 0}, 2.0f, {0.1f, 0.1f, 0.1f}, 64)};
@@ -55,7 +55,7 @@ TEST(Silhouette, of_a_ball_has_the_area_of_its_projection) {
   EXPECT_NEAR(sum.y() / count, 120.0, 0.1);
 }
 
-TEST(Samples, give_quarters_at_edges) {
+TEST(Samples, GiveQuartersAtEdges) {
   // A dark face with slanting edges, seen from the front.
   Frame frame = empty_frame();
   frame.light.direction = {0, -1, 0};
@@ -96,7 +96,7 @@ Frame busy_frame() {
   return frame;
 }
 
-TEST(Renderer, draws_the_same_bytes_whatever_was_drawn_before) {
+TEST(Renderer, DrawsTheSameBytesWhateverWasDrawnBefore) {
   const Image alone = draw_once(busy_frame(), small_picture());
   Renderer renderer(small_picture());
   Image image;
@@ -121,7 +121,7 @@ TEST(Renderer, draws_the_same_bytes_whatever_was_drawn_before) {
   }
 }
 
-TEST(Renderer, leaves_nothing_of_the_picture_before) {
+TEST(Renderer, LeavesNothingOfThePictureBefore) {
   // No pass clears the picture: the background must cover every pixel, and the layer of bodies must
   // be empty, wherever the camera stands. What they missed would show red or blue, as the picture
   // before was.
@@ -153,7 +153,7 @@ TEST(Renderer, leaves_nothing_of_the_picture_before) {
   }
 }
 
-TEST(Ground, is_at_height_zero_and_unseen_from_below) {
+TEST(Ground, IsAtHeightZeroAndUnseenFromBelow) {
   Frame frame = empty_frame();
   frame.camera = {{0, -10, -3}, Vec3f::Zero(), 40.0f};
   const Image empty = draw_once(frame, small_picture());
@@ -171,7 +171,7 @@ TEST(Ground, is_at_height_zero_and_unseen_from_below) {
   EXPECT_NEAR(lowest + 0.5, waterline, 1.0) << "one pixel";
 }
 
-TEST(Ground, has_a_line_at_each_spacing) {
+TEST(Ground, HasALineAtEachSpacing) {
   Frame frame = empty_frame();
   frame.camera = {{0.5f, 0, 10}, {0.5f, 0, 0}, 40.0f};
   frame.ground = Ground{1.0f};
@@ -190,7 +190,7 @@ TEST(Ground, has_a_line_at_each_spacing) {
   EXPECT_LT(fifth, std::min({at(0.985f), at(1.0f), at(1.015f)}) - 5) << "every fifth is stronger";
 }
 
-TEST(Ground, fades_into_the_background) {
+TEST(Ground, FadesIntoTheBackground) {
   Frame frame = empty_frame();
   frame.camera = {{0, -5, 1}, {0, 0, 1}, 60.0f};
   const Image empty = draw_once(frame, small_picture());

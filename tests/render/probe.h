@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 #include "render/image/image.h"
 #include "render/renderer.h"
 

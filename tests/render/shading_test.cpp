@@ -57,7 +57,7 @@ struct PlaneCase {
 
 class LitPlane : public testing::TestWithParam<PlaneCase> {};
 
-TEST_P(LitPlane, has_the_colour_that_phong_gives) {
+TEST_P(LitPlane, HasTheColourThatPhongGives) {
   const PlaneCase& plane = GetParam();
   const Colour colour = {0.7f, 0.4f, 0.1f};
   Frame frame = empty_frame();
@@ -72,7 +72,7 @@ TEST_P(LitPlane, has_the_colour_that_phong_gives) {
   EXPECT_LE(greatest_difference(pixel_of(image, frame.camera, Vec3f::Zero()), expected), 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(each, LitPlane,
+INSTANTIATE_TEST_SUITE_P(Each, LitPlane,
                          testing::Values(PlaneCase{"head_on", {0, -8.66f, 5}, {0, 0, -1}},
                                          PlaneCase{"slanting", {0, -6, 8}, {1, 0.5f, -1}},
                                          PlaneCase{"from_behind", {3, -6, 8}, {0, 0, 1}},
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(each, LitPlane,
                                          PlaneCase{"grazing_view", {0, -10, 1}, {0.3f, 0, -1}}),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST(SmoothShading, has_the_colour_that_phong_gives_a_ball) {
+TEST(SmoothShading, HasTheColourThatPhongGivesABall) {
   const Colour colour = {0.7f, 0.4f, 0.1f};
   Frame frame = empty_frame();
   frame.light.direction = {-0.5f, 1, -1};
@@ -113,7 +113,7 @@ TEST(SmoothShading, has_the_colour_that_phong_gives_a_ball) {
   }
 }
 
-TEST(SmoothShading, has_no_facets) {
+TEST(SmoothShading, HasNoFacets) {
   // Light from the side: the brightness across a coarse ball changes in small steps, as the
   // interpolated normals do, while the same ball without normals shows its faces.
   Frame frame = empty_frame();
@@ -136,7 +136,7 @@ TEST(SmoothShading, has_no_facets) {
   EXPECT_GE(flat, 3 * smooth);
 }
 
-TEST(VertexColours, are_mixed_in_linear_light) {
+TEST(VertexColours, AreMixedInLinearLight) {
   // Halfway between black and white is linear 0.5, sRGB 188, not 128. A flat face lit from the
   // front, its left corners black and its right ones white.
   Frame frame = empty_frame();

@@ -41,7 +41,7 @@ Pair draw_pair(Frame frame) {
   return {with, draw_once(frame, small_picture()), frame.camera};
 }
 
-TEST(Shadow, of_a_slab_lies_where_its_rays_end) {
+TEST(Shadow, OfASlabLiesWhereItsRaysEnd) {
   // x -3..-1, y -1..1, at a height of 3: its shadow is shifted by 3 to x 0..2. The slab's own
   // thickness of 0.1 adds 0.05 at either end.
   const Pair pair = draw_pair(from_above({make_box({-2, 0, 3}, {2, 2, 0.1f}, {0.8f, 0.8f, 0.8f})}));
@@ -58,7 +58,7 @@ TEST(Shadow, of_a_slab_lies_where_its_rays_end) {
   EXPECT_LT(pair.darkness({1, -1.12f, 0}), 0.1 * full);
 }
 
-TEST(Shadow, darkens_as_much_as_the_light_it_takes) {
+TEST(Shadow, DarkensAsMuchAsTheLightItTakes) {
   // Straight light from above onto the ground; sky 0.37, sun 0.775 in the green channel of
   // passes/look.h.
   Frame frame = from_above({make_box({-2, 0, 3}, {2, 2, 0.1f}, {0.8f, 0.8f, 0.8f})});
@@ -70,7 +70,7 @@ TEST(Shadow, darkens_as_much_as_the_light_it_takes) {
   EXPECT_NEAR(1.0 - pair.darkness({1, 0, 0}), std::pow(left, 1.0 / 2.2), 0.02);
 }
 
-TEST(Shadow, begins_at_the_foot_of_what_stands_on_the_ground) {
+TEST(Shadow, BeginsAtTheFootOfWhatStandsOnTheGround) {
   const Pair pair = draw_pair(from_above({make_box({0, 0, 1}, {2, 2, 2}, {0.8f, 0.8f, 0.8f})}));
   const double full = pair.darkness({2, 0, 0});
   EXPECT_GT(full, 0.2);
@@ -79,7 +79,7 @@ TEST(Shadow, begins_at_the_foot_of_what_stands_on_the_ground) {
   EXPECT_LT(pair.darkness({-1.25f, 0, 0}), 0.02);
 }
 
-TEST(Shadow, leaves_lit_sides_as_they_are) {
+TEST(Shadow, LeavesLitSidesAsTheyAre) {
   // A body alone shades nothing of itself that faces the light: any speckle would be acne.
   Frame frame = from_above({make_ball({0, 0, 3}, 2.5f, {0.8f, 0.5f, 0.3f}, 32)});
   for (const float softness : {0.0f, 0.03f, 0.2f}) {
@@ -102,7 +102,7 @@ TEST(Shadow, leaves_lit_sides_as_they_are) {
   }
 }
 
-TEST(Shadow, leaves_flat_tops_as_they_are) {
+TEST(Shadow, LeavesFlatTopsAsTheyAre) {
   Frame frame = from_above({make_box({0, 0, 1}, {4, 4, 2}, {0.8f, 0.8f, 0.8f})});
   const Pair pair = draw_pair(frame);
   for (float x = -1.8f; x <= 1.8f; x += 0.1f) {
@@ -112,7 +112,7 @@ TEST(Shadow, leaves_flat_tops_as_they_are) {
   }
 }
 
-TEST(Shadow, falls_from_one_body_on_another) {
+TEST(Shadow, FallsFromOneBodyOnAnother) {
   // A small ball at a height of 5 above a table whose top is at 2: shifted by 3.
   const Pair pair = draw_pair(from_above({make_box({0, 0, 1}, {8, 4, 2}, {0.8f, 0.8f, 0.8f}),
                                           make_ball({-2, 0, 5}, 0.5f, {1, 0, 0})}));
@@ -124,7 +124,7 @@ TEST(Shadow, falls_from_one_body_on_another) {
   EXPECT_LT(pair.darkness({0, 0, 2}), 0.01);
 }
 
-TEST(Shadow, has_a_wider_edge_the_softer_the_light) {
+TEST(Shadow, HasAWiderEdgeTheSofterTheLight) {
   const auto edge_width = [](float softness) {
     Frame frame = from_above({make_box({-4, 0, 4}, {4, 4, 0.1f}, {0.8f, 0.8f, 0.8f})});
     frame.light.softness = softness;
@@ -145,7 +145,7 @@ TEST(Shadow, has_a_wider_edge_the_softer_the_light) {
   EXPECT_GT(softest, 2 * soft);
 }
 
-TEST(Shadow, is_softer_the_higher_the_caster) {
+TEST(Shadow, IsSofterTheHigherTheCaster) {
   const auto edge_width = [](float height) {
     // The tall post makes the scene, and with it the edges' scale, the same for both.
     Frame frame = from_above({make_box({-height, 0, height}, {2, 2, 0.1f}, {0.8f, 0.8f, 0.8f}),
@@ -163,7 +163,7 @@ TEST(Shadow, is_softer_the_higher_the_caster) {
   EXPECT_GT(edge_width(4.0f), edge_width(0.06f));
 }
 
-TEST(Shadow, is_not_cast_by_light_from_below_or_along_the_ground) {
+TEST(Shadow, IsNotCastByLightFromBelowOrAlongTheGround) {
   for (const Vec3f& direction : {Vec3f(0, 0, 1), Vec3f(1, 0, 0), Vec3f(1, 0, 0.3f)}) {
     Frame frame = from_above({make_ball({0, 0, 2}, 1.0f, {1, 0, 0})});
     frame.light.direction = direction;

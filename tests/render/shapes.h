@@ -1,7 +1,7 @@
 // Meshes for the renderer's tests.
 #pragma once
 
-#include "render/frame.h"
+#include "render/frame/frame.h"
 
 namespace pneuma::render {
 

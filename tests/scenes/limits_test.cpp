@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::scenes {

@@ -1,8 +1,8 @@
 // Bodies whose shape is a model. No file is read here: scenes only say its name.
 #include <gtest/gtest.h>
 
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {

@@ -6,8 +6,8 @@
 #include <random>
 #include <sstream>
 
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {

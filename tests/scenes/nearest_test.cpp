@@ -1,4 +1,4 @@
-#include "scenes/nearest.h"
+#include "scenes/loader/nearest.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -111,6 +111,15 @@ TEST(Overrides, AreAsStrictAsTheFile) {
   expect_refusal("title=5", {"expected a string in quotes, got integer 5"});
   expect_refusal("simulation.gravity=5", {"expected an array of 3 numbers"});
   expect_refusal("body.k=", {"expected a number, got string \"\""});
+}
+
+TEST(Overrides, OldNamesOfKeysAreRefusedWithTheNewOnes) {
+  expect_refusal("body.pressure=uniform", {": body.pressure is now body.pressure_weighting"});
+  expect_refusal("left.pressure=uniform", {": body.pressure is now body.pressure_weighting"});
+  expect_refusal("simulation.separation_time=0",
+                 {": simulation.separation_time is now simulation.relaxation_time"});
+  expect_refusal("simulation.impulse_sweeps=5",
+                 {": simulation.impulse_sweeps is now simulation.contact_iterations"});
 }
 
 TEST(Overrides, PathsThatLeadNowhere) {

@@ -1,7 +1,7 @@
 // What a valid scene file sets, compared with a scene put together by hand.
 #include <gtest/gtest.h>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -31,8 +31,8 @@ steps_per_second = 240
 integrator = "velocity_verlet"
 gravity = [1.0, 2.0, -3.0]
 skin_thickness = 0.25
-separation_time = 0.125
-impulse_sweeps = 4
+relaxation_time = 0.125
+contact_iterations = 4
 seed = 9223372036854775807
 
 [simulation.particles]
@@ -79,11 +79,11 @@ memory_gib = 0.5
       .steps_per_second = 240,
       .integrator = sim::Integrator::velocity_verlet,
       .gravity = {1.0, 2.0, -3.0},
-      .ground = sim::Surface{.restitution = 0.75, .friction = 0.125},
+      .ground = sim::ContactMaterial{.restitution = 0.75, .friction = 0.125},
       .skin_thickness = 0.25,
       .particles = {.per_vertex = 0.5, .attraction = 3.0, .max_sweeps = 11, .settled_below = 7},
-      .separation_time = 0.125,
-      .impulse_sweeps = 4,
+      .relaxation_time = 0.125,
+      .contact_iterations = 4,
       .seed = 9223372036854775807u};
   expected.camera.azimuth = 10.0;
   expected.camera.elevation = 20.0;
@@ -117,7 +117,7 @@ k = 400
 n = 11
 temperature = 300.5
 vertex_mass = 0.75
-pressure = "valence"
+pressure_weighting = "valence"
 damping = "literal"
 rho_g = 0.0625
 k_max = 1000
@@ -147,7 +147,7 @@ colour_axis = [0.0, 1.0, 0.5]
                        .n = 11.0,
                        .temperature = 300.5,
                        .vertex_mass = 0.75,
-                       .pressure = sim::PressureWeighting::valence,
+                       .pressure_weighting = sim::PressureWeighting::valence,
                        .damping = sim::Damping::literal,
                        .rho_g = 0.0625,
                        .k_max = 1000.0,
@@ -239,7 +239,8 @@ TEST(Reading, AFileThatCannotBeReadSaysWhy) {
     return std::string();
   };
   EXPECT_EQ(message("/nowhere/x.toml"),
-            "/nowhere/x.toml: cannot be opened: No such file or directory");
+            "/nowhere/x.toml: cannot be opened: No such file or directory; check the name and its "
+            "permissions");
   EXPECT_EQ(message("/tmp"), "/tmp: is a folder; name a scene file in it");
   EXPECT_NE(message("/dev/zero").find("1048577 bytes and more are more than the limit of 1 MiB"),
             std::string::npos);

@@ -1,10 +1,10 @@
-// Each of the broken scenes is refused at its place. tests/app/refused_scenes_test.cpp has the
-// program do it.
+// Each of the broken scenes is refused at its place. tests/app/check/refused_scenes_test.cpp has
+// the program do it.
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 #include "tests/scenes/broken_scenes.h"
 
 namespace pneuma::scenes {

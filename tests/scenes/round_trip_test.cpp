@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "scenes/load_scene.h"
-#include "scenes/print_scene.h"
-#include "scenes/sections.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "scenes/loader/sections.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -80,7 +80,7 @@ struct SetAtRandom {
   void operator()(std::vector<std::string>* member) const {
     member->resize(*rc::gen::inRange<std::size_t>(1, 4), "#fF0099");
   }
-  void operator()(std::optional<sim::Surface>* member) const {
+  void operator()(std::optional<sim::ContactMaterial>* member) const {
     if (*rc::gen::arbitrary<bool>()) member->reset();
   }
   void operator()(const Word& word) const {
@@ -114,7 +114,7 @@ void make_consistent(Scene& scene) {
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);
     }
     if (!sim::can_integrate(scene.settings.integrator, body.material)) {
-      body.material.pressure = sim::PressureWeighting::uniform;
+      body.material.pressure_weighting = sim::PressureWeighting::uniform;
     }
     if (body.shape == Shape::model && body.model.file.empty()) body.model.file = "a.ply";
     for (int axis = 0; axis < 3; ++axis) {
@@ -170,6 +170,17 @@ TEST(RoundTrip, AChangedValueIsMarkedWithItsDefault) {
   EXPECT_NE(text.find("# * N/m: spring constant (default 50)"), std::string::npos) << text;
 }
 
+/// Changes a number, flag or vector; other members stay.
+bool change(const Key& key) {
+  if (auto* const* number = std::get_if<double*>(&key.slot)) return **number *= 0.5, true;
+  if (auto* const* integer = std::get_if<int*>(&key.slot)) return **integer += 1, true;
+  if (auto* const* flag = std::get_if<bool*>(&key.slot)) return **flag = !**flag, true;
+  if (auto* const* vector = std::get_if<Vec3*>(&key.slot)) {
+    return (*vector)->array() += 0.5, true;
+  }
+  return false;
+}
+
 TEST(RoundTrip, EveryKeyIsPrintedAndChangesTheFingerprint) {
   std::set<std::uint64_t> fingerprints;
   int changes = 0;
@@ -178,16 +189,7 @@ TEST(RoundTrip, EveryKeyIsPrintedAndChangesTheFingerprint) {
     ++changes;
   };
   note(default_scene());
-  // One double, integer or flag at a time, through the sections of a default scene.
-  const auto change = [](const Key& key) {
-    if (auto* const* number = std::get_if<double*>(&key.slot)) return **number *= 0.5, true;
-    if (auto* const* integer = std::get_if<int*>(&key.slot)) return **integer += 1, true;
-    if (auto* const* flag = std::get_if<bool*>(&key.slot)) return **flag = !**flag, true;
-    if (auto* const* vector = std::get_if<Vec3*>(&key.slot)) {
-      return (*vector)->array() += 0.5, true;
-    }
-    return false;
-  };
+  // One member at a time, through the sections of a default scene.
   Scene counted = default_scene();
   for (std::size_t s = 0; s < fixed_sections(counted).size(); ++s) {
     for (std::size_t k = 0; k < fixed_sections(counted)[s].keys.size(); ++k) {
@@ -224,6 +226,31 @@ TEST(RoundTrip, NegativeZeroSurvives) {
   Scene scene = default_scene();
   scene.bodies[0].position.x() = -0.0;
   EXPECT_TRUE(std::signbit(read_back(scene).bodies[0].position.x()));
+}
+
+TEST(ShapeText, DiffersWhereTheMeshDoes) {
+  BodyScene sphere;
+  BodyScene other = sphere;
+  other.size = {1.0, 2.0, 3.0};  // a box's
+  other.position = {1.0, 2.0, 3.0};
+  other.material.k = 7.0;
+  EXPECT_EQ(shape_text(other), shape_text(sphere));
+  for (const Shape shape :
+       {Shape::sphere, Shape::torus, Shape::box, Shape::icosphere, Shape::model}) {
+    BodyScene body;
+    body.shape = shape;
+    std::set<std::string> texts = {shape_text(body)};
+    std::size_t keys = 0;
+    for (std::size_t i = 0; i < body_section(body).keys.size(); ++i) {
+      BodyScene changed = body;
+      const Key key = body_section(changed).keys[i];
+      if (!key.of_shape || !key.applies || key.selects || !change(key)) continue;
+      ++keys;
+      texts.insert(shape_text(changed));
+    }
+    EXPECT_GT(keys, 0u);
+    EXPECT_EQ(texts.size(), keys + 1);
+  }
 }
 
 TEST(Reference, NamesEveryKeyOnceWithUnitRangeAndDefault) {
@@ -263,17 +290,21 @@ std::string_view expected_word(sim::Integrator integrator) {
 }
 
 TEST(Words, OfAnIntegratorAreItsEnumeratorsNames) {
-  sim::Settings settings;
-  const Section section = simulation_section(settings);
-  for (const Key& key : section.keys) {
-    if (key.name != "integrator") continue;
-    const Word& word = std::get<Word>(key.slot);
-    for (std::size_t i = 0; i < word.words.size(); ++i) {
-      word.set(i);
-      EXPECT_EQ(word.words[i], expected_word(settings.integrator));
-      EXPECT_EQ(word.get(), i);
+  Scene scene;
+  int found = 0;
+  for (const Section& section : fixed_sections(scene)) {
+    for (const Key& key : section.keys) {
+      if (key.name != "integrator") continue;
+      ++found;
+      const Word& word = std::get<Word>(key.slot);
+      for (std::size_t i = 0; i < word.words.size(); ++i) {
+        word.set(i);
+        EXPECT_EQ(word.words[i], expected_word(scene.settings.integrator));
+        EXPECT_EQ(word.get(), i);
+      }
     }
   }
+  EXPECT_EQ(found, 1);
 }
 
 }  // namespace

@@ -42,19 +42,20 @@ class Comparison {
   std::string first_;
 };
 
-void compare(Comparison& c, const sim::Surface& a, const sim::Surface& b) {
+void compare(Comparison& c, const sim::ContactMaterial& a, const sim::ContactMaterial& b) {
   const auto& [restitution, friction] = a;
   c.member("restitution", restitution, b.restitution);
   c.member("friction", friction, b.friction);
 }
 
 void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial& b) {
-  const auto& [k, n, temperature, vertex_mass, pressure, damping, rho_g, k_max, surface] = a;
+  const auto& [k, n, temperature, vertex_mass, pressure_weighting, damping, rho_g, k_max, surface] =
+      a;
   c.member("k", k, b.k);
   c.member("n", n, b.n);
   c.member("temperature", temperature, b.temperature);
   c.member("vertex_mass", vertex_mass, b.vertex_mass);
-  c.member("pressure", pressure, b.pressure);
+  c.member("pressure_weighting", pressure_weighting, b.pressure_weighting);
   c.member("damping", damping, b.damping);
   c.member("rho_g", rho_g, b.rho_g);
   c.member("k_max", k_max, b.k_max);
@@ -71,9 +72,11 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 }
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
-  const auto& [name, kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions,
-               size, model, rest, material, mass, rho_g, surface, position, rotation, velocity,
-               angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis] = a;
+  // The line is no part of what a scene says.
+  const auto& [line, name, kind, shape, radius, tube_radius, stacks, slices, subdivisions,
+               divisions, size, model, rest, material, mass, rho_g, surface, position, rotation,
+               velocity, angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis] =
+      a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -103,22 +106,23 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
 }
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
-  const auto& [steps_per_second, integrator, gravity, ground, skin_thickness, soft_search,
-               particles, separation_time, impulse_sweeps, seed] = a;
+  const auto& [steps_per_second, integrator, gravity, ground, contact, skin_thickness, soft_search,
+               particles, relaxation_time, contact_iterations, seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
   c.member("steps_per_second", steps_per_second, b.steps_per_second);
   c.member("integrator", integrator, b.integrator);
   c.member("gravity", gravity, b.gravity);
   c.member("ground.present", ground.has_value(), b.ground.has_value());
   if (ground && b.ground) compare(c, *ground, *b.ground);
+  c.member("contact", contact, b.contact);
   c.member("skin_thickness", skin_thickness, b.skin_thickness);
   c.member("soft_search", soft_search, b.soft_search);
   c.member("per_vertex", per_vertex, b.particles.per_vertex);
   c.member("attraction", attraction, b.particles.attraction);
   c.member("max_sweeps", max_sweeps, b.particles.max_sweeps);
   c.member("settled_below", settled_below, b.particles.settled_below);
-  c.member("separation_time", separation_time, b.separation_time);
-  c.member("impulse_sweeps", impulse_sweeps, b.impulse_sweeps);
+  c.member("relaxation_time", relaxation_time, b.relaxation_time);
+  c.member("contact_iterations", contact_iterations, b.contact_iterations);
   c.member("seed", seed, b.seed);
 }
 

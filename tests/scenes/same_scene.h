@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scenes/scene.h"
+#include "scenes/loader/scene.h"
 
 namespace pneuma::scenes {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::scenes {
 namespace {

@@ -1,7 +1,9 @@
 // Scenes with more than one thing wrong.
 #include <gtest/gtest.h>
 
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/other_names.h"
+#include "scenes/loader/print_scene.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -48,6 +50,45 @@ TEST(SeveralErrors, AFloodOfErrorsIsCutShort) {
   } catch (const SceneError& error) {
     EXPECT_EQ(error.diagnostics().size(), 101u);
     EXPECT_EQ(error.diagnostics().back().message, "900 more errors are not shown");
+  }
+}
+
+std::string errors_of(const std::string& text) {
+  try {
+    parse_scene(text, "x.toml");
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SourceLine, StandsBelowTheErrorWithACaretUnderTheColumn) {
+  const std::string text = errors_of("[[body]]\n  raduis = 2.0  # \xc3\xa9\r\n\tk = -1\n");
+  EXPECT_NE(text.find("\n    2 |   raduis = 2.0  # \xc3\xa9\n      |   ^\nx.toml:3:"),
+            std::string::npos)
+      << text;
+  EXPECT_TRUE(text.ends_with("\n    3 | \tk = -1\n      | \t    ^")) << text;
+}
+
+TEST(SourceLine, IsCutAroundTheColumnWhenItIsLong) {
+  const std::string text = errors_of("title = \"" + std::string(500, 'x') + "\" nonsense = 1\n");
+  const std::string shown = text.substr(text.find('\n') + 1);
+  EXPECT_TRUE(shown.starts_with("    1 | ...xxx")) << text;
+  EXPECT_LT(shown.find('\n'), 120u) << text;
+}
+
+TEST(SourceLine, IsNotShownWhereNoLineIsToBlame) {
+  EXPECT_EQ(errors_of("duration = 1.0\n"), "x.toml:1:1: a scene needs at least one [[body]]");
+}
+
+TEST(OtherNames, LeadToTheKeyThatIsMeant) {
+  for (const OtherName& other : other_names()) {
+    const std::string text = errors_of("[[body]]\n" + std::string(other.name) + " = 30\n");
+    EXPECT_NE(text.find("; write " + std::string(other.key)), std::string::npos) << text;
+    EXPECT_NE(text.find(other.remark), std::string::npos) << text;
+    const std::string reference = scene_reference();
+    const std::string key(other.key.substr(other.key.find('.') + 1));
+    EXPECT_NE(reference.find("\n  " + key + " "), std::string::npos) << other.key;
   }
 }
 

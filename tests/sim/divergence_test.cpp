@@ -148,7 +148,7 @@ TEST(Divergence, TheQuickLookMissesNoJumpOfEnergy) {
     perturb(end, std::pow(10.0, -1.5 + 0.001 * (seed * 7 % 2000)), seed + 1);
     end.velocities.rows() *= std::pow(10.0, -4.0 + (seed % 5));
     const bool jump = moving(end.positions, end.velocities) >
-                      greatest_gain * moving(start.positions, start.velocities);
+                      max_gain * moving(start.positions, start.velocities);
     const auto found = find_divergence(world, end, {start.positions, start.velocities}, 1.0);
     EXPECT_EQ(found.has_value(), jump) << seed;
     jumps += jump;

@@ -154,7 +154,7 @@ TEST(Equilibrium, RefusesWhatHasNone) {
 
   const TriangleMesh cat = read_cat("cat_500.ply");
   material = inflated(cat, 100.0, 1e5);
-  material.pressure = PressureWeighting::valence;
+  material.pressure_weighting = PressureWeighting::valence;
   EXPECT_NE(refusal(cat, material).find("net force"), std::string::npos) << refusal(cat, material);
 }
 
@@ -209,7 +209,7 @@ World standing_cat(const std::string& file, double pressure, int steps_per_secon
   VertexArray& positions = world.soft[0].positions;
   positions.rows().row(2).array() -= bounds(positions).low.z();
   world.settings.gravity = {0.0, 0.0, -9.81};
-  world.settings.ground = Surface{0.0, 1.0};
+  world.settings.ground = ContactMaterial{0.0, 1.0};
   world.settings.steps_per_second = steps_per_second;
   return world;
 }

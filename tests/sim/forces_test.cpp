@@ -90,7 +90,7 @@ VertexArray plain_forces(const SoftBody& body, const Vec3& gravity) {
     const Vec3 third =
         pressure / 3.0 * area_vector(body.positions[a], body.positions[b], body.positions[c_]);
     for (const int v : {a, b, c_}) {
-      const bool valence = material.pressure == PressureWeighting::valence;
+      const bool valence = material.pressure_weighting == PressureWeighting::valence;
       force[v] += (valence ? body.mesh->valence_weights[at(v)] : 1.0) * third;
     }
   }
@@ -100,7 +100,7 @@ VertexArray plain_forces(const SoftBody& body, const Vec3& gravity) {
 TEST(Forces, EqualThePlainSumsOverSpringsAndTriangles) {
   for (const auto pressure : {PressureWeighting::uniform, PressureWeighting::valence}) {
     for (SoftBody body : bodies()) {
-      body.material.pressure = pressure;
+      body.material.pressure_weighting = pressure;
       const VertexArray fast = forces(body, {0.5, 0.25, -9.81});
       const VertexArray plain = plain_forces(body, {0.5, 0.25, -9.81});
       // Same terms in another order: rounding of some twenty terms.
@@ -137,13 +137,13 @@ TEST(Forces, ValenceWeightsBreakTheThirdLaw) {
     SoftBody body = make_body(make_sphere(3.0, 8, 8));
     perturb(body, 0.4, seed);
     undamp(body.material);
-    body.material.pressure = PressureWeighting::valence;
+    body.material.pressure_weighting = PressureWeighting::valence;
     const VertexArray force = forces(body, Vec3::Zero());
     const double share = net(force).norm() / mean_size(force);
     least = std::min(least, share);
     greatest = std::max(greatest, share);
   }
-  RecordProperty("least_share", std::to_string(least));
+  RecordProperty("min_volume_fraction", std::to_string(least));
   RecordProperty("greatest_share", std::to_string(greatest));
   EXPECT_GT(least, 0.005);
   EXPECT_GT(greatest, 0.1);

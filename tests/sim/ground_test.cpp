@@ -90,7 +90,7 @@ TEST(Ground, RestIsRest) {
   ASSERT_FALSE(run(world, 20.0));
   EXPECT_LT(energy(world).kinetic, 1e-3) << "joule";
   EXPECT_LT((world.soft[0].positions.rows() - before.rows()).colwise().norm().maxCoeff(), 1e-3);
-  EXPECT_EQ(greatest_penetration(world), 0.0);
+  EXPECT_EQ(max_penetration(world), 0.0);
 }
 
 TEST(Ground, VerticesBounceWithTheRestitution) {
@@ -103,7 +103,7 @@ TEST(Ground, VerticesBounceWithTheRestitution) {
     body.material.surface = {epsilon, 0.0};
     body.velocities.rows().row(2).setConstant(-6.0);
     World world = make_free_world(std::move(body));
-    world.settings.ground = Surface{0.0, 0.0};
+    world.settings.ground = ContactMaterial{0.0, 0.0};
     ASSERT_FALSE(run(world, 1.0 / 60.0));
     EXPECT_NEAR(world.soft[0].velocities[57].z(), 6.0 * epsilon, 1e-14);
     EXPECT_EQ(world.soft[0].velocities[0].z(), -6.0) << "the upper pole is in the air";
@@ -117,10 +117,10 @@ TEST(Ground, FrictionIsCoulombs) {
   SoftBody& body = world.soft[0];
   const auto meet = [&](double sliding, double mu) {
     body.material.surface = {0.0, mu};
-    world.settings.ground = Surface{0.0, mu};
+    world.settings.ground = ContactMaterial{0.0, mu};
     body.velocities[57] = Vec3(sliding, 0.0, -2.0);
     const Contact contact{
-        {BodyKind::soft, 0, {FeatureKind::vertex, 57}}, {}, {0, 0, 0}, Vec3::UnitZ(), 0.0};
+        {SideKind::soft, 0, {FeatureKind::vertex, 57}}, {}, {0, 0, 0}, Vec3::UnitZ(), 0.0};
     double work = 0.0;
     ContactImpulse impulse(world, {}, contact, 2.0, work);
     impulse.correct();

@@ -19,7 +19,7 @@ namespace {
 /// and some pressed, with vertices that friction holds, and others that slide.
 struct Case {
   SoftBody body;
-  StepEnergy energy;
+  IncrementalPotential energy;
   EnergyPoint point;
 
   explicit Case(const TriangleMesh& mesh, double noise = 0.3)
@@ -32,9 +32,9 @@ struct Case {
     energy.rest_lengths = body.mesh->rest_lengths;
     energy.gas = 5000.0;
     energy.friction = true;
-    energy.slip = 0.2;
-    energy.hold.rows() = body.mesh->rest_positions.rows();
-    std::fill(energy.grip.begin(), energy.grip.end(), 10.0);
+    energy.regularisation_length = 0.2;
+    energy.friction_anchor.rows() = body.mesh->rest_positions.rows();
+    std::fill(energy.friction_bound.begin(), energy.friction_bound.end(), 10.0);
     EXPECT_TRUE(evaluate(*body.mesh, energy, point));
   }
 
@@ -70,7 +70,7 @@ struct Case {
 
 TriangleMesh ball() { return make_sphere(3.0, 5, 6); }
 
-TEST(StepEnergy, GradientEqualsFiniteDifferences) {
+TEST(IncrementalPotential, GradientEqualsFiniteDifferences) {
   Case c(ball());
   const Eigen::VectorXd gradient = c.gradient();
   const double h = 1e-5;
@@ -105,7 +105,7 @@ Eigen::MatrixXd hessian_by_differences(Case& c) {
   return result;
 }
 
-TEST(StepEnergy, HessianEqualsFiniteDifferencesOfTheGradient) {
+TEST(IncrementalPotential, HessianEqualsFiniteDifferencesOfTheGradient) {
   for (const double noise : {0.02, 0.3}) {
     Case c(ball(), noise);
     VertexMatrix matrix(c.mesh().topology);
@@ -126,7 +126,7 @@ TEST(StepEnergy, HessianEqualsFiniteDifferencesOfTheGradient) {
   }
 }
 
-TEST(VertexMatrix, PinningTakesACoordinateOut) {
+TEST(VertexMatrix, FixingTakesACoordinateOut) {
   Case c(ball());
   VertexMatrix matrix(c.mesh().topology);
   hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
@@ -134,7 +134,7 @@ TEST(VertexMatrix, PinningTakesACoordinateOut) {
   ASSERT_TRUE(matrix.factorize());
   Eigen::MatrixXd expected = dense(matrix, c.point.positions.size());
   for (const auto& [vertex, axis] : {std::pair{0, 2}, std::pair{7, 2}, std::pair{13, 0}}) {
-    matrix.pin(vertex, axis);
+    matrix.fix(vertex, axis);
     expected.row(3 * vertex + axis).setZero();
     expected.col(3 * vertex + axis).setZero();
     expected(3 * vertex + axis, 3 * vertex + axis) = 1.0;
@@ -220,7 +220,7 @@ TEST(ConjugateGradients, LeavePinnedCoordinatesAlone) {
   const int vertices = c.point.positions.size();
   VertexArray gradient = random_rows(vertices);
   for (const int v : {0, 7, 13}) {
-    hessian.matrix.pin(v, 2);
+    hessian.matrix.fix(v, 2);
     gradient[v].z() = hessian.rank_one[v].z() = 0.0;
   }
   ASSERT_TRUE(hessian.matrix.factorize());

@@ -323,7 +323,7 @@ TEST_P(Implicit, FrictionHoldsBelowItsAngle) {
   ASSERT_FALSE(run(world, 5.0));
   const Vec3 before = mean(world.soft[0].positions);
   ASSERT_FALSE(run(world, 5.0));
-  // m: what is left of its swinging. Nothing creeps: sliding at slip_speed it would be 5e-4.
+  // m: what is left of its swinging. Nothing creeps: sliding at anchor_speed it would be 5e-4.
   EXPECT_LT((mean(world.soft[0].positions) - before).norm(), 5e-5);
 }
 
@@ -335,8 +335,8 @@ TEST_P(Implicit, FrictionLetsSlideAboveItsAngle) {
   ASSERT_FALSE(run(world, 2.0));
   const double angle = std::atan(2.0 * 0.5);
   const double a = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
-  // Friction may be off by grip_change, 5 %, while the ground's forces change; it is half of g
-  // here.
+  // Friction may be off by friction_bound_change, 5 %, while the ground's forces change; it is half
+  // of g here.
   EXPECT_NEAR((mean(world.soft[0].velocities).x() - before) / (2.0 * a), 1.0, 0.05);
 }
 
@@ -424,7 +424,7 @@ TEST_P(Implicit, AllocatesNothingOnceWarm) {
 TEST(Implicit, ValenceIsRefused) {
   World world;
   world.soft.push_back(make_body(make_sphere(3.0, 8, 8)));
-  world.soft[0].material.pressure = PressureWeighting::valence;
+  world.soft[0].material.pressure_weighting = PressureWeighting::valence;
   for (const Integrator integrator : implicit_integrators) {
     world.settings.integrator = integrator;
     EXPECT_THROW(Stepper{world}, std::invalid_argument);

@@ -139,7 +139,7 @@ TEST(Integrators, AFreeBodyKeepsItsCentreUnderUniformAndDriftsUnderValence) {
     SoftBody body = make_body(make_sphere(3.0, 8, 8));
     perturb(body, 0.4, 7);
     body.velocities.rows().setZero();
-    body.material.pressure = pressure;
+    body.material.pressure_weighting = pressure;
     World world = make_free_world(std::move(body));
     const Vec3 before = mean(world.soft[0].positions);
     EXPECT_FALSE(run(world, 5.0));

@@ -21,8 +21,8 @@ using Nodes = std::set<std::array<int, 3>>;
 Nodes nodes(const World& world, const Contact& contact) {
   Nodes result;
   for (const ContactSide& side : {contact.first, contact.second}) {
-    if (side.kind == BodyKind::rigid) result.insert({1, side.body, 0});
-    if (side.kind != BodyKind::soft) continue;
+    if (side.kind == SideKind::rigid) result.insert({1, side.body, 0});
+    if (side.kind != SideKind::soft) continue;
     for (const int v : world.soft[at(side.body)].mesh->topology.feature_vertices(side.feature)) {
       result.insert({0, side.body, v});
     }
@@ -70,7 +70,7 @@ class RandomIslands {
     for (int body = 0; body < 4; ++body) {
       for (int v = 0; v < vertices; ++v) {
         if (below(4) == 0) {
-          result.push_back({{BodyKind::soft, body, {FeatureKind::vertex, v}}, {}});
+          result.push_back({{SideKind::soft, body, {FeatureKind::vertex, v}}, {}});
         }
       }
     }
@@ -79,7 +79,7 @@ class RandomIslands {
       ContactSide second = side();
       if (below(4) == 0) second = {};
       ContactSide first = side();
-      while (first.kind == BodyKind::soft && second.kind == BodyKind::ground) first = side();
+      while (first.kind == SideKind::soft && second.kind == SideKind::ground) first = side();
       result.push_back({first, second});
     }
     return result;
@@ -88,9 +88,9 @@ class RandomIslands {
  private:
   int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
   ContactSide side() {
-    if (below(2) == 0) return {BodyKind::rigid, below(6), {}};
+    if (below(2) == 0) return {SideKind::rigid, below(6), {}};
     const MeshTopology& mesh = world_.soft[0].mesh->topology;
-    return {BodyKind::soft, below(4), mesh.feature(below(mesh.feature_count()))};
+    return {SideKind::soft, below(4), mesh.feature(below(mesh.feature_count()))};
   }
 
   World world_;
@@ -137,7 +137,7 @@ TEST(ContactIslands, AreWhatHangsTogether) {
 TEST(ContactIslands, DoNotFeelEachOther) {
   // Two boxes that fall on each other end in the same bits with another heap beside them.
   World alone;
-  alone.settings.ground = Surface{0.3, 0.5};
+  alone.settings.ground = ContactMaterial{0.3, 0.5};
   alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
   alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.1, 2.0}));
   World crowded = alone;
@@ -161,9 +161,9 @@ TEST(VertexOnGround, IsWhatTheImpulsesOfAContactComeTo) {
     SoftBody& body = world.soft[0];
     const int v = trial % body.positions.size();
     const Contact contact{
-        {BodyKind::soft, 0, {FeatureKind::vertex, v}}, {}, body.positions[v], Vec3::UnitZ()};
+        {SideKind::soft, 0, {FeatureKind::vertex, v}}, {}, body.positions[v], Vec3::UnitZ()};
     const double start_approach = random.uniform(-5.0, 15.0);
-    const Surface pair = pair_surface(world, contact);
+    const ContactMaterial pair = pair_surface(world, contact);
     Vec3 closed_form = body.velocities[v];
     const double speed = closed_form.norm();
     const bool sticks = meet_ground(start_approach, pair, closed_form);
@@ -199,7 +199,7 @@ TEST(ContactFriction, DoesNotDependOnWhichWayTheGroundLies) {
   // are turned otherwise than the box.
   const auto slide = [](double turn) {
     World world;
-    world.settings.ground = Surface{0.0, 0.5};
+    world.settings.ground = ContactMaterial{0.0, 0.5};
     world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5}));
     const Eigen::Quaterniond rotation(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
     world.rigid[0].orientation = rotation;

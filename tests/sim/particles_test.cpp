@@ -14,7 +14,7 @@ namespace {
 
 SurfaceView surface(const SoftBody& body) { return {body.mesh->topology, body.positions}; }
 
-constexpr double least_distance = 0.05;  // a tenth of the skin thickness
+constexpr double min_distance = 0.05;  // a tenth of the skin thickness
 
 /// Two of the paper's spheres, `distance` apart from centre to centre along a slanting line.
 const Vec3 line = Vec3(2.0, 1.0, -0.5).normalized();
@@ -30,8 +30,7 @@ struct Spheres {
   }
   int settle(ParticlePair& pair, const ParticleSettings& settings) const {
     ParticleScratch scratch;
-    return settle_particles(surface(first), surface(second), settings, least_distance, pair,
-                            scratch);
+    return settle_particles(surface(first), surface(second), settings, min_distance, pair, scratch);
   }
 };
 
@@ -104,7 +103,7 @@ Cost cost(const SoftBody& body, const std::vector<int>& own, std::size_t particl
   Cost sum;
   const auto add = [&](double weight, const Vec3& there) {
     const double distance = (there - here).norm();
-    const double bounded = std::max(distance, least_distance);
+    const double bounded = std::max(distance, min_distance);
     const double term = weight / (bounded * bounded);
     const double wrong_place = 2.0 * unit * (distance + 2.0 * extent);
     sum.value += term;
@@ -213,8 +212,8 @@ TEST(Particles, WalkAlikeOnBodiesOfAnySize) {
     const SoftBody first = make_body(make_sphere(radius, 8, 8));
     const SoftBody second = make_body(make_sphere(radius, 8, 8), 6.0 * scale * line);
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
-      const ParticlePair expected = walked(spheres.first, spheres.second, least_distance, seed);
-      const ParticlePair pair = walked(first, second, least_distance * scale, seed);
+      const ParticlePair expected = walked(spheres.first, spheres.second, min_distance, seed);
+      const ParticlePair pair = walked(first, second, min_distance * scale, seed);
       EXPECT_EQ(pair.first_features, expected.first_features) << scale << " " << seed;
       EXPECT_EQ(pair.second_features, expected.second_features) << scale << " " << seed;
     }
@@ -230,10 +229,10 @@ TEST(Particles, OfASmallBodyFindTheCheapestFeaturesBesideAHugeOne) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     ParticlePair pair = make_particles(0, slab.mesh->topology, 1, ball.mesh->topology, {}, seed);
     const ParticlePair before = pair;
-    settle_particles(surface(slab), surface(ball), one_sweep, least_distance, pair, scratch);
+    settle_particles(surface(slab), surface(ball), one_sweep, min_distance, pair, scratch);
     expect_cheapest(ball, before.second_features, pair.second_features, slab, pair.first_features);
     ParticlePair other_way{0, 1, before.second_features, before.first_features, false};
-    settle_particles(surface(ball), surface(slab), one_sweep, least_distance, other_way, scratch);
+    settle_particles(surface(ball), surface(slab), one_sweep, min_distance, other_way, scratch);
     expect_cheapest(ball, before.second_features, other_way.first_features, slab,
                     before.first_features);
   }

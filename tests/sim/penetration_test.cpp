@@ -25,25 +25,25 @@ constexpr double rounding = 1e-14;  // of places of a few metres
 
 TEST(Penetration, NothingOverlapsNothing) {
   World world;
-  EXPECT_EQ(greatest_penetration(world), 0.0);
+  EXPECT_EQ(max_penetration(world), 0.0);
   world = empty_world();
   world.soft.push_back(soft_cube(Vec3::Zero()));
   world.soft.push_back(soft_cube({3.1, 0.0, 0.0}));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 2.1, 0.0}));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 3.2, 0.0}));
-  EXPECT_EQ(greatest_penetration(world), 0.0);
+  EXPECT_EQ(max_penetration(world), 0.0);
 }
 
 TEST(Penetration, IntoTheGround) {
   World world;
   world.soft.push_back(soft_cube({0.0, 0.0, 1.2}));
-  EXPECT_NEAR(greatest_penetration(world), 0.3, rounding);
+  EXPECT_NEAR(max_penetration(world), 0.3, rounding);
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {10.0, 0.0, 1.0}));
   world.rigid[0].orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitX()));
-  EXPECT_NEAR(greatest_penetration(world), std::numbers::sqrt2 - 1.0, rounding) << "on its edge";
+  EXPECT_NEAR(max_penetration(world), std::numbers::sqrt2 - 1.0, rounding) << "on its edge";
   world.settings.ground.reset();
-  EXPECT_EQ(greatest_penetration(world), 0.0);
+  EXPECT_EQ(max_penetration(world), 0.0);
 }
 
 TEST(Penetration, OfTwoSoftBodiesIsTheDeepestVertexsWhicheverIsInside) {
@@ -53,7 +53,7 @@ TEST(Penetration, OfTwoSoftBodiesIsTheDeepestVertexsWhicheverIsInside) {
     world.soft.push_back(soft_cube(Vec3::Zero()));
     world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {1.75, 0.2, 0.1}));
     if (swapped) std::swap(world.soft[0], world.soft[1]);
-    EXPECT_NEAR(greatest_penetration(world), 0.25, rounding);
+    EXPECT_NEAR(max_penetration(world), 0.25, rounding);
   }
 }
 
@@ -61,26 +61,26 @@ TEST(Penetration, OfABoxInASoftBodyIsItsCorners) {
   World world = empty_world();
   world.soft.push_back(soft_cube(Vec3::Zero()));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 1.8}));
-  EXPECT_NEAR(greatest_penetration(world), 0.2, rounding);
+  EXPECT_NEAR(max_penetration(world), 0.2, rounding);
 }
 
 TEST(Penetration, OfASoftBodyInABoxIsItsVertices) {
   World world = empty_world();
   world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {0.2, 0.1, 2.4}));
   world.rigid.push_back(make_rigid({4.0, 4.0, 4.0}, Vec3::Zero()));
-  EXPECT_NEAR(greatest_penetration(world), 0.1, rounding);
+  EXPECT_NEAR(max_penetration(world), 0.1, rounding);
 }
 
 TEST(Penetration, OfTwoBoxesIsTheShortestWayApart) {
   World world = empty_world();
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, Vec3::Zero()));
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {1.9, 1.0, -0.5}));
-  EXPECT_NEAR(greatest_penetration(world), 0.1, rounding);
+  EXPECT_NEAR(max_penetration(world), 0.1, rounding);
   // An edge ahead, turned by 45 degrees: it reaches 1.414 from its centre.
   world.rigid[1].position = {2.3, 0.0, 0.0};
   world.rigid[1].orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitZ()));
-  EXPECT_NEAR(greatest_penetration(world), 1.0 + std::numbers::sqrt2 - 2.3, rounding);
+  EXPECT_NEAR(max_penetration(world), 1.0 + std::numbers::sqrt2 - 2.3, rounding);
 }
 
 TEST(Penetration, IsTheGreatestOfAll) {
@@ -88,7 +88,7 @@ TEST(Penetration, IsTheGreatestOfAll) {
   world.soft.push_back(soft_cube({0.0, 0.0, 1.45}));                     // 0.05 in the ground
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 3.25}));  // 0.2 in the soft cube
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.2, 4.15}));  // 0.1 in the box below
-  EXPECT_NEAR(greatest_penetration(world), 0.2, rounding);
+  EXPECT_NEAR(max_penetration(world), 0.2, rounding);
 }
 
 /// Vertices, middles of edges, middles of triangles.
@@ -154,11 +154,11 @@ TEST(Penetration, OfAHundredCubesOnATorusIsThatOfAllPairs) {
         if (exit) meet(exit->depth, i);
       }
       for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-        if (const auto overlap = find_least_overlap(boxes[i], boxes[j])) meet(overlap->overlap, i);
+        if (const auto overlap = find_min_overlap(boxes[i], boxes[j])) meet(overlap->overlap, i);
       }
     }
     // The same points but for the rounding of their places, which reach 12 m.
-    ASSERT_NEAR(greatest_penetration(world), expected, 1e-13);
+    ASSERT_NEAR(max_penetration(world), expected, 1e-13);
     // Again without the deepest, and a few more of them: shallow ones and other kinds get their
     // turn.
     world.rigid.erase(world.rigid.begin() + static_cast<std::ptrdiff_t>(deepest));

@@ -98,7 +98,7 @@ TEST_P(AnyWorld, HasContactsInItsFirstSeconds) {
   while (time(world) < 3.0) {
     ASSERT_FALSE(stepper.step(world));
     for (const Contact& contact : stepper.contacts()) {
-      between_bodies += contact.second.kind != BodyKind::ground;
+      between_bodies += contact.second.kind != SideKind::ground;
     }
   }
   EXPECT_GT(between_bodies, 10U);
@@ -158,7 +158,7 @@ TEST(Pipeline, ADivergenceInContactsLeavesTheLastSoundState) {
   EXPECT_EQ(divergence->body, "feather");
   EXPECT_EQ(divergence->step, before.steps + 1);
   EXPECT_FALSE(before.particles.empty());
-  EXPECT_FALSE(before.resting_impulses.empty());
+  EXPECT_FALSE(before.warm_start_impulses.empty());
   EXPECT_EQ(state_hash(world), state_hash(before));
 }
 
@@ -167,19 +167,19 @@ TEST(Plan, HasWhatTheKindsOfBodiesNeed) {
   EXPECT_EQ(left_out(make_plan(spheres_leaning())),
             (Names{"integrate_rigid", "rigid_ground", "soft_rigid", "rigid_rigid"}));
   EXPECT_EQ(left_out(make_plan(box_on_sphere())),
-            (Names{"move_particles", "part_bodies", "soft_soft", "rigid_rigid"}));
+            (Names{"move_particles", "depenetrate", "soft_soft", "rigid_rigid"}));
   EXPECT_EQ(left_out(make_plan(stacked_cubes())),
-            (Names{"integrate_soft", "move_particles", "part_bodies", "soft_ground", "soft_soft",
+            (Names{"integrate_soft", "move_particles", "depenetrate", "soft_ground", "soft_soft",
                    "soft_rigid"}));
   EXPECT_EQ(left_out(make_plan(torus_with_cubes())),
-            (Names{"move_particles", "part_bodies", "soft_soft"}));
+            (Names{"move_particles", "depenetrate", "soft_soft"}));
   World exact = spheres_leaning();
   exact.settings.soft_search = SoftSearch::exact;
   EXPECT_EQ(left_out(make_plan(exact)), (Names{"integrate_rigid", "move_particles", "rigid_ground",
                                                "soft_rigid", "rigid_rigid"}));
   World all = torus_with_cubes();
   add(all, sphere({0.0, 0.0, 20.0}));
-  EXPECT_EQ(left_out(make_plan(all)), Names{"part_bodies"});
+  EXPECT_EQ(left_out(make_plan(all)), Names{"depenetrate"});
   add(all, sphere({0.0, 0.0, 30.0}));
   EXPECT_EQ(left_out(make_plan(all)), Names{});
   all.settings.ground.reset();
@@ -191,18 +191,18 @@ TEST(Plan, OneBodyHasNoMemoryForPairs) {
   add(soft, sphere({0.0, 0.0, 3.5}));
   ASSERT_FALSE(run(soft, 2.0));
   EXPECT_EQ(soft.particles.capacity(), 0U);
-  EXPECT_EQ(soft.resting_impulses.capacity(), 0U);
+  EXPECT_EQ(soft.warm_start_impulses.capacity(), 0U);
 
   World box;
   add(box, make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
   EXPECT_EQ(
       left_out(make_plan(box)),
-      (std::vector<std::string>{"integrate_soft", "find_pairs", "move_particles", "part_bodies",
+      (std::vector<std::string>{"integrate_soft", "broad_phase", "move_particles", "depenetrate",
                                 "soft_ground", "soft_soft", "soft_rigid", "rigid_rigid"}));
   ASSERT_FALSE(run(box, 2.0));
   EXPECT_EQ(box.particles.capacity(), 0U);
-  ASSERT_EQ(box.resting_impulses.size(), 4U) << "its four corners on the ground";
-  for (const RestingImpulse& resting : box.resting_impulses) EXPECT_EQ(resting.second, -1);
+  ASSERT_EQ(box.warm_start_impulses.size(), 4U) << "its four corners on the ground";
+  for (const WarmStartImpulse& resting : box.warm_start_impulses) EXPECT_EQ(resting.second, -1);
 }
 
 TEST(Resting, ImpulsesAreKeptGroundFirstThenByPairs) {
@@ -213,7 +213,7 @@ TEST(Resting, ImpulsesAreKeptGroundFirstThenByPairs) {
   ASSERT_FALSE(run(world, 1.0));
   using Pair = std::pair<int, int>;
   std::vector<Pair> kept;
-  for (const RestingImpulse& resting : world.resting_impulses) {
+  for (const WarmStartImpulse& resting : world.warm_start_impulses) {
     kept.push_back(resting.second == -1 ? Pair(-1, resting.first)
                                         : Pair(resting.first, resting.second));
   }
@@ -227,7 +227,7 @@ TEST(Resting, ImpulsesOfAStackCarryTheWeightAboveThem) {
   World world = stacked_cubes();
   ASSERT_FALSE(run(world, 20.0));
   std::vector<double> carried(10, 0.0);
-  for (const RestingImpulse& resting : world.resting_impulses) {
+  for (const WarmStartImpulse& resting : world.warm_start_impulses) {
     // Of cubes i and i + 1 the first is the lower: it is pushed down.
     const std::size_t interface = at(resting.second == -1 ? 0 : resting.second);
     carried[interface] += std::abs(resting.impulse.z());

@@ -52,7 +52,7 @@ class RandomContacts {
       if (v.norm() > 0.1 && v.norm() < 1.0) return v.normalized();
     }
   }
-  Surface surface() { return {uniform(0.0, 1.0), uniform(0.0, 2.0)}; }
+  ContactMaterial surface() { return {uniform(0.0, 1.0), uniform(0.0, 2.0)}; }
 
   void renew(SoftBody& body) {
     body.material.vertex_mass = magnitude(1e-3, 1e3);
@@ -76,7 +76,7 @@ class RandomContacts {
   ContactSide soft_side(int body, int kind) {
     const int count[] = {8, 18, 12};  // of a box of twelve triangles
     const int index = static_cast<int>(uniform(0.0, count[kind]));
-    return {BodyKind::soft, body, {static_cast<FeatureKind>(kind), index}};
+    return {SideKind::soft, body, {static_cast<FeatureKind>(kind), index}};
   }
 
   /// Soft first: 3 kinds against 3 soft kinds, the box, the ground. Box first: against 3 soft
@@ -84,9 +84,9 @@ class RandomContacts {
   void choose_sides() {
     const int first = turn_ % 4, second = turn_ / 4 % 5;
     ++turn_;
-    contact_.first = first < 3 ? soft_side(0, first) : ContactSide{BodyKind::rigid, 0, {}};
+    contact_.first = first < 3 ? soft_side(0, first) : ContactSide{SideKind::rigid, 0, {}};
     if (second < 3) contact_.second = soft_side(1, second);
-    if (second == 3) contact_.second = {BodyKind::rigid, 1, {}};
+    if (second == 3) contact_.second = {SideKind::rigid, 1, {}};
   }
 
   std::mt19937_64 random_;
@@ -107,7 +107,7 @@ struct Side {
 
 inline Side look_at(const World& world, const ContactSide& side, const Vec3& point) {
   Side result;
-  if (side.kind == BodyKind::soft) {
+  if (side.kind == SideKind::soft) {
     const SoftBody& body = world.soft[at(side.body)];
     double mass = 0.0;
     Vec3 momentum = Vec3::Zero();
@@ -118,7 +118,7 @@ inline Side look_at(const World& world, const ContactSide& side, const Vec3& poi
     result.inverse_mass = 1.0 / mass;
     result.velocity = momentum / mass;
   }
-  if (side.kind == BodyKind::rigid) {
+  if (side.kind == SideKind::rigid) {
     const RigidBox& box = world.rigid[at(side.body)];
     const Mat3 rotation = box.orientation.toRotationMatrix();
     const double w = box.size.x(), h = box.size.y(), d = box.size.z();
@@ -148,14 +148,14 @@ struct Sides {
   }
 };
 
-/// The surface of a pair (sim/world.h).
-inline Surface pair_surface(const World& world, const Contact& contact) {
+/// The surface of a pair (sim/world/world.h).
+inline ContactMaterial pair_surface(const World& world, const Contact& contact) {
   const auto of = [&world](const ContactSide& side) {
-    if (side.kind == BodyKind::soft) return world.soft[at(side.body)].material.surface;
-    if (side.kind == BodyKind::rigid) return world.rigid[at(side.body)].surface;
+    if (side.kind == SideKind::soft) return world.soft[at(side.body)].material.surface;
+    if (side.kind == SideKind::rigid) return world.rigid[at(side.body)].surface;
     return *world.settings.ground;
   };
-  const Surface a = of(contact.first), b = of(contact.second);
+  const ContactMaterial a = of(contact.first), b = of(contact.second);
   return {std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction)};
 }
 

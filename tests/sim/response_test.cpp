@@ -11,12 +11,12 @@ namespace {
 
 constexpr int trials = 100'000;
 
-bool has_ground(const Contact& contact) { return contact.second.kind == BodyKind::ground; }
+bool has_ground(const Contact& contact) { return contact.second.kind == SideKind::ground; }
 bool has_box(const Contact& contact) {
-  return contact.first.kind == BodyKind::rigid || contact.second.kind == BodyKind::rigid;
+  return contact.first.kind == SideKind::rigid || contact.second.kind == SideKind::rigid;
 }
 bool are_boxes(const Contact& contact) {
-  return contact.first.kind == BodyKind::rigid && contact.second.kind == BodyKind::rigid;
+  return contact.first.kind == SideKind::rigid && contact.second.kind == SideKind::rigid;
 }
 
 /// The sum of all |m v|, which the rounding of a sum of momenta is relative to; likewise the
@@ -53,8 +53,8 @@ void resolve(ContactImpulse& impulse, int corrections = 1) {
 double participants_energy(const World& world, const Contact& contact) {
   double sum = 0.0;
   for (const ContactSide& side : {contact.first, contact.second}) {
-    if (side.kind == BodyKind::soft) sum += energy(world.soft[at(side.body)], Vec3::Zero()).kinetic;
-    if (side.kind != BodyKind::rigid) continue;
+    if (side.kind == SideKind::soft) sum += energy(world.soft[at(side.body)], Vec3::Zero()).kinetic;
+    if (side.kind != SideKind::rigid) continue;
     World alone;
     alone.rigid.push_back(world.rigid[at(side.body)]);
     sum += energy(alone).kinetic;
@@ -70,8 +70,9 @@ TEST(Impulse, MomentumIsKeptAndEnergyNeverGrows) {
     random.next();
     World& world = random.world();
     Contact contact = random.contact();
-    if (contact.first.kind == BodyKind::rigid && trial % 3 == 0) {
-      contact.gap = random.uniform(0.0, 0.2);  // of boxes only; at 1/60 s it takes up to 12 m/s
+    if (contact.first.kind == SideKind::rigid && trial % 3 == 0) {
+      contact.speculative_margin =
+          random.uniform(0.0, 0.2);  // of boxes only; at 1/60 s it takes up to 12 m/s
     }
     const Momentum before = momentum(world);
     const Scale scale = momentum_scale(world);
@@ -141,9 +142,9 @@ TEST(Impulse, IsThePapers) {
     const Contact& contact = random.contact();
     const Vec3& n = contact.normal;
     const Sides before(world, contact);
-    const Surface pair = pair_surface(world, contact);
+    const ContactMaterial pair = pair_surface(world, contact);
     const double approach = -before.relative_velocity().dot(n);
-    const bool bounces = pair.restitution * approach >= least_bounce_speed;
+    const bool bounces = pair.restitution * approach >= min_bounce_speed;
     const double j = (bounces ? 1.0 + pair.restitution : 1.0) * approach / before.inverse_mass(n);
 
     double work = 0.0;
@@ -173,7 +174,7 @@ TEST(Impulse, OfWhatForcesAddWithinTheStepNothingComesBack) {
     resolve(impulse);
     const double parting = Sides(world, contact).relative_velocity().dot(contact.normal);
     const double bounce = epsilon * std::clamp(start_approach, 0.0, approach);
-    ASSERT_NEAR(parting, bounce < least_bounce_speed ? 0.0 : bounce, 1e-11 * approach + 1e-12);
+    ASSERT_NEAR(parting, bounce < min_bounce_speed ? 0.0 : bounce, 1e-11 * approach + 1e-12);
   }
 }
 
@@ -184,15 +185,15 @@ TEST(Impulse, AGapMayStillClose) {
     World& world = random.world();
     without_friction(world);
     Contact contact = random.contact();
-    if (contact.first.kind != BodyKind::rigid || contact.second.kind == BodyKind::soft) continue;
-    contact.gap = random.uniform(0.01, 0.2);
-    const double closing = contact.gap * world.settings.steps_per_second;
+    if (contact.first.kind != SideKind::rigid || contact.second.kind == SideKind::soft) continue;
+    contact.speculative_margin = random.uniform(0.01, 0.2);
+    const double margin_speed = contact.speculative_margin * world.settings.steps_per_second;
     const double approach = -Sides(world, contact).relative_velocity().dot(contact.normal);
     double work = 0.0;
-    ContactImpulse impulse(world, random.masses(), contact, 0.5 * closing, work);
+    ContactImpulse impulse(world, random.masses(), contact, 0.5 * margin_speed, work);
     impulse.correct();
     const double parting = Sides(world, contact).relative_velocity().dot(contact.normal);
-    ASSERT_NEAR(parting, std::max(-approach, -closing), 1e-11 * (1.0 + std::abs(approach)));
+    ASSERT_NEAR(parting, std::max(-approach, -margin_speed), 1e-11 * (1.0 + std::abs(approach)));
   }
 }
 
@@ -257,8 +258,8 @@ TEST(Friction, OfPointMassesIsAlongTheSlidingAndStopsItAtMost) {
     double work = 0.0;
     ContactImpulse impulse(world, random.masses(), contact, approach, work);
     resolve(impulse);
-    const Surface pair = pair_surface(world, contact);
-    const bool bounces = pair.restitution * approach >= least_bounce_speed;
+    const ContactMaterial pair = pair_surface(world, contact);
+    const bool bounces = pair.restitution * approach >= min_bounce_speed;
     const double stopped = pair.friction * (bounces ? 1.0 + pair.restitution : 1.0) *
                            std::max(0.0, approach) / slides.norm();
     const Vec3 expected = std::max(0.0, 1.0 - stopped) * slides;
@@ -325,8 +326,8 @@ TEST(Friction, RepeatedCorrectionsOfBoxesEndInSticksOrSlips) {
 
 /// The middle of a soft feature, the centre of a box.
 Vec3 place(const World& world, const ContactSide& side) {
-  if (side.kind == BodyKind::rigid) return world.rigid[at(side.body)].position;
-  if (side.kind == BodyKind::ground) return Vec3::Zero();
+  if (side.kind == SideKind::rigid) return world.rigid[at(side.body)].position;
+  if (side.kind == SideKind::ground) return Vec3::Zero();
   Vec3 sum = Vec3::Zero();
   const auto vertices = world.soft[at(side.body)].mesh->topology.feature_vertices(side.feature);
   for (const int v : vertices) sum += world.soft[at(side.body)].positions[v];
@@ -364,7 +365,7 @@ TEST(Separation, IsSharedByInverseMassesAndLeavesTheCentreOfMass) {
 }
 
 TEST(Surface, OfAPairHasTheGreaterRestitutionAndTheMeanFriction) {
-  const Surface pair = combine({0.3, 0.2}, {0.7, 0.8});
+  const ContactMaterial pair = combine({0.3, 0.2}, {0.7, 0.8});
   EXPECT_EQ(pair.restitution, 0.7);
   EXPECT_NEAR(pair.friction, 0.4, 1e-16);  // sqrt(0.16), one rounding
   EXPECT_EQ(combine({1.0, 0.0}, {0.0, 5.0}).friction, 0.0) << "ice against anything";

@@ -12,7 +12,7 @@ constexpr double g = 9.81;
 
 World boxes_on_ground(double friction = 0.5, double restitution = 0.2) {
   World world;
-  world.settings.ground = Surface{restitution, friction};
+  world.settings.ground = ContactMaterial{restitution, friction};
   return world;
 }
 
@@ -40,7 +40,7 @@ TEST_P(Stack, OfTenCubesStands) {
       sideways = std::max(sideways, p.head<2>().norm());
       sunk = std::max(sunk, 0.5 + cube - p.z());
     }
-    overlap = std::max(overlap, greatest_penetration(world));
+    overlap = std::max(overlap, max_penetration(world));
   }
   // The first steps start from no impulses, and ten sweeps do not carry the weight of ten cubes
   // from the ground up: the stack sags by 2 cm, by 4.5 cm after a fall of 10 cm in all, and leans
@@ -110,7 +110,7 @@ TEST(RigidRest, ABoxDroppedOnACornerComesToRest) {
     EXPECT_LT(energy(world).kinetic, 1e-6);
     EXPECT_LT((world.rigid[0].position - there.position).norm(), 1e-3);
     EXPECT_LT(world.rigid[0].orientation.angularDistance(there.orientation), 1e-3);
-    EXPECT_LT(greatest_penetration(world), 0.005);
+    EXPECT_LT(max_penetration(world), 0.005);
   }
 }
 

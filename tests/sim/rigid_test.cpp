@@ -176,13 +176,13 @@ TEST(RigidCollision, HeadOnFollowsTheClosedForm) {
     double tolerance;
   };
   for (const Accuracy accuracy :
-       {Accuracy{1000, 1e-4}, Accuracy{Settings{}.impulse_sweeps, 4e-3}}) {
+       {Accuracy{1000, 1e-4}, Accuracy{Settings{}.contact_iterations, 4e-3}}) {
     for (const double m1 : {1.0, 5.0, 0.01}) {
       for (const double epsilon : {0.0, 0.5, 1.0}) {
         World world = make_free_boxes({make_rigid({1.0, 1.0, 1.0}, {-1.0, 0.0, 0.0}),
                                        make_rigid({1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, m1)},
                                       epsilon);
-        world.settings.impulse_sweeps = accuracy.sweeps;
+        world.settings.contact_iterations = accuracy.sweeps;
         const double u0 = 3.0, u1 = -1.0;
         world.rigid[0].velocity.x() = u0;
         world.rigid[1].velocity.x() = u1;

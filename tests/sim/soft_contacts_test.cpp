@@ -41,7 +41,7 @@ Encounter expect_isolated(World& world, double seconds) {
   while (time(world) < seconds) {
     EXPECT_FALSE(stepper.step(world));
     encounter.contacts += stepper.contacts().size();
-    encounter.penetration = std::max(encounter.penetration, greatest_penetration(world));
+    encounter.penetration = std::max(encounter.penetration, max_penetration(world));
     // Roundings of sums of about a hundred numbers of 1 kg m/s, over 600 steps.
     const Vec3 gained = momentum(world).linear - momentum_before;
     const Vec3 way = centre_of_mass(world) - centre_before;
@@ -121,7 +121,7 @@ double penetration_of(World& world, double seconds) {
   Stepper stepper(world);
   while (time(world) < seconds) {
     if (stepper.step(world)) return std::numeric_limits<double>::infinity();
-    greatest = std::max(greatest, greatest_penetration(world));
+    greatest = std::max(greatest, max_penetration(world));
   }
   return greatest;
 }
@@ -151,7 +151,7 @@ TEST(SoftSoft, ASphereDroppedIntoATorusStaysInItsHole) {
     }
     EXPECT_LT(sideways, 1.5) << seed;  // the hole's radius is 4.5 m, measured: 0.3
     EXPECT_LT(energy(world).kinetic, 1.0) << seed;
-    EXPECT_LT(greatest_penetration(world), skin) << seed;
+    EXPECT_LT(max_penetration(world), skin) << seed;
   }
 }
 

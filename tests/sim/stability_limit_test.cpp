@@ -84,11 +84,11 @@ double greatest_eigenvalue(const SoftBody& body, bool of_velocities) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues().maxCoeff();
 }
 
-TEST(SmallMotion, TheFastestIsThatOfTheGreatestEigenvalue) {
+TEST(VibrationMode, TheFastestIsThatOfTheGreatestEigenvalue) {
   for (const double n : {0.0, 10.0, 1000.0}) {
     SoftBody body = held_sphere(n == 1000.0 ? 10.0 : n, 4000.0);
     body.material.n = n;  // of 1,000 mol, not at rest: the gas is what is stiffest
-    const SmallMotion motions(*body.mesh, body.material, body.positions);
+    const VibrationMode motions(*body.mesh, body.material, body.positions);
     const Oscillation fastest = motions.along(motions.fastest(0.0));
     const double expected = greatest_eigenvalue(body, false);
     EXPECT_NEAR(fastest.squared_frequency / expected, 1.0, 0.005) << n;

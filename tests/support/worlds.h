@@ -10,7 +10,7 @@
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/step/stepper.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::sim {
 

@@ -7,34 +7,33 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/build_world.h"
-#include "app/command_line.h"
-#include "app/find_scene.h"
-#include "app/progress.h"
-#include "app/provenance.h"
+#include "app/host/timing_conditions.h"
+#include "app/record/provenance.h"
 #include "app/study/choices/choices_report.h"
 #include "app/study/error/error_report.h"
 #include "app/study/report_text.h"
 #include "app/study/study_command.h"
-#include "app/timing_conditions.h"
-#include "scenes/load_scene.h"
+#include "app/study/study_options.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/progress.h"
+#include "app/world/build_world.h"
+#include "app/world/find_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {
 
 /// The options as they were typed.
-struct Typed {
+struct ChoicesArguments : StudyOptions {
   std::string scene = "one_sphere";
   std::vector<std::string> overrides;
   std::string body;
-  std::string out = "out/study/choices";
-  bool is_short = false;
   bool json = false;
   bool quiet = false;
-  std::span<const std::string> command_line;
 };
 
-ChoicesStudy measure(const Typed& typed, const scenes::Scene& scene, Progress& progress) {
+ChoicesStudy measure(const ChoicesArguments& typed, const scenes::Scene& scene,
+                     Progress& progress) {
   ErrorOptions sweep = typed.is_short ? short_sweep() : full_sweep();
   sweep.tolerances.clear();
   sweep.flight.free_flight = true;
@@ -70,27 +69,23 @@ void write_files(const StudyFolder& folder, const ChoicesStudy& study) {
   write_diagram(folder, study.name + "_integrators", work_diagram(study.integrators));
 }
 
-ExitCode study(const Typed& typed) {
+ExitCode study(const ChoicesArguments& typed) {
   scenes::Scene scene = scenes::load_scene(find_scene(typed.scene), typed.overrides);
   // Whatever the scene chooses, both are measured; the integrators on the one that is an equation.
   for (scenes::BodyScene& body : scene.bodies) body.material.damping = sim::Damping::dashpot;
   const StudyFolder folder(typed.out);
-  const std::string date = utc_date();
   const std::vector<std::string> warnings = timing_warnings(timing_conditions());
   Progress progress(progress_style(typed.quiet));
   const ChoicesStudy study = measure(typed, scene, progress);
   write_files(folder, study);
 
-  nlohmann::json report = provenance_json();
-  report.update({{"date", date},
-                 {"command", shell_line(typed.command_line)},
-                 {"warnings", warnings},
-                 {"choices", choices_json(study)}});
-  const std::string json = report.dump(2) + "\n";
-  folder.write("choices.json", json);
+  nlohmann::json report = study_head(typed);
+  report.update({{"warnings", warnings}, {"choices", choices_json(study)}});
+  const std::string report_text = report.dump(2) + "\n";
+  folder.write("choices.json", report_text);
   progress.say("files in " + folder.path().string());
-  fmt::print("{}", typed.json ? json
-                              : choices_text(study) + "\n" + provenance_text(date) +
+  fmt::print("{}", typed.json ? report_text
+                              : choices_text(study) + "\n" + provenance_text(report["date"]) +
                                     warnings_text(warnings));
   return ExitCode::done;
 }
@@ -99,23 +94,17 @@ ExitCode study(const Typed& typed) {
 
 void add_choices_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line) {
-  const auto typed = std::make_shared<Typed>();
-  typed->command_line = command_line;
+  const auto typed = std::make_shared<ChoicesArguments>();
   CLI::App* command = study_command.add_subcommand(
       "choices", "What the paper's own forms do beside ours: pressure, damping, integrator");
   command->add_option("scene", typed->scene, "A scene file or name [one_sphere]")
       ->type_name("SCENE");
-  command->add_option("--set", typed->overrides, "Override a value of the scene, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_override_option(*command, typed->overrides);
   command->add_option("--body", typed->body, "This body of the scene [the first soft one]")
       ->type_name("NAME");
-  command->add_flag("--short", typed->is_short, "Fewer steps, less time: to see that it works");
-  command->add_option("--out", typed->out, "Folder for tables and diagrams [out/study/choices]")
-      ->type_name("DIR");
+  add_study_options(*command, *typed, command_line, "Fewer steps, less time: to see that it works");
   command->add_flag("--json", typed->json, "JSON in place of text");
-  command->add_flag("--quiet", typed->quiet, "Say nothing while measuring");
+  add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return study(*typed); }; });
 }
 

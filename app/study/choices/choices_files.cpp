@@ -27,7 +27,7 @@ std::string optional_cell(const std::optional<double>& value) {
 }
 
 json range_json(const std::array<double, 3>& range) {
-  return {{"least", range[0]}, {"median", range[1]}, {"greatest", range[2]}};
+  return {{"min", range[0]}, {"median", range[1]}, {"max", range[2]}};
 }
 
 json drift_json(const DriftStudy& study) {

@@ -11,7 +11,7 @@
 
 namespace pneuma::app {
 
-/// The rows of ERRATA.md that say *both*, measured on one body.
+/// Both forms of ERRATA rows 4, 5 and 7, measured on one body.
 struct ChoicesStudy {
   std::string name;  // of the scene, with the body when there is only one of several
   std::string title;

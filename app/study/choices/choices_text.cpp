@@ -3,7 +3,7 @@
 #include "app/study/choices/choices_report.h"
 #include "app/study/choices/martin.h"
 #include "app/study/report_text.h"
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/interrupt.h"
+#include "app/host/interrupt.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/damping.h"

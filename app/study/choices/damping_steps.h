@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -15,7 +15,7 @@ struct DampingRun {
   int steps_per_second = 60;
   /// m/s: that of the centre after falling from rest; nothing when the run diverged.
   std::optional<double> fall_speed;
-  /// Of a free body that swings without gravity: the greatest kinetic energy in the second half of
+  /// Of a free body that swings without gravity: the max. kinetic energy in the second half of
   /// the time over that in the first half; nothing when the run diverged or nothing swings.
   std::optional<double> swing_left;
 };

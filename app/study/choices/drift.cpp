@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "app/errors.h"
-#include "app/interrupt.h"
-#include "app/statistics.h"
+#include "app/host/errors.h"
+#include "app/host/interrupt.h"
+#include "app/record/statistics.h"
 #include "app/study/error/error_meter.h"
 #include "app/study/error/samples.h"
 #include "sim/mesh/measure.h"
@@ -41,7 +41,7 @@ sim::World free_world(sim::SoftBody body, PressureWeighting weighting, double pe
                       int trial, int steps_per_second) {
   body.positions = body.mesh->rest_positions;
   body.velocities.rows().setZero();
-  body.material.pressure = weighting;
+  body.material.pressure_weighting = weighting;
   body.material.damping = sim::Damping::dashpot;
   perturb(body, perturbation, trial);
   sim::World world;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -32,7 +32,7 @@ struct DriftStudy {
 /// Samples are app/study/error/samples.h's. Throws DivergenceError and Interrupted.
 DriftStudy study_drift(const sim::SoftBody& body, const DriftOptions& options);
 
-/// The least, median and greatest distance at the end.
+/// The min., median and max. distance at the end.
 std::array<double, 3> drift_range(const std::vector<DriftTrial>& trials);
 /// Likewise of the net force at the start.
 std::array<double, 3> force_range(const std::vector<DriftTrial>& trials);

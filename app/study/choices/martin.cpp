@@ -8,12 +8,12 @@
 
 #include "app/study/error/conclusions.h"
 #include "app/study/report_text.h"
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
 
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 constexpr const char* martin = "martin";
 constexpr int paper_steps_per_second = 60;
@@ -22,7 +22,7 @@ constexpr double asked_error = 1e-2;
 const ErrorRun* stable_run(const ErrorStudy& study, const std::string& method, int rate) {
   const auto run = std::ranges::find_if(study.runs, [&](const ErrorRun& candidate) {
     return candidate.ours && candidate.method == method && candidate.steps_per_second == rate &&
-           candidate.outcome == Outcome::stable && error_of(candidate) > 0.0;
+           candidate.status == Status::stable && error_of(candidate) > 0.0;
   });
   return run == study.runs.end() ? nullptr : &*run;
 }

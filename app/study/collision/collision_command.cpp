@@ -7,15 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
-#include "app/common_options.h"
-#include "app/errors.h"
-#include "app/find_scene.h"
-#include "app/provenance.h"
+#include "app/host/errors.h"
 #include "app/study/collision/collision_report.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "scenes/load_scene.h"
+#include "app/study/study_options.h"
+#include "app/terminal/common_options.h"
 
 namespace pneuma::app {
 namespace {
@@ -23,49 +20,47 @@ namespace {
 const std::vector<std::string> default_scenes = {"two_spheres_contact", "three_spheres_contact",
                                                  "sphere_in_torus", "torus_three_spheres"};
 
-struct Options {
+struct CollisionArguments : StudyOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  std::string out = "out/study/collision";
-  std::string command_line;
   CollisionStudyOptions study;
 };
 
-std::vector<scenes::Scene> load(const Options& options) {
-  std::vector<scenes::Scene> loaded;
-  for (const std::string& name : options.scenes.empty() ? default_scenes : options.scenes) {
-    loaded.push_back(scenes::load_scene(find_scene(name), options.overrides));
+std::vector<scenes::Scene> load(const CollisionArguments& options) {
+  std::vector<scenes::Scene> loaded =
+      load_scenes(options.scenes.empty() ? default_scenes : options.scenes, options.overrides);
+  for (const scenes::Scene& scene : loaded) {
     std::int64_t soft = 0;
-    for (const scenes::BodyScene& body : loaded.back().bodies) {
+    for (const scenes::BodyScene& body : scene.bodies) {
       if (body.kind == scenes::BodyKind::soft) soft += scenes::copy_count(body);
     }
     if (soft < 2) {
       throw UsageError(fmt::format(
           "{} has fewer than two soft bodies, so that no soft contacts are searched for; choose "
           "another scene, such as {}",
-          loaded.back().name, default_scenes.front()));
+          scene.name, default_scenes.front()));
     }
   }
   return loaded;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run_collision_study(const CollisionArguments& options) {
   const std::vector<scenes::Scene> loaded = load(options);
   const StudyFolder folder(options.out);
+  CollisionStudyOptions study = options.study;
+  study.few = options.is_short;
   std::vector<CollisionStudy> studies;
   for (const scenes::Scene& scene : loaded) {
-    studies.push_back(study_collision(scene, options.study));
+    studies.push_back(study_collision(scene, study));
     fmt::print("{}\n", collision_text(studies.back()));
     if (studies.back().steps > 0) {
       write_diagram(folder, "collision_" + scene.name, collision_diagram(studies.back()));
     }
   }
   folder.write("collision.csv", collision_csv(studies));
-  nlohmann::json json = provenance_json();
-  json["date"] = utc_date();
-  json["command"] = options.command_line;
-  json["scenes"] = collision_json(studies);
-  folder.write("collision.json", json.dump(2) + '\n');
+  nlohmann::json report = study_head(options);
+  report["scenes"] = collision_json(studies);
+  folder.write("collision.json", report.dump(2) + '\n');
   fmt::print("{}\n", folder.path().string());
   return ExitCode::done;
 }
@@ -74,8 +69,7 @@ ExitCode run(const Options& options) {
 
 void add_collision_study(CLI::App& study, Action& action,
                          std::span<const std::string> command_line) {
-  const auto options = std::make_shared<Options>();
-  options->command_line = shell_line(command_line);
+  const auto options = std::make_shared<CollisionArguments>();
   CLI::App* command = study.add_subcommand(
       "collision", "What the search for contacts of soft bodies finds, and what it costs");
   std::string defaults;
@@ -86,12 +80,9 @@ void add_collision_study(CLI::App& study, Action& action,
   command->add_option("--seconds", options->study.seconds, "Only the scenes' first S seconds [10]")
       ->type_name("S")
       ->check(CLI::Range(0.1, 1e4));
-  command
-      ->add_option("--out", options->out,
-                   "Folder for CSV, JSON and diagrams [" + options->out + "]")
-      ->type_name("DIR");
-  command->add_flag("--short", options->study.few, "Four settings in place of all");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  add_study_options(*command, *options, command_line, "Four settings in place of all");
+  command->callback(
+      [options, &action] { action = [options] { return run_collision_study(*options); }; });
 }
 
 }  // namespace pneuma::app

@@ -5,9 +5,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "app/record/vector_json.h"
 #include "app/study/csv.h"
-#include "app/table.h"
-#include "app/vector_json.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
@@ -16,8 +16,8 @@ bool is_exact(const SearchResult& result) {
   return result.setting.search == sim::SoftSearch::exact;
 }
 
-/// Particles per vertex are a share of the same body in every row of a scene, so that what belongs
-/// together in the diagram is one series each.
+/// Particles per vertex are a fraction of the same body in every row of a scene, so that what
+/// belongs together in the diagram is one series each.
 std::string series_name(const SearchResult& result) {
   if (is_exact(result)) return "exact";
   if (result.setting.particles.attraction != sim::ParticleSettings{}.attraction) {
@@ -30,15 +30,14 @@ std::string series_name(const SearchResult& result) {
 }  // namespace
 
 std::string collision_text(const CollisionStudy& study) {
-  using Align = Table::Align;
-  Table table({{"search", Align::left},
+  Table table({{"search", Table::Align::left},
                {"us per\nstep"},
                {"times\nexact"},
                {"contacts"},
                {"regions\nfound %"},
                {"vertices\nfound %"},
                {"deepest\nmissed m"},
-               {"greatest\npenetration m"}});
+               {"max.\npenetration m"}});
   for (const SearchResult& result : study.results) {
     table.add_row({result.setting.name(), readable(1e6 * result.step_seconds),
                    readable(result.step_seconds / study.exact().step_seconds),

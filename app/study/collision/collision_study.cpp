@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/budget.h"
-#include "app/build_world.h"
-#include "app/interrupt.h"
-#include "app/run_statistics.h"
-#include "app/simulation.h"
-#include "app/statistics.h"
-#include "scenes/load_scene.h"
+#include "app/check/run_statistics.h"
+#include "app/host/clock.h"
+#include "app/host/interrupt.h"
+#include "app/record/statistics.h"
+#include "app/world/build_world.h"
+#include "app/world/simulation.h"
+#include "scenes/loader/load_scene.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
-#include "sim/collision/pair_finder.h"
 #include "sim/collision/particles.h"
+#include "sim/collision/sweep_and_prune.h"
 
 namespace pneuma::app {
 namespace {
@@ -25,7 +25,7 @@ using sim::SurfaceView;
 
 SurfaceView view(const sim::SoftBody& body) { return {body.mesh->topology, body.positions}; }
 
-/// Of every search; the least time is taken, which nothing else that the machine does can shorten.
+/// Of every search; the min. time is taken, which nothing else that the machine does can shorten.
 constexpr int repeats = 3;
 
 /// One setting at work, with particles that persist.
@@ -80,8 +80,7 @@ class TrackedSearch {
   void find_by_particles(const sim::World& world, sim::ParticlePair& pair) {
     sim::settle_particles(view(world.soft[at(pair.first)]), view(world.soft[at(pair.second)]),
                           result_.setting.particles,
-                          sim::least_particle_distance(world.settings.skin_thickness), pair,
-                          places_);
+                          sim::min_particle_distance(world.settings.skin_thickness), pair, places_);
     sim::find_soft_soft(world, pair, scratch_, contacts_);
   }
 
@@ -190,7 +189,7 @@ class Runner {
   std::vector<TrackedSearch> searches_;
   std::int64_t near_steps_ = 0;
   std::vector<sim::BoundingSphere> spheres_;
-  sim::PairFinder finder_;
+  sim::SweepAndPrune finder_;
   std::vector<sim::BodyPair> pairs_;
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/study/collision/detection.h"
-#include "scenes/scene.h"
+#include "scenes/loader/scene.h"
 
 namespace pneuma::app {
 
@@ -27,7 +27,7 @@ struct SearchResult {
   DetectionScore score;
   double step_seconds = 0.0;  // median of the steps in which bodies are near each other
   double contacts = 0.0;      // mean of the same steps
-  // m, the greatest in a run of the scene's own with this search; for the settings that differ from
+  // m, the max. in a run of the scene's own with this search; for the settings that differ from
   // the default in the number of particles only.
   std::optional<double> penetration;
 };
@@ -42,7 +42,7 @@ struct CollisionStudy {
   const SearchResult& exact() const { return results.front(); }
 };
 
-/// A setting is said to find what touches when it finds this share of the regions and misses no
+/// A setting is said to find what touches when it finds this fraction of the regions and misses no
 /// vertex that is deeper within reach than half of it: those are to be moved apart (5.3.1).
 inline constexpr double required_region_share = 0.99;
 bool finds_what_touches(const SearchResult& result, double skin_thickness);

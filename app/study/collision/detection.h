@@ -36,7 +36,7 @@ struct DetectionScore {
   std::int64_t regions_found = 0;  // with at least one contact in them
   std::int64_t vertices = 0;
   std::int64_t vertices_found = 0;  // that are a part of what a contact reports on their body
-  double greatest_missed = 0.0;     // m, the greatest depth of a vertex that was not found
+  double greatest_missed = 0.0;     // m, the max. depth of a vertex that was not found
 
   double region_share() const;  // 1 when there was nothing to find
   double vertex_share() const;

@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "app/study/report_text.h"
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
 
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 // Errors beyond are not small, and their terms of higher order not yet gone.
 constexpr double greatest_asymptotic_error = 0.1;
@@ -35,7 +35,7 @@ std::optional<double> theory_of(const ErrorStudy& study, const std::string& meth
 }
 
 bool asymptotic(const ErrorStudy& study, const ErrorRun& run) {
-  return run.ours && run.outcome == Outcome::stable && error_of(run) < greatest_asymptotic_error &&
+  return run.ours && run.status == Status::stable && error_of(run) < greatest_asymptotic_error &&
          error_of(run) > clear_of_uncertainty * study.reference.uncertainty;
 }
 
@@ -66,7 +66,7 @@ void keep_cheaper(std::optional<ErrorRun>& best, const ErrorRun& run) {
   if (!best || run.run_time < best->run_time) best = run;
 }
 
-std::string microseconds(double seconds) { return readable(1e6 * seconds); }
+std::string in_microseconds(double seconds) { return readable(1e6 * seconds); }
 
 /// Why not the next longer step; empty when there is none.
 std::string next_longer(const ErrorStudy& study, const ErrorRun& run) {
@@ -74,7 +74,7 @@ std::string next_longer(const ErrorStudy& study, const ErrorRun& run) {
     return other.method == run.method && 2 * other.steps_per_second == run.steps_per_second;
   });
   if (longer == study.runs.end()) return "";
-  const std::string what = longer->outcome == Outcome::stable
+  const std::string what = longer->status == Status::stable
                                ? fmt::format("its error is {:.1e}", error_of(*longer))
                                : "it is unstable";
   return fmt::format(" (at 1/{} s {})", longer->steps_per_second, what);
@@ -90,7 +90,7 @@ std::string reason(const ErrorStudy& study, const Choice& choice, double wanted)
       "Per simulated second {} evaluates the forces {} times, at {} us each, and spends {:.0f} % "
       "of "
       "its time on other work;",
-      cvode.method, readable(cvode.evaluations), microseconds(evaluation), 100.0 * own_work);
+      cvode.method, readable(cvode.evaluations), in_microseconds(evaluation), 100.0 * own_work);
   return fmt::format(
       "{} {} at 1/{} s takes as long as {} evaluations{}. To be {:g} times ahead it would have to "
       "take no longer than {}.",
@@ -142,7 +142,7 @@ Choice choose(const ErrorStudy& study, double error) {
   choice.known = study.reference.uncertainty <= 0.1 * error;
   if (!choice.known) return choice;
   for (const ErrorRun& run : study.runs) {
-    if (run.outcome != Outcome::stable || !(error_of(run) <= error)) continue;
+    if (run.status != Status::stable || !(error_of(run) <= error)) continue;
     keep_cheaper(run.ours ? choice.ours : choice.cvode, run);
   }
   return choice;
@@ -160,7 +160,7 @@ std::string recommendation(const Choice& choice) {
   return fmt::format(
       "for an error of {} take {} at step 1/{} s: {} microseconds per simulated second (its error: "
       "{:.1e})",
-      error, run.method, run.steps_per_second, microseconds(run.run_time), error_of(run));
+      error, run.method, run.steps_per_second, in_microseconds(run.run_time), error_of(run));
 }
 
 std::vector<std::string> shortfalls(const ErrorStudy& study) {

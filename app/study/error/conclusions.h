@@ -12,7 +12,7 @@
 
 namespace pneuma::app {
 
-/// The error of a run that conclusions are drawn from: of position, greatest over time.
+/// The error of a run that conclusions are drawn from: of position, max. over time.
 inline double error_of(const ErrorRun& run) { return run.errors.greatest.position; }
 
 /// How the error of one of our integrators falls with the step.

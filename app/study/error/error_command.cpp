@@ -7,37 +7,33 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
-#include "app/errors.h"
-#include "app/find_scene.h"
-#include "app/progress.h"
-#include "app/provenance.h"
+#include "app/host/errors.h"
+#include "app/host/timing_conditions.h"
+#include "app/record/provenance.h"
 #include "app/study/error/cvode.h"
 #include "app/study/error/error_report.h"
 #include "app/study/report_text.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/timing_conditions.h"
-#include "scenes/load_scene.h"
+#include "app/study/study_options.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/progress.h"
 
 namespace pneuma::app {
 namespace {
 
 /// The options as they were typed.
-struct Typed {
+struct ErrorArguments : StudyOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  std::string out = "out/study/error";
   FlightOptions flight;
   std::optional<double> seconds;
   std::optional<int> repeats;
-  bool is_short = false;
   bool json = false;
   bool quiet = false;
-  std::span<const std::string> command_line;
 };
 
-ErrorOptions sweep(const Typed& typed) {
+ErrorOptions sweep(const ErrorArguments& typed) {
   ErrorOptions options = typed.is_short ? short_sweep() : full_sweep();
   options.flight.body = typed.flight.body;
   options.flight.free_flight = typed.flight.free_flight;
@@ -77,12 +73,10 @@ void study_scene(const scenes::Scene& scene, const ErrorOptions& options, const 
   }
 }
 
-void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& folder,
-           const std::string& date, const Findings& findings) {
-  nlohmann::json report = provenance_json();
-  report.update({{"date", date},
-                 {"command", shell_line(typed.command_line)},
-                 {"sundials", sundials_version()},
+void print(const ErrorArguments& typed, const ErrorOptions& options, const StudyFolder& folder,
+           const Findings& findings) {
+  nlohmann::json report = study_head(typed);
+  report.update({{"sundials", sundials_version()},
                  {"repeats", options.repeats},
                  {"warnings", findings.warnings},
                  {"scenes", findings.scenes}});
@@ -92,26 +86,21 @@ void print(const Typed& typed, const ErrorOptions& options, const StudyFolder& f
     fmt::print("{}", json);
     return;
   }
-  fmt::print("{}{}CVODE: SUNDIALS {}.\n{}", findings.text, provenance_text(date),
+  fmt::print("{}{}CVODE: SUNDIALS {}.\n{}", findings.text, provenance_text(report["date"]),
              sundials_version(), warnings_text(findings.warnings));
 }
 
-ExitCode study(const Typed& typed) {
-  // All are loaded first, so that a slip in the last one is seen before anything is measured.
-  std::vector<scenes::Scene> scenes;
-  for (const std::string& name : typed.scenes) {
-    scenes.push_back(scenes::load_scene(find_scene(name), typed.overrides));
-  }
+ExitCode study(const ErrorArguments& typed) {
+  const std::vector<scenes::Scene> scenes = load_scenes(typed.scenes, typed.overrides);
   const StudyFolder folder(typed.out);
   const ErrorOptions options = sweep(typed);
-  const std::string date = utc_date();
   Findings findings;
   Progress progress(progress_style(typed.quiet));
   for (const scenes::Scene& scene : scenes) {
     study_scene(scene, options, folder, progress, findings);
   }
   progress.say("files in " + folder.path().string());
-  print(typed, options, folder, date, findings);
+  print(typed, options, folder, findings);
   return findings.code;
 }
 
@@ -119,17 +108,13 @@ ExitCode study(const Typed& typed) {
 
 void add_error_study(CLI::App& study_command, Action& action,
                      std::span<const std::string> command_line) {
-  const auto typed = std::make_shared<Typed>();
-  typed->command_line = command_line;
+  const auto typed = std::make_shared<ErrorArguments>();
   CLI::App* command = study_command.add_subcommand(
       "error", "Error against run time of every integrator, and which one to take");
   command->add_option("scene", typed->scenes, "Scene files or names")
       ->required()
       ->type_name("SCENE");
-  command->add_option("--set", typed->overrides, "Override a value of the scenes, as body.k=200")
-      ->type_name("PATH=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_override_option(*command, typed->overrides);
   command->add_option("--body", typed->flight.body, "Only this body of the scene")
       ->type_name("NAME");
   command->add_flag("--free-flight", typed->flight.free_flight,
@@ -142,11 +127,9 @@ void add_error_study(CLI::App& study_command, Action& action,
   command->add_option("--repeats", typed->repeats, "Of each run, for its time [5; with --short 2]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  command->add_flag("--short", typed->is_short, "Fewer steps, less time: to see that it works");
-  command->add_option("--out", typed->out, "Folder for tables and diagrams [out/study/error]")
-      ->type_name("DIR");
+  add_study_options(*command, *typed, command_line, "Fewer steps, less time: to see that it works");
   command->add_flag("--json", typed->json, "JSON in place of text");
-  command->add_flag("--quiet", typed->quiet, "Say nothing while measuring");
+  add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return study(*typed); }; });
 }
 

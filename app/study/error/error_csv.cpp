@@ -7,7 +7,7 @@
 namespace pneuma::app {
 namespace {
 
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 /// Empty where there is no such number.
 std::string positive(double value) { return value > 0.0 ? csv_cell(value) : std::string(); }
@@ -16,7 +16,7 @@ void add_errors(std::vector<std::string>& cells, const ErrorRun& run) {
   for (const StateErrors* errors : {&run.errors.end, &run.errors.greatest}) {
     for (const double error :
          {errors->position, errors->volume, errors->centre, errors->energy, errors->momentum}) {
-      cells.push_back(run.outcome == Outcome::stable ? csv_cell(error) : std::string());
+      cells.push_back(run.status == Status::stable ? csv_cell(error) : std::string());
     }
   }
 }
@@ -46,7 +46,7 @@ std::string runs_csv(const ErrorStudy& study) {
                                       run.ours ? csv_cell(run.steps_per_second) : "",
                                       run.ours ? csv_cell(run.step()) : "",
                                       positive(run.tolerance),
-                                      csv_cell(std::string(to_string(run.outcome))),
+                                      csv_cell(std::string(to_string(run.status))),
                                       csv_cell(run.failure),
                                       positive(run.run_time),
                                       positive(run.evaluations)};

@@ -10,7 +10,7 @@
 namespace pneuma::app {
 namespace {
 
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 using Style = DiagramSeries::Style;
 
 // A run whose error is exactly zero still has a place on a logarithmic axis.
@@ -51,8 +51,8 @@ std::vector<DiagramSeries> series_of(const ErrorStudy& study, bool with_cvode, c
     }
     DiagramSeries& stable = all[all.size() - 2];
     DiagramSeries& unstable = all.back();
-    if (run.outcome == Outcome::stable) stable.points.push_back({place(run), height(run)});
-    if (run.outcome == Outcome::unstable) {
+    if (run.status == Status::stable) stable.points.push_back({place(run), height(run)});
+    if (run.status == Status::unstable) {
       unstable.points.push_back({place(run), place_of_row(all.size() / 2 - 1)});
     }
   }
@@ -66,7 +66,7 @@ Diagram diagram_of(const ErrorStudy& study, const std::string& over, const std::
       fmt::format("{}, {:.3g} s; hollow marks above the line: unstable",
                   study.flight.contacts ? "with contacts" : "free flight", study.reference.seconds);
   diagram.x = {.label = x_label, .logarithmic = true};
-  diagram.y = {.label = "greatest position error / rest radius", .logarithmic = true};
+  diagram.y = {.label = "max. position error / rest radius", .logarithmic = true};
   return diagram;
 }
 

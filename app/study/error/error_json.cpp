@@ -7,7 +7,7 @@ namespace pneuma::app {
 namespace {
 
 using nlohmann::json;
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 json errors_json(const StateErrors& errors) {
   return {{"position", errors.position},
@@ -20,12 +20,12 @@ json errors_json(const StateErrors& errors) {
 json number_or_null(double value) { return value > 0.0 ? json(value) : json(nullptr); }
 
 json run_json(const ErrorRun& run) {
-  const bool stable = run.outcome == Outcome::stable;
+  const bool stable = run.status == Status::stable;
   return {{"method", run.method},
           {"ours", run.ours},
           {"steps_per_second", run.ours ? json(run.steps_per_second) : json(nullptr)},
           {"tolerance", run.ours ? json(nullptr) : json(run.tolerance)},
-          {"outcome", std::string(to_string(run.outcome))},
+          {"outcome", std::string(to_string(run.status))},
           {"failure", run.failure},
           {"run_time_s_per_simulated_s", number_or_null(run.run_time)},
           {"evaluations_per_simulated_s", number_or_null(run.evaluations)},

@@ -14,7 +14,7 @@ struct StateErrors {
                           // distance, each divided by its body's rest radius
   double volume = 0.0;    // of the worst body, of its volume
   double centre = 0.0;    // of the worst body's centre of mass, divided by its rest radius
-  double energy = 0.0;    // of the total, divided by the reference's greatest kinetic energy
+  double energy = 0.0;    // of the total, divided by the reference's max. kinetic energy
   double momentum = 0.0;  // of the total, divided by the momentum that the whole mass would have
                           // with that kinetic energy
 };
@@ -24,7 +24,7 @@ struct RunErrors {
   StateErrors greatest;  // of each kind, over all samples
 };
 
-/// The greatest distance in metres of a vertex from the mean of all, in the rest shape.
+/// The max. distance in metres of a vertex from the mean of all, in the rest shape.
 double rest_radius(const sim::SoftBody& body);
 
 class ErrorMeter {

@@ -8,16 +8,17 @@
 #include <memory>
 #include <utility>
 
-#include "app/budget.h"
-#include "app/interrupt.h"
+#include "app/host/clock.h"
+#include "app/host/interrupt.h"
 #include "app/study/error/solver.h"
-#include "scenes/integrator_names.h"
+#include "scenes/loader/integrator_names.h"
+#include "sim/base/enum_name.h"
 #include "sim/soft/acceleration.h"
 
 namespace pneuma::app {
 namespace {
 
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 // Off by more than this many rest radii a body is somewhere else altogether.
 constexpr double unstable_error = 10.0;
@@ -100,13 +101,13 @@ void measure_error(Candidate& candidate, ErrorMeter& meter) {
   candidate.repeats = 1;
   candidate.spent = seconds;
   if (!sound) {
-    run.outcome = Outcome::unstable;
+    run.status = Status::unstable;
     run.failure = solver->failure();
     return;
   }
   run.errors = meter.errors(trajectory);
   if (!is_finite(run.errors.greatest) || run.errors.greatest.position > unstable_error) {
-    run.outcome = Outcome::unstable;
+    run.status = Status::unstable;
     run.failure = "its errors grow without bound";
   }
 }
@@ -134,7 +135,7 @@ void measure_errors(Method& method, ErrorMeter& meter, const ErrorOptions& optio
   std::string too_long;
   for (Candidate& candidate : method) {
     if (!too_long.empty()) {
-      candidate.run.outcome = Outcome::skipped;
+      candidate.run.status = Status::skipped;
       candidate.run.failure = too_long;
       continue;
     }
@@ -153,7 +154,7 @@ void measure_times(std::vector<Method>& methods, std::size_t samples, const Erro
     for (Method& method : methods) {
       for (Candidate& candidate : method) {
         throw_if_interrupted();
-        if (candidate.run.outcome == Outcome::skipped) continue;
+        if (candidate.run.status == Status::skipped) continue;
         const bool enough = candidate.repeats >= least_repeats && candidate.spent > enough_timing;
         if (!enough && candidate.spent < options.longest_run) measure_time(candidate, samples);
       }
@@ -167,16 +168,9 @@ std::string study_name(const scenes::Scene& scene, const std::string& body) {
 
 }  // namespace
 
-std::string_view to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::stable:
-      return "stable";
-    case Outcome::unstable:
-      return "unstable";
-    case Outcome::skipped:
-      break;
-  }
-  return "skipped";
+std::string_view to_string(Status status) {
+  static constexpr auto names = std::to_array<std::string_view>({"stable", "unstable", "skipped"});
+  return base::enum_name(names, status);
 }
 
 ErrorOptions full_sweep() {

@@ -30,7 +30,7 @@ ErrorOptions short_sweep();
 
 /// One method at one step or tolerance.
 struct ErrorRun {
-  enum class Outcome {
+  enum class Status {
     stable,
     unstable,  // diverged, or further off than ten rest radii
     skipped,   // would have taken too long
@@ -40,9 +40,9 @@ struct ErrorRun {
   bool ours = true;          // else CVODE
   int steps_per_second = 0;  // ours
   double tolerance = 0.0;    // CVODE's
-  Outcome outcome = Outcome::stable;
+  Status status = Status::stable;
   std::string failure;       // of an unstable or skipped one: what, and when
-  double run_time = 0.0;     // s of processor time per simulated second, least of the repeats
+  double run_time = 0.0;     // s of processor time per simulated second, min. of the repeats
   double evaluations = 0.0;  // of the right-hand side per simulated second; 0: not counted
   RunErrors errors;          // of a stable one
 
@@ -51,7 +51,7 @@ struct ErrorRun {
 };
 
 /// "stable", ...
-std::string_view to_string(ErrorRun::Outcome outcome);
+std::string_view to_string(ErrorRun::Status status);
 
 struct ErrorStudy {
   std::string name;  // of the scene, with the body when there is only one of several
@@ -64,7 +64,7 @@ struct ErrorStudy {
   std::vector<ErrorRun> runs;    // method by method, from coarse to fine
 };
 
-/// Time of one evaluation of the forces on all soft bodies of a world, s, the least of many.
+/// Time of one evaluation of the forces on all soft bodies of a world, s, the min. of many.
 double measure_evaluation(const sim::World& world);
 
 /// Throws UsageError and DivergenceError (see flight.h, reference.h), scenes::SceneError and

@@ -6,23 +6,23 @@
 #include "app/study/error/conclusions.h"
 #include "app/study/error/error_report.h"
 #include "app/study/report_text.h"
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
 
 using Align = Table::Align;
-using Outcome = ErrorRun::Outcome;
+using Status = ErrorRun::Status;
 
 std::string microseconds(double seconds) { return readable(1e6 * seconds); }
 
 std::string error_cell(const ErrorRun& run) {
-  if (run.outcome != Outcome::stable) return std::string(to_string(run.outcome));
+  if (run.status != Status::stable) return std::string(to_string(run.status));
   return fmt::format("{:.1e}", error_of(run));
 }
 
 std::string time_cell(const ErrorRun& run) {
-  return run.outcome == Outcome::skipped ? "-" : microseconds(run.run_time);
+  return run.status == Status::skipped ? "-" : microseconds(run.run_time);
 }
 
 /// A row for each step or tolerance, and for each method its error and its time in it.
@@ -66,11 +66,11 @@ std::string heading(const ErrorStudy& study) {
                                      reference.limit));
   }
   text += labelled("error",
-                   "root mean square distance of the vertices from where they should be, greatest "
+                   "root mean square distance of the vertices from where they should be, max. "
                    "over time, divided by the rest radius.");
   return text + labelled("us",
                          "microseconds of processor time per simulated second: the stepping alone, "
-                         "least of the repeats.");
+                         "min. of the repeats.");
 }
 
 std::string orders_text(const ErrorStudy& study) {
@@ -89,7 +89,7 @@ std::string orders_text(const ErrorStudy& study) {
 
 /// What else is off in the recommended runs.
 std::string other_errors_table(const ErrorStudy& study) {
-  constexpr const char* greatest = "greatest over time";
+  constexpr const char* greatest = "max. over time";
   constexpr const char* end = "at the end";
   Table table({{"run", Align::left},
                {"position", Align::right, greatest},

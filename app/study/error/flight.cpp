@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "app/build_world.h"
-#include "app/errors.h"
-#include "app/interrupt.h"
+#include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/study/error/samples.h"
+#include "app/world/build_world.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {

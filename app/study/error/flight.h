@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "scenes/scene.h"
-#include "sim/world.h"
+#include "scenes/loader/scene.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "app/errors.h"
-#include "app/interrupt.h"
+#include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/study/error/error_meter.h"
 #include "app/study/error/solver.h"
 

@@ -11,7 +11,7 @@ namespace pneuma::app {
 struct Reference {
   Trajectory trajectory;     // until `seconds`
   double seconds = 0.0;      // for so long it is known; a whole number of samples
-  double uncertainty = 0.0;  // how well: the greatest position error of the second-best run
+  double uncertainty = 0.0;  // how well: the max. position error of the second-best run
   std::string method;        // "CVODE's Adams method at tolerance 1e-12 ..."
   std::string limit;         // why it is known no longer than that; empty when it is all the time
 };

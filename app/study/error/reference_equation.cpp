@@ -96,7 +96,7 @@ bool add_pressure(const sim::SoftBody& body, const std::vector<double>& weights,
   return true;
 }
 
-/// Gravity, and the drag that loses the share rho_g of the velocity in 1/60 s (ERRATA row 5).
+/// Gravity, and the drag that loses the fraction rho_g of the velocity in 1/60 s (ERRATA row 5).
 void set_gravity_and_drag(const sim::SoftBody& body, const sim::Vec3& gravity, const Part& part) {
   const double gamma = -60.0 * std::log(1.0 - body.material.rho_g);
   const int vertices = body.mesh->topology.vertex_count();
@@ -106,7 +106,7 @@ void set_gravity_and_drag(const sim::SoftBody& body, const sim::Vec3& gravity, c
 /// 1 (`uniform`), or springs of the vertex / mean springs (`valence`).
 std::vector<double> pressure_weights(const sim::SoftBody& body) {
   const auto vertices = static_cast<std::size_t>(body.mesh->topology.vertex_count());
-  if (body.material.pressure == sim::PressureWeighting::uniform) {
+  if (body.material.pressure_weighting == sim::PressureWeighting::uniform) {
     return std::vector<double>(vertices, 1.0);
   }
   std::vector<double> springs(vertices, 0.0);

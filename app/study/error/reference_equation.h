@@ -1,4 +1,4 @@
-// The model's differential equation (DESIGN "The model") once more, written down from its formula
+// The model's differential equation (README "The model") once more, written down from its formula
 // and not from the simulation's code: one scalar after the other, no weights or constants taken
 // over. What it shares with the fast code is the plain data: positions, springs, triangles,
 // material.
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sim/soft/integrators.h"
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 

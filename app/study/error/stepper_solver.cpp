@@ -14,7 +14,7 @@ sim::Plan flight_plan(const sim::World& world) {
   using sim::Stage;
   sim::Plan plan = sim::make_plan(world);
   for (const Stage stage :
-       {Stage::find_pairs, Stage::move_particles, Stage::find_contacts, Stage::resolve_contacts}) {
+       {Stage::broad_phase, Stage::move_particles, Stage::find_contacts, Stage::resolve_contacts}) {
     plan.stages[static_cast<std::size_t>(stage)] = {false, "free flight"};
   }
   return plan;

@@ -7,7 +7,7 @@
 namespace pneuma::app {
 
 enum class Outcome {
-  sound,     // finite, energy never above its start, volumes above zero, penetration bounded
+  valid,     // finite, energy never above its start, volumes above zero, penetration bounded
   refused,   // with a message, before the first step
   diverged,  // found in the step where it happened, with a message
 };
@@ -15,7 +15,7 @@ enum class Outcome {
 /// What a case does to its world before the first step: states that no scene file can ask for.
 enum class ExtremeStart {
   as_made,
-  flat,        // every vertex at its body's least height: a volume of zero
+  flat,        // every vertex at its body's min. height: a volume of zero
   inside_out,  // mirrored: a volume below zero
   scattered,   // every vertex moved at random by up to its body's size
   one_point,   // all vertices of a body in one place
@@ -26,8 +26,8 @@ struct ExtremeCase {
   std::string scene;  // TOML
   double seconds = 10.0;
   // What an explicit integrator may come to: one outcome, or two where its step decides.
-  std::vector<Outcome> explicit_outcomes = {Outcome::sound};
-  Outcome implicit_outcome = Outcome::sound;
+  std::vector<Outcome> explicit_outcomes = {Outcome::valid};
+  Outcome implicit_outcome = Outcome::valid;
   ExtremeStart start = ExtremeStart::as_made;
   // m, at most in the last half of the run: by default the skin. Infinite where bodies are known to
   // go deeper, which the table then shows.

@@ -7,24 +7,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
-#include "app/interrupt.h"
-#include "app/provenance.h"
+#include "app/host/interrupt.h"
+#include "app/record/vector_json.h"
 #include "app/study/csv.h"
 #include "app/study/extreme/extreme_run.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/table.h"
-#include "app/vector_json.h"
+#include "app/study/study_options.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
-
-struct Options {
-  std::string out = "out/study/extremes";
-  std::string command_line;
-  bool is_short = false;
-};
 
 struct Row {
   ExtremeCase extreme;
@@ -79,7 +72,7 @@ nlohmann::json rows_json(const std::vector<Row>& rows) {
   return all;
 }
 
-ExitCode run(const Options& options) {
+ExitCode run_extreme_study(const StudyOptions& options) {
   const StudyFolder folder(options.out);
   using Align = Table::Align;
   std::vector<Table::Column> columns = {{"case", Align::left}};
@@ -103,9 +96,7 @@ ExitCode run(const Options& options) {
   fmt::print("{}\n{} cases, each with {} integrators; {} not as expected\n", table.text(),
              rows.size() / extreme_integrators.size(), extreme_integrators.size(), unexpected);
   folder.write("extremes.csv", csv_text(rows));
-  nlohmann::json json = provenance_json();
-  json["date"] = utc_date();
-  json["command"] = options.command_line;
+  nlohmann::json json = study_head(options);
   json["cases"] = rows_json(rows);
   folder.write("extremes.json", json.dump(2) + '\n');
   fmt::print("{}\n", folder.path().string());
@@ -115,14 +106,12 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 void add_extreme_study(CLI::App& study, Action& action, std::span<const std::string> command_line) {
-  const auto options = std::make_shared<Options>();
-  options->command_line = shell_line(command_line);
+  const auto options = std::make_shared<StudyOptions>();
   CLI::App* command = study.add_subcommand(
       "extremes", "Run extreme scenes, and compare each outcome with what was expected");
-  command->add_option("--out", options->out, "Folder for CSV and JSON [" + options->out + "]")
-      ->type_name("DIR");
-  command->add_flag("--short", options->is_short, "Without those that take long");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  add_study_options(*command, *options, command_line, "Without those that take long");
+  command->callback(
+      [options, &action] { action = [options] { return run_extreme_study(*options); }; });
 }
 
 }  // namespace pneuma::app

@@ -7,10 +7,11 @@
 #include <limits>
 #include <random>
 
-#include "app/build_world.h"
-#include "app/interrupt.h"
-#include "app/simulation.h"
-#include "scenes/load_scene.h"
+#include "app/host/interrupt.h"
+#include "app/world/build_world.h"
+#include "app/world/simulation.h"
+#include "scenes/loader/load_scene.h"
+#include "sim/base/enum_name.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
@@ -92,7 +93,7 @@ class Watch {
       result_.least_volume_share = std::min(result_.least_volume_share, volume / start_volumes_[i]);
     }
     if (penetration_counts) {
-      result_.penetration = std::max(result_.penetration, sim::greatest_penetration(world));
+      result_.penetration = std::max(result_.penetration, sim::max_penetration(world));
     }
   }
 
@@ -109,7 +110,7 @@ class Watch {
 
  private:
   void fail(const std::string& why) {
-    result_.sound = false;
+    result_.valid = false;
     if (result_.message.empty()) result_.message = why;
   }
 
@@ -136,11 +137,11 @@ void run(const ExtremeCase& extreme, const scenes::Scene& scene, sim::World& wor
     }
     if (world.steps % steps_per_look(steps) != 0) continue;
     watch.look(world, 2 * world.steps > steps);
-    if (!result.sound) break;
+    if (!result.valid) break;
   }
   result.seconds = sim::time(world);
-  if (result.outcome != Outcome::sound) return;
-  if (result.sound) watch.look(world, true);
+  if (result.outcome != Outcome::valid) return;
+  if (result.valid) watch.look(world, true);
   watch.finish(extreme);
 }
 
@@ -162,23 +163,16 @@ ExtremeResult run_extreme(const ExtremeCase& extreme, const std::string& integra
 }
 
 bool as_expected(const ExtremeCase& extreme, bool implicit, const ExtremeResult& result) {
-  if (result.outcome == Outcome::sound && !result.sound) return false;
-  if (result.outcome != Outcome::sound && result.message.empty()) return false;
+  if (result.outcome == Outcome::valid && !result.valid) return false;
+  if (result.outcome != Outcome::valid && result.message.empty()) return false;
   if (implicit) return result.outcome == extreme.implicit_outcome;
   return std::ranges::find(extreme.explicit_outcomes, result.outcome) !=
          extreme.explicit_outcomes.end();
 }
 
 std::string to_string(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::sound:
-      return "sound";
-    case Outcome::refused:
-      return "refused";
-    case Outcome::diverged:
-      break;
-  }
-  return "diverged";
+  static constexpr auto names = std::to_array<std::string_view>({"valid", "refused", "diverged"});
+  return std::string(base::enum_name(names, outcome));
 }
 
 std::string to_string(const std::vector<Outcome>& outcomes) {

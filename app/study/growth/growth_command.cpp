@@ -7,23 +7,19 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
-#include "app/common_options.h"
-#include "app/progress.h"
-#include "app/provenance.h"
 #include "app/study/csv.h"
 #include "app/study/growth/growth_study.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/table.h"
+#include "app/study/study_options.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/progress.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
 
-struct Typed {
-  std::string out = "out/study/growth";
-  std::string command_line;
-  bool is_short = false;
+struct GrowthArguments : StudyOptions {
   bool quiet = false;
 };
 
@@ -43,7 +39,7 @@ void print(const std::vector<GrowthSeries>& all) {
   }
 }
 
-ExitCode run(const Typed& typed) {
+ExitCode run_growth_study(const GrowthArguments& typed) {
   const StudyFolder folder(typed.out);
   Progress progress(progress_style(typed.quiet));
   const GrowthOptions options{.few = typed.is_short,
@@ -51,9 +47,7 @@ ExitCode run(const Typed& typed) {
   const std::vector<GrowthSeries> all =
       study_growth(options, [&](const std::string& what) { progress.show(what); });
   Csv csv({"pieces", "number", "step_s", "exponent"});
-  nlohmann::json json = provenance_json();
-  json["date"] = utc_date();
-  json["command"] = typed.command_line;
+  nlohmann::json json = study_head(typed);
   for (const GrowthSeries& series : all) {
     nlohmann::json points = nlohmann::json::array();
     for (const auto& [size, seconds] : series.points) {
@@ -75,15 +69,12 @@ ExitCode run(const Typed& typed) {
 }  // namespace
 
 void add_growth_study(CLI::App& study, Action& action, std::span<const std::string> command_line) {
-  const auto typed = std::make_shared<Typed>();
-  typed->command_line = shell_line(command_line);
+  const auto typed = std::make_shared<GrowthArguments>();
   CLI::App* command =
       study.add_subcommand("growth", "How the time of a step grows with the size of a scene");
-  command->add_option("--out", typed->out, "Folder for CSV, JSON and diagram [" + typed->out + "]")
-      ->type_name("DIR");
-  command->add_flag("--short", typed->is_short, "Two sizes each: seconds");
+  add_study_options(*command, *typed, command_line, "Two sizes each: seconds");
   add_quiet_option(*command, typed->quiet);
-  command->callback([typed, &action] { action = [typed] { return run(*typed); }; });
+  command->callback([typed, &action] { action = [typed] { return run_growth_study(*typed); }; });
 }
 
 }  // namespace pneuma::app

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "app/budget.h"
-#include "app/build_world.h"
-#include "app/replay.h"
-#include "app/statistics.h"
-#include "scenes/load_scene.h"
+#include "app/host/budget.h"
+#include "app/record/statistics.h"
+#include "app/world/build_world.h"
+#include "app/world/replay.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {

@@ -8,26 +8,22 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
-#include "app/common_options.h"
-#include "app/find_scene.h"
-#include "app/progress.h"
-#include "app/provenance.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "scenes/load_scene.h"
+#include "app/study/study_options.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/progress.h"
+#include "app/world/find_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {
 
-struct Typed {
+struct StabilityArguments : StudyOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  std::string out = "out/study/stability";
-  std::string command_line;
-  bool is_short = false;
   bool quiet = false;
 };
 
@@ -48,7 +44,7 @@ std::vector<double> stiffnesses(bool few) {
 }
 
 /// Of the first scene: what implicit steps cost and gain.
-void study_costs(const Typed& typed, const StudyFolder& folder, Progress& progress) {
+void study_costs(const StabilityArguments& typed, const StudyFolder& folder, Progress& progress) {
   const auto say = [&](const std::string& what) { progress.show(what); };
   const auto load = [&](const std::vector<std::string>& stiffness) {
     std::vector<std::string> overrides = typed.overrides;
@@ -65,18 +61,13 @@ void study_costs(const Typed& typed, const StudyFolder& folder, Progress& progre
              stiffness_text(choices));
 }
 
-ExitCode run(const Typed& typed) {
-  std::vector<scenes::Scene> loaded;
-  for (const std::string& name : typed.scenes) {
-    loaded.push_back(scenes::load_scene(find_scene(name), typed.overrides));
-  }
+ExitCode run_stability_study(const StabilityArguments& typed) {
+  const std::vector<scenes::Scene> loaded = load_scenes(typed.scenes, typed.overrides);
   const StudyFolder folder(typed.out);
   const StabilityOptions options =
       typed.is_short ? short_stability_sweep() : full_stability_sweep();
   Progress progress(progress_style(typed.quiet));
-  nlohmann::json json = provenance_json();
-  json["date"] = utc_date();
-  json["command"] = typed.command_line;
+  nlohmann::json json = study_head(typed);
   for (const scenes::Scene& scene : loaded) {
     const StabilityStudy study = study_stability(scene, options, [&](const std::string& what) {
       progress.show(fmt::format("{}: {}", scene.name, what));
@@ -95,9 +86,8 @@ ExitCode run(const Typed& typed) {
 
 void add_stability_study(CLI::App& study, Action& action,
                          std::span<const std::string> command_line) {
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<StabilityArguments>();
   typed->scenes = {"one_sphere"};
-  typed->command_line = shell_line(command_line);
   CLI::App* command = study.add_subcommand(
       "stability", "The longest step that each integrator bears, found and predicted");
   command
@@ -105,11 +95,9 @@ void add_stability_study(CLI::App& study, Action& action,
                    "Scene files or names, of whose first soft body [one_sphere]")
       ->type_name("SCENE");
   add_override_option(*command, typed->overrides);
-  command->add_option("--out", typed->out, "Folder for CSV, JSON and maps [" + typed->out + "]")
-      ->type_name("DIR");
-  command->add_flag("--short", typed->is_short, "Fewer values and shorter trials: seconds");
+  add_study_options(*command, *typed, command_line, "Fewer values and shorter trials: seconds");
   add_quiet_option(*command, typed->quiet);
-  command->callback([typed, &action] { action = [typed] { return run(*typed); }; });
+  command->callback([typed, &action] { action = [typed] { return run_stability_study(*typed); }; });
 }
 
 }  // namespace pneuma::app

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/study/csv.h"
-#include "app/table.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {

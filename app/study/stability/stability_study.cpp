@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/build_world.h"
-#include "app/errors.h"
-#include "scenes/integrator_names.h"
+#include "app/host/errors.h"
+#include "app/world/build_world.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/soft/stability_limit.h"
@@ -194,13 +193,6 @@ std::string stiffness_sentence(const StabilityStudy& study) {
     }
   }
   return text;
-}
-
-std::string integrator_name(Integrator integrator) {
-  for (const auto& [value, name] : scenes::integrator_names()) {
-    if (value == integrator) return std::string(name);
-  }
-  return {};
 }
 
 }  // namespace pneuma::app

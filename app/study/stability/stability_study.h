@@ -4,7 +4,7 @@
 // One soft body of a scene, alone and at rest under its springs and gas, is given a little motion.
 // One thing at a time is varied: the spring constant, the gas, the vertices' mass, the fineness of
 // the mesh. With k goes k_max, eight times as large as the paper has it (50 of 400), so that
-// damping stays the same share.
+// damping stays the same fraction.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "app/study/stability/trial.h"
-#include "scenes/scene.h"
-#include "sim/world.h"
+#include "scenes/loader/integrator_names.h"
+#include "scenes/loader/scene.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -35,11 +36,11 @@ struct StabilityPoint {
   bool unlimited() const { return stable_rate == fewest_steps_per_second; }
 };
 
-/// The greatest k that an integrator bears at 1/60 s, to 5 %.
+/// The max. k that an integrator bears at 1/60 s, to 5 %.
 struct StiffnessLimit {
   sim::Integrator integrator;
-  double k = 0.0;          // N/m; 0 when not even the least one tried
-  bool unlimited = false;  // the greatest one tried is borne
+  double k = 0.0;          // N/m; 0 when not even the min. one tried
+  bool unlimited = false;  // the max. one tried is borne
 };
 
 /// One cell of the map of step against stiffness.
@@ -79,7 +80,6 @@ std::string stiffness_sentence(const StabilityStudy& study);
 /// As in the paper, 400 / 50.
 inline constexpr double k_max_over_k = 8.0;
 
-/// By the word of scene files.
-std::string integrator_name(sim::Integrator integrator);
+using scenes::integrator_name;
 
 }  // namespace pneuma::app

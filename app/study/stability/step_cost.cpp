@@ -4,15 +4,15 @@
 
 #include <algorithm>
 
-#include "app/budget.h"
-#include "app/build_world.h"
-#include "app/replay.h"
-#include "app/statistics.h"
+#include "app/host/budget.h"
+#include "app/record/statistics.h"
 #include "app/study/csv.h"
 #include "app/study/error/conclusions.h"
 #include "app/study/stability/stability_study.h"
-#include "app/table.h"
-#include "scenes/load_scene.h"
+#include "app/terminal/table.h"
+#include "app/world/build_world.h"
+#include "app/world/replay.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {
@@ -56,7 +56,7 @@ std::optional<ErrorRun> cheapest(const ErrorStudy& study, bool implicit) {
   std::optional<ErrorRun> best;
   for (const ErrorRun& run : study.runs) {
     const bool is_implicit = run.method == "implicit_euler" || run.method == "sdirk2";
-    if (!run.ours || is_implicit != implicit || run.outcome != ErrorRun::Outcome::stable) continue;
+    if (!run.ours || is_implicit != implicit || run.status != ErrorRun::Status::stable) continue;
     if (error_of(run) > stiff_error) continue;
     if (!best || run.run_time < best->run_time) best = run;
   }
@@ -163,7 +163,7 @@ std::string stiffness_text(const std::vector<StiffChoice>& choices) {
       from != nullptr
           ? fmt::format("for an error of 1e-2 implicit integrators are cheaper from k = {:.3g} on",
                         from->k)
-          : "for an error of 1e-2 explicit integrators are cheaper at the greatest k";
+          : "for an error of 1e-2 explicit integrators are cheaper at the max. k";
   return table.text() + "\n" + sentence + "\n";
 }
 

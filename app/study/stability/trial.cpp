@@ -6,7 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "app/interrupt.h"
+#include "app/host/interrupt.h"
+#include "sim/base/enum_name.h"
 #include "sim/inspect/inspect.h"
 #include "sim/step/stepper.h"
 
@@ -31,7 +32,7 @@ void settle(sim::World& world) {
   sim::World still = world;
   still.settings.integrator = sim::Integrator::implicit_euler;
   still.settings.steps_per_second = 1;
-  still.soft.front().material.pressure = sim::PressureWeighting::uniform;
+  still.soft.front().material.pressure_weighting = sim::PressureWeighting::uniform;
   sim::Stepper stepper(still);
   for (int i = 0; i < settling_steps; ++i) {
     throw_if_interrupted();
@@ -53,15 +54,8 @@ void disturb(sim::SoftBody& body) {
 }  // namespace
 
 std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::stable:
-      return "stable";
-    case Verdict::diverged:
-      return "diverged";
-    case Verdict::inverted:
-      break;
-  }
-  return "inverted";
+  static constexpr auto names = std::to_array<std::string_view>({"stable", "diverged", "inverted"});
+  return std::string(base::enum_name(names, verdict));
 }
 
 sim::World body_at_rest(const sim::Settings& settings, sim::SoftBody body) {

@@ -3,18 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include "app/find_scene.h"
 #include "app/study/collision/collision_report.h"
-#include "scenes/load_scene.h"
+#include "app/world/find_scene.h"
+#include "scenes/loader/load_scene.h"
 #include "sim/mesh/primitives.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::app {
 namespace {
 
-using sim::BodyKind;
 using sim::Contact;
 using sim::FeatureKind;
+using sim::SideKind;
 using sim::Vec3;
 
 sim::SurfaceView view(const sim::SoftBody& body) { return {body.mesh->topology, body.positions}; }
@@ -60,8 +60,8 @@ TEST(ContactTruth, SeesTwoRegionsOfABodyThatTouchesInTwoPlaces) {
 
 Contact contact(FeatureKind first, int first_index, FeatureKind second, int second_index) {
   Contact result;
-  result.first = {BodyKind::soft, 0, {first, first_index}};
-  result.second = {BodyKind::soft, 1, {second, second_index}};
+  result.first = {SideKind::soft, 0, {first, first_index}};
+  result.second = {SideKind::soft, 1, {second, second_index}};
   return result;
 }
 

@@ -7,9 +7,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "app/find_program.h"
-#include "render/image/file.h"
+#include "app/host/find_program.h"
 #include "render/image/png.h"
+#include "sim/base/file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::app {
@@ -95,7 +95,7 @@ TEST(WriteDiagram, ReportsWhatGnuplotSays) {
   const TemporaryFolder temporary;
   Diagram diagram = falling_line();
   diagram.commands = {"no_such_command"};
-  EXPECT_THROW(write_diagram(StudyFolder(temporary.path()), "fall", diagram), render::IoError);
+  EXPECT_THROW(write_diagram(StudyFolder(temporary.path()), "fall", diagram), base::IoError);
 }
 
 TEST(WriteDiagram, LeavesTheScriptWithoutGnuplot) {

@@ -1,5 +1,5 @@
 // Every extreme case comes to what was expected of it, with an explicit and with both implicit
-// integrators; and what is called sound is looked at, not assumed.
+// integrators; and what is called valid is looked at, not assumed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,13 +57,13 @@ ExtremeCase sphere_case(const std::string& keys) {
 
 TEST(ExtremeRun, SeesEnergyThatRises) {
   ExtremeResult result = run_extreme(sphere_case("n = 1.0\nrho_g = 0.0\n"), "rk4");
-  EXPECT_TRUE(result.sound) << result.message;
+  EXPECT_TRUE(result.valid) << result.message;
   // Against a tolerance that nothing meets: it must fall by twice what it varies by.
   ExtremeCase strict = sphere_case("n = 1.0\n");
   strict.energy_tolerance = -2.0;
   result = run_extreme(strict, "rk4");
-  EXPECT_EQ(result.outcome, Outcome::sound);
-  EXPECT_FALSE(result.sound);
+  EXPECT_EQ(result.outcome, Outcome::valid);
+  EXPECT_FALSE(result.valid);
   EXPECT_NE(result.message.find("energy rose"), std::string::npos) << result.message;
 }
 
@@ -72,7 +72,7 @@ TEST(ExtremeRun, SeesBodiesInEachOther) {
   crowded.seconds = 0.1;  // too short to part them
   crowded.penetration = 0.1;
   const ExtremeResult result = run_extreme(crowded, "rk4");
-  EXPECT_FALSE(result.sound);
+  EXPECT_FALSE(result.valid);
   EXPECT_NE(result.message.find("into each other"), std::string::npos) << result.message;
 }
 
@@ -80,9 +80,9 @@ TEST(ExtremeRun, JudgesByWhatWasExpected) {
   ExtremeCase extreme = sphere_case("");
   extreme.explicit_outcomes = {Outcome::diverged};
   ExtremeResult result;
-  EXPECT_FALSE(as_expected(extreme, false, result)) << "sound, though it should have diverged";
+  EXPECT_FALSE(as_expected(extreme, false, result)) << "valid, though it should have diverged";
   EXPECT_TRUE(as_expected(extreme, true, result));
-  result.sound = false;
+  result.valid = false;
   EXPECT_FALSE(as_expected(extreme, true, result));
   result = {};
   result.outcome = Outcome::diverged;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/image/file.h"
+#include "sim/base/file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::app {
@@ -21,7 +21,7 @@ TEST(StudyFolder, IsMadeAndFilled) {
 TEST(StudyFolder, CannotBeAFile) {
   const TemporaryFolder temporary;
   write_text(temporary / "file", "");
-  EXPECT_THROW(StudyFolder(temporary / "file"), render::IoError);
+  EXPECT_THROW(StudyFolder(temporary / "file"), base::IoError);
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <exception>
 
-#include "app/build_world.h"
-#include "app/find_scene.h"
-#include "app/replay.h"
-#include "scenes/load_scene.h"
+#include "app/world/build_world.h"
+#include "app/world/find_scene.h"
+#include "app/world/replay.h"
+#include "scenes/loader/load_scene.h"
 
 int main(int argc, char** argv) {
   using namespace pneuma;

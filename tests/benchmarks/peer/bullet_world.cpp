@@ -15,11 +15,17 @@ namespace {
 
 /// Bullet keeps the distance to boxes and ground on a sparse grid of voxels (0.25 m by default),
 /// which bodies of several metres wander through faster than it pays. The distance to a plane face
-/// is linear, so that larger ones are as good.
-constexpr double voxel_size = 1.0;  // m
+/// is linear, so that larger ones are as good. Only Reset() takes a new size over.
+constexpr double chosen_voxel_size = 1.0;  // m
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 btVector3 vector(const sim::Vec3& v) { return {scalar(v.x()), scalar(v.y()), scalar(v.z())}; }
+
+/// Bullet multiplies the coefficients of both sides, ours takes their geometric mean: roots make
+/// the products the same.
+btScalar friction(const sim::ContactMaterial& material) {
+  return scalar(std::sqrt(material.friction));
+}
 
 }  // namespace
 
@@ -45,9 +51,9 @@ struct BulletWorld::Parts {
 
   void add(const sim::SoftBody& body, const BulletOptions& options);
   void add(const sim::RigidBox& box);
-  void add_ground();
+  void add_ground(const sim::ContactMaterial& surface);
   btRigidBody& add_rigid(std::unique_ptr<btCollisionShape> shape, double mass,
-                         const btTransform& place);
+                         const btTransform& place, const sim::ContactMaterial& surface);
 };
 
 BulletWorld::Parts::Parts(const sim::Settings& settings) : step_seconds(sim::time_step(settings)) {
@@ -59,7 +65,8 @@ BulletWorld::Parts::Parts(const sim::Settings& settings) : step_seconds(sim::tim
   info.m_dispatcher = &dispatcher;
   info.m_broadphase = &broadphase;
   info.m_sparsesdf.Initialize();
-  info.m_sparsesdf.setDefaultVoxelsz(scalar(voxel_size));
+  info.m_sparsesdf.setDefaultVoxelsz(scalar(chosen_voxel_size));
+  info.m_sparsesdf.Reset();
 }
 
 BulletWorld::Parts::~Parts() {
@@ -81,7 +88,9 @@ void BulletWorld::Parts::add(const sim::SoftBody& body, const BulletOptions& opt
   made->m_cfg.piterations = options.position_iterations;
   // A share of the velocity per step, where rho_g is one per 1/60 s.
   made->m_cfg.kDP = scalar(1.0 - std::pow(1.0 - body.material.rho_g, 60.0 * step_seconds));
-  made->m_cfg.kPR = scalar(sim::gas_strength(body.material));  // pressure: kPR / V
+  made->m_cfg.kDF = friction(body.material.surface);
+  made->m_cfg.kPR =  // pressure: kPR / V
+      scalar(options.gas_fraction * sim::gas_strength(body.material));
   for (int v = 0; v < body.velocities.size(); ++v) {
     made->m_nodes[v].m_v = vector(body.velocities[v]);
   }
@@ -90,13 +99,15 @@ void BulletWorld::Parts::add(const sim::SoftBody& body, const BulletOptions& opt
 }
 
 btRigidBody& BulletWorld::Parts::add_rigid(std::unique_ptr<btCollisionShape> shape, double mass,
-                                           const btTransform& place) {
+                                           const btTransform& place,
+                                           const sim::ContactMaterial& surface) {
   btVector3 inertia(0, 0, 0);
   if (mass > 0.0) shape->calculateLocalInertia(scalar(mass), inertia);
   motion_states.push_back(std::make_unique<btDefaultMotionState>(place));
   const btRigidBody::btRigidBodyConstructionInfo info(scalar(mass), motion_states.back().get(),
                                                       shape.get(), inertia);
   rigid.push_back(std::make_unique<btRigidBody>(info));
+  rigid.back()->setFriction(friction(surface));
   shapes.push_back(std::move(shape));
   world.addRigidBody(rigid.back().get());
   return *rigid.back();
@@ -107,23 +118,23 @@ void BulletWorld::Parts::add(const sim::RigidBox& box) {
   const btTransform place(btQuaternion(scalar(q.x()), scalar(q.y()), scalar(q.z()), scalar(q.w())),
                           vector(box.position));
   btRigidBody& body =
-      add_rigid(std::make_unique<btBoxShape>(vector(0.5 * box.size)), box.mass, place);
+      add_rigid(std::make_unique<btBoxShape>(vector(0.5 * box.size)), box.mass, place, box.surface);
   body.setLinearVelocity(vector(box.velocity));
   body.setAngularVelocity(vector(box.angular_velocity));
 }
 
 /// A box whose top is z = 0, as in Bullet's own demos: it tests nodes against a static plane, which
 /// it takes for a concave shape, ten times as slowly.
-void BulletWorld::Parts::add_ground() {
+void BulletWorld::Parts::add_ground(const sim::ContactMaterial& surface) {
   const btVector3 half_size(500, 500, 10);
   btTransform place = btTransform::getIdentity();
   place.setOrigin({0, 0, -half_size.z()});
-  add_rigid(std::make_unique<btBoxShape>(half_size), 0.0, place);
+  add_rigid(std::make_unique<btBoxShape>(half_size), 0.0, place, surface);
 }
 
 BulletWorld::BulletWorld(const sim::World& world, const BulletOptions& options)
     : parts_(std::make_unique<Parts>(world.settings)) {
-  if (world.settings.ground) parts_->add_ground();
+  if (world.settings.ground) parts_->add_ground(*world.settings.ground);
   for (const sim::RigidBox& box : world.rigid) parts_->add(box);
   for (const sim::SoftBody& body : world.soft) parts_->add(body, options);
 }
@@ -149,6 +160,10 @@ std::size_t BulletWorld::contact_count() const {
 
 double BulletWorld::volume(int body) const {
   return static_cast<double>(parts_->soft[static_cast<std::size_t>(body)]->getVolume());
+}
+
+double BulletWorld::voxel_size() const {
+  return static_cast<double>(parts_->world.getWorldInfo().m_sparsesdf.voxelsz);
 }
 
 sim::Vec3 BulletWorld::mean_velocity(int body) const {

@@ -7,12 +7,12 @@
 #include <functional>
 #include <limits>
 
-#include "app/budget.h"
-#include "app/build_world.h"
+#include "app/host/clock.h"
+#include "app/world/build_world.h"
 #include "benchmarks/peer/bullet_world.h"
 #include "benchmarks/peer/paired_run.h"
-#include "scenes/integrator_names.h"
-#include "scenes/load_scene.h"
+#include "scenes/loader/integrator_names.h"
+#include "scenes/loader/load_scene.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::benchmarks {

@@ -8,14 +8,14 @@
 #include <array>
 #include <exception>
 
-#include "app/build_world.h"
-#include "app/find_scene.h"
-#include "app/provenance.h"
-#include "app/table.h"
-#include "app/timing_conditions.h"
+#include "app/host/timing_conditions.h"
+#include "app/record/provenance.h"
+#include "app/terminal/table.h"
+#include "app/world/build_world.h"
+#include "app/world/find_scene.h"
 #include "benchmarks/peer/equal_quality.h"
 #include "benchmarks/peer/paired_run.h"
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::benchmarks {
 namespace {
@@ -46,7 +46,9 @@ void print_runs(const std::vector<PairedRun>& runs) {
                     {"Bullet", Align::right, "contacts"},
                     {"rk4", Align::right, "contacts"},
                     {"Bullet", Align::right, "V end / V start"},
-                    {"rk4", Align::right, "V end / V start"}});
+                    {"rk4", Align::right, "V end / V start"},
+                    {"Bullet", Align::right, "m/s at the end"},
+                    {"rk4", Align::right, "m/s at the end"}});
   for (const PairedRun& run : runs) {
     const auto microseconds = [](const SideResult& side) {
       const int steps = side.steps_per_second / 60;
@@ -58,7 +60,8 @@ void print_runs(const std::vector<PairedRun>& runs) {
                    microseconds(run.velocity_verlet), times(bullet / run.rk4.frame_seconds()),
                    times(bullet / run.velocity_verlet.frame_seconds()),
                    readable(run.bullet.contacts_per_step), readable(run.rk4.contacts_per_step),
-                   readable(run.bullet.volume_ratio), readable(run.rk4.volume_ratio)});
+                   readable(run.bullet.volume_ratio), readable(run.rk4.volume_ratio),
+                   readable(run.bullet.end_speed), readable(run.rk4.end_speed)});
   }
   fmt::print("{}\n", table.text());
 }

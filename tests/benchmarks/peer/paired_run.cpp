@@ -4,9 +4,9 @@
 #include <limits>
 #include <numeric>
 
-#include "app/budget.h"
-#include "app/errors.h"
-#include "app/replay.h"
+#include "app/host/clock.h"
+#include "app/host/errors.h"
+#include "app/world/replay.h"
 #include "benchmarks/peer/bullet_world.h"
 #include "sim/mesh/measure.h"
 #include "sim/step/stepper.h"
@@ -55,7 +55,10 @@ class Side {
     result_.contacts_per_step = static_cast<double>(sum) / static_cast<double>(pieces_);
   }
 
-  void end_with(double volume) { result_.volume_ratio = volume / soft_volume(start_); }
+  void end_with(double volume, double speed) {
+    result_.volume_ratio = volume / soft_volume(start_);
+    result_.end_speed = speed;
+  }
 
   SideResult result() const {
     SideResult result = result_;
@@ -84,15 +87,19 @@ double wall_seconds() {
 
 void run_bullet(Side& side) {
   const sim::World& start = side.start();
-  BulletWorld world(start);
+  BulletWorld world(start, at_rest);
   const auto run_piece = [&] {
     for (std::int64_t i = 0; i < piece; ++i) world.step();
   };
   side.run(
       run_piece, [&] { return world.contact_count(); }, app::thread_seconds);
   double volume = 0.0;
-  for (std::size_t b = 0; b < start.soft.size(); ++b) volume += world.volume(static_cast<int>(b));
-  side.end_with(volume);
+  double speed = 0.0;
+  for (int b = 0; b < std::ssize(start.soft); ++b) {
+    volume += world.volume(b);
+    speed = std::max(speed, world.mean_velocity(b).norm());
+  }
+  side.end_with(volume, speed);
 }
 
 void run_ours(Side& side, const std::string& name, const PairedRunOptions& options) {
@@ -104,7 +111,11 @@ void run_ours(Side& side, const std::string& name, const PairedRunOptions& optio
   side.run([&] { app::advance(stepper, world, piece, name); },
            [&] { return stepper.contacts().size(); },
            options.threads == 1 ? app::thread_seconds : wall_seconds);
-  side.end_with(soft_volume(world));
+  double speed = 0.0;
+  for (const sim::SoftBody& body : world.soft) {
+    speed = std::max(speed, body.velocities.rows().rowwise().mean().norm());
+  }
+  side.end_with(soft_volume(world), speed);
 }
 
 /// Ours, after a first run at the least rate that is stable.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/world.h"
+#include "sim/world/world.h"
 
 namespace pneuma::benchmarks {
 
@@ -15,6 +15,7 @@ struct SideResult {
   double seconds_per_second = 0.0;  // run time per simulated second, least of the repeats
   double contacts_per_step = 0.0;   // mean; ours are regions, Bullet's nodes
   double volume_ratio = 1.0;        // of all soft bodies at the end / at the start
+  double end_speed = 0.0;           // m/s at the end, of the centre of the fastest soft body
 
   /// What the work of 1/60 s takes: one step, unless it needs shorter ones.
   double frame_seconds() const { return seconds_per_second / 60.0; }

@@ -20,6 +20,8 @@ TEST(PairedRun, StepsBothSidesAndCountsWhatTheyDid) {
     EXPECT_GT(side.contacts_per_step, 0.5);  // on the ground most of the time
     EXPECT_GT(side.volume_ratio, 0.5);
     EXPECT_LT(side.volume_ratio, 10.0);
+    EXPECT_GT(side.end_speed, 0.0);
+    EXPECT_LT(side.end_speed, 5.0);  // dropped from 0.2 m, after 2 s
   }
 }
 

@@ -92,7 +92,7 @@ void expect_all_contacts(const World& world, const PlacedBox& placed,
     if (!exit) continue;
     ASSERT_NE(contact, contacts.end());
     ASSERT_EQ(contact->first.feature, (Feature{FeatureKind::vertex, v}));
-    ASSERT_EQ(contact->second.kind, BodyKind::rigid);
+    ASSERT_EQ(contact->second.kind, SideKind::rigid);
     ASSERT_EQ(contact->point, Vec3(body.positions[v]));
     ASSERT_EQ(contact->normal, exit->normal);
     ASSERT_EQ(contact->depth, exit->depth);
@@ -103,7 +103,7 @@ void expect_all_contacts(const World& world, const PlacedBox& placed,
     const Vec3 corner = placed.box.corner(i);
     if (!is_inside(surface, corner)) continue;
     ASSERT_NE(contact, contacts.end());
-    ASSERT_EQ(contact->first.kind, BodyKind::rigid);
+    ASSERT_EQ(contact->first.kind, SideKind::rigid);
     ASSERT_EQ(contact->second.feature.kind, FeatureKind::triangle);
     ASSERT_LT((contact->point - corner).norm(), 1e-14);  // roundings of coordinates below 8
     ASSERT_GT(contact->depth, 0.0);
@@ -122,7 +122,7 @@ TEST(SoftRigidContacts, AreThoseOfAllVerticesAndCorners) {
   Uniform uniform(3);
   int of_vertices = 0, of_corners = 0, without = 0;
   for (int i = 0; i < 10'000; ++i) {
-    const std::vector<PlacedBox> boxes{place(box_near(around, uniform))};
+    const std::vector<PlacedBox> boxes{placed_box(box_near(around, uniform))};
     std::vector<Contact> contacts;
     find_soft_rigid(world, boxes, 0, 0, columns, contacts);
     expect_all_contacts(world, boxes[0], contacts);
@@ -132,7 +132,7 @@ TEST(SoftRigidContacts, AreThoseOfAllVerticesAndCorners) {
       ++without;
     }
     for (const Contact& contact : contacts) {
-      ++(contact.first.kind == BodyKind::soft ? of_vertices : of_corners);
+      ++(contact.first.kind == SideKind::soft ? of_vertices : of_corners);
     }
   }
   EXPECT_GT(of_vertices, 5'000);
@@ -143,7 +143,7 @@ TEST(SoftRigidContacts, AreThoseOfAllVerticesAndCorners) {
 TEST(OrientedBox, HasEightCornersByTheirNumbers) {
   Uniform uniform(5);
   for (int i = 0; i < 1'000; ++i) {
-    const OrientedBox box = place(box_near({-Vec3::Ones(), Vec3::Ones()}, uniform)).box;
+    const OrientedBox box = placed_box(box_near({-Vec3::Ones(), Vec3::Ones()}, uniform)).box;
     for (int corner = 0; corner < 8; ++corner) {
       ASSERT_LT((corners(box)[at(corner)] - box.corner(corner)).norm(), 1e-14);
     }
@@ -153,7 +153,7 @@ TEST(OrientedBox, HasEightCornersByTheirNumbers) {
 TEST(PlacedBox, HasTheBoundsOfItsCorners) {
   Uniform uniform(4);
   for (int i = 0; i < 1'000; ++i) {
-    const PlacedBox placed = place(box_near({-Vec3::Ones(), Vec3::Ones()}, uniform));
+    const PlacedBox placed = placed_box(box_near({-Vec3::Ones(), Vec3::Ones()}, uniform));
     Bounds expected;
     for (int corner = 0; corner < 8; ++corner) expected.include(placed.box.corner(corner));
     ASSERT_LT((placed.bounds.low - expected.low).norm(), 1e-14);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "sim/collision/pair_finder.h"
+#include "sim/collision/sweep_and_prune.h"
 #include "sim/mesh/primitives.h"
 
 namespace pneuma::sim {
@@ -75,8 +75,8 @@ std::vector<BoundingSphere> scatter(int count, const Vec3& shape, unsigned seed)
   return spheres;
 }
 
-TEST(PairFinder, FindsThePairsThatTryingAllFinds) {
-  PairFinder finder;
+TEST(SweepAndPrune, FindsThePairsThatTryingAllFinds) {
+  SweepAndPrune finder;
   std::vector<BodyPair> pairs;
   unsigned seed = 0;
   std::size_t total = 0;
@@ -93,8 +93,8 @@ TEST(PairFinder, FindsThePairsThatTryingAllFinds) {
   EXPECT_GT(total, 10'000U);
 }
 
-TEST(PairFinder, TouchingAndConcentricSpheresArePairs) {
-  PairFinder finder;
+TEST(SweepAndPrune, TouchingAndConcentricSpheresArePairs) {
+  SweepAndPrune finder;
   std::vector<BodyPair> pairs;
   const std::vector<BoundingSphere> spheres{
       {Vec3(0, 0, 0), 1.0}, {Vec3(3, 0, 0), 2.0}, {Vec3(3, 0, 0), 2.0}, {Vec3(8, 0, 0), 2.5}};
@@ -103,12 +103,12 @@ TEST(PairFinder, TouchingAndConcentricSpheresArePairs) {
 }
 
 // A body that has blown up must not take the others with it.
-TEST(PairFinder, IgnoresSpheresThatAreNotFinite) {
+TEST(SweepAndPrune, IgnoresSpheresThatAreNotFinite) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   auto spheres = scatter(200, Vec3::Ones(), 1);
   auto expected = try_all(spheres);
-  PairFinder finder;
+  SweepAndPrune finder;
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < spheres.size(); i += 3) {
     if (i % 2 == 0) spheres[i].centre[static_cast<int>(i % 9 / 3)] = i % 4 == 0 ? nan : infinity;
@@ -120,9 +120,9 @@ TEST(PairFinder, IgnoresSpheresThatAreNotFinite) {
 }
 
 // A twentieth, measured; a quarter leaves room for a busy machine. Processor time, best of five.
-TEST(PairFinder, TakesAFractionOfTheTimeOfTryingAll) {
+TEST(SweepAndPruneTiming, IsAFractionOfThatOfTryingAll) {
   const auto spheres = scatter(10'000, Vec3::Ones(), 1);
-  PairFinder finder;
+  SweepAndPrune finder;
   std::vector<BodyPair> pairs;
   const auto clocks = [](auto work) {
     std::clock_t best = std::numeric_limits<std::clock_t>::max();

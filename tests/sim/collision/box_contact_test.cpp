@@ -25,7 +25,7 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
   for (int i = 0; i < 100'000; ++i) {
     const auto [first, second] = sample_boxes(random, i % box_relations);
     const auto contact = find_box_contact(first, second);
-    const auto least = find_least_overlap(first, second);
+    const auto least = find_min_overlap(first, second);
     ASSERT_EQ(contact.has_value(), least.has_value());
     if (!contact) continue;
     ++contacts;
@@ -33,7 +33,7 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
     ASSERT_EQ(contact->normal, least->normal);
     ASSERT_EQ(contact->depth, least->overlap);
     ASSERT_GE(contact->count, 1);
-    ASSERT_LE(contact->count, BoxContact::most_points);
+    ASSERT_LE(contact->count, BoxContact::max_points);
     // The planes at right angles to the normal that touch the boxes, each on the other's side.
     const Vec3& n = contact->normal;
     const double bottom_of_first = first.centre.dot(n) - extent(first, n);

@@ -48,7 +48,7 @@ TEST(SeparatingAxis, AgreesWithClippedEdgesOn100000Pairs) {
   for (int i = 0; i < 100'000; ++i) {
     const auto [first, second] = sample_boxes(random, i % box_relations);
     const bool truth = reference_overlap(first, second);
-    const bool found = find_least_overlap(first, second).has_value();
+    const bool found = find_min_overlap(first, second).has_value();
     if (truth != found && reference_overlap(grown(first, rounding), second) !=
                               reference_overlap(grown(first, -rounding), second)) {
       ++undecided;
@@ -87,7 +87,7 @@ TEST(SeparatingAxis, MissesNoneOfTheFifteenAxes) {
   for (int i = 0; i < 100'000; ++i) {
     const auto [first, second] = sample_boxes(random, i % box_relations);
     const double expected = least_of_fifteen_axes(first, second);
-    const auto found = find_least_overlap(first, second);
+    const auto found = find_min_overlap(first, second);
     if (!found) {
       ++apart;
       ASSERT_LT(expected, rounding) << i;
@@ -119,7 +119,7 @@ TEST(SeparatingAxis, SeesAGapBetweenNearlyParallelEdges) {
     upper.axes = turn(Vec3::UnitZ(), angle) * on_edge;
     for (const double gap : {0.01 * angle, -0.01 * angle}) {
       upper.centre.z() = 2.0 * std::sqrt(0.5) + gap;
-      EXPECT_EQ(find_least_overlap(upper, lower).has_value(), gap < 0.0) << angle << " " << gap;
+      EXPECT_EQ(find_min_overlap(upper, lower).has_value(), gap < 0.0) << angle << " " << gap;
       EXPECT_EQ(reference_overlap(upper, lower), gap < 0.0) << angle << " " << gap;
     }
   }
@@ -134,7 +134,7 @@ TEST(SeparatingAxis, OverlapIsTheShortestWayApart) {
     const BoxPair pair = sample_boxes(random, i % box_relations);
     const OrientedBox& first = pair.first;
     const OrientedBox& second = pair.second;
-    const auto least = find_least_overlap(first, second);
+    const auto least = find_min_overlap(first, second);
     if (!least) continue;
     ++pairs;
     ASSERT_NEAR(least->normal.norm(), 1.0, 1e-15);

@@ -40,18 +40,18 @@ TEST(StudyChoices, PrintsTheThreeChoicesAndLeavesTheirFiles) {
   }
   const auto json = nlohmann::json::parse(read_text(folder / "choices.json"))["choices"];
   EXPECT_EQ(json["drift"]["trials"], 5);
-  EXPECT_LT(json["drift"]["uniform"]["distance_over_radius"]["greatest"], 1e-12);
-  EXPECT_GT(json["drift"]["valence"]["distance_over_radius"]["least"], 1e-4);
+  EXPECT_LT(json["drift"]["uniform"]["distance_over_radius"]["max"], 1e-12);
+  EXPECT_GT(json["drift"]["valence"]["distance_over_radius"]["min"], 1e-4);
   expect_nulls_only_at(json["damping"], {});
 }
 
 TEST(StudyChoices, MeasuresBothWhateverTheSceneChooses) {
   const TemporaryFolder folder;
   const ProgramResult result =
-      study("--set body.damping=literal --set body.pressure=valence --json", folder);
+      study("--set body.damping=literal --set body.pressure_weighting=valence --json", folder);
   EXPECT_EQ(result.exit_code, 0);
   const auto json = nlohmann::json::parse(result.output)["choices"];
-  EXPECT_LT(json["drift"]["uniform"]["distance_over_radius"]["greatest"], 1e-12);
+  EXPECT_LT(json["drift"]["uniform"]["distance_over_radius"]["max"], 1e-12);
 }
 
 TEST(StudyChoices, RefusesWhatItDoesNotUnderstand) {

@@ -33,7 +33,7 @@ TEST(StudyDrift, FindsThatABodyPropelsItselfUnderValenceOnly) {
     sim::SoftBody body = sphere();
     sim::perturb(body, 0.4, 99);
     body.velocities.rows().setZero();
-    body.material.pressure = weighting;
+    body.material.pressure_weighting = weighting;
     sim::World world = sim::make_free_world(std::move(body));
     const sim::Vec3 start = sim::mean(world.soft[0].positions);
     ASSERT_FALSE(sim::run(world, 1.0));

@@ -139,7 +139,7 @@ TEST(Shortfalls, SayWhyNotTheNextLongerStep) {
   ErrorStudy study = study_of_four();
   study.runs.push_back(made_up_run("rk4", 30, 0.025, 200e-6));
   EXPECT_TRUE(contains(shortfalls(study)[0], "200 evaluations (at 1/30 s its error is 2.5e-02)."));
-  study.runs.back().outcome = ErrorRun::Outcome::unstable;
+  study.runs.back().status = ErrorRun::Status::unstable;
   EXPECT_TRUE(contains(shortfalls(study)[0], "200 evaluations (at 1/30 s it is unstable)."));
 }
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/find_program.h"
+#include "app/host/find_program.h"
 #include "tests/support/run_pneuma.h"
 #include "tests/support/temporary_folder.h"
 

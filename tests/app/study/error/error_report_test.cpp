@@ -24,7 +24,7 @@ ErrorStudy study_with_all() {
                 made_up_run("rk4", 60, 1.25e-4, 4e-4),
                 made_up_run("rk4", 120, 0.0, 8e-4),
                 made_up_cvode_run(1e-2, 9e-3, 1440e-6, 80.0)};
-  study.runs[7].outcome = ErrorRun::Outcome::skipped;
+  study.runs[7].status = ErrorRun::Status::skipped;
   study.runs[7].failure = "the run before it took 20 s";
   return study;
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/errors.h"
+#include "app/host/errors.h"
 #include "tests/app/study/error/small_study.h"
 
 namespace pneuma::app {

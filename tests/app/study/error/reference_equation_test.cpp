@@ -61,7 +61,7 @@ TEST(ReferenceEquation, IsTheSimulationsWithEveryChoice) {
     change(body.material);
     EXPECT_LT(difference_from_simulation(body), rounding) << what;
   };
-  check("valence", [](auto& m) { m.pressure = sim::PressureWeighting::valence; });
+  check("valence", [](auto& m) { m.pressure_weighting = sim::PressureWeighting::valence; });
   check("no gas", [](auto& m) { m.n = 0.0; });
   check("no springs", [](auto& m) { m.k = 0.0; });
   check("no dashpots", [](auto& m) { m.k_max = std::numeric_limits<double>::infinity(); });
@@ -94,7 +94,7 @@ TEST(ReferenceEquation, TakesSeveralBodies) {
   const sim::SoftBody torus = moving_body();
   sim::SoftBody sphere = sim::make_body(sim::make_sphere(2.0, 5, 6));
   sim::perturb(sphere, 0.2, 5);
-  sphere.material.pressure = sim::PressureWeighting::valence;
+  sphere.material.pressure_weighting = sim::PressureWeighting::valence;
   const auto both = reference_derivative({torus, sphere});
   const auto first = reference_derivative({torus}), second = reference_derivative({sphere});
   const std::size_t a = first.size() / 2, b = second.size() / 2;

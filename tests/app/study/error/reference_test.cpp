@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/errors.h"
+#include "app/host/errors.h"
 #include "app/study/error/error_meter.h"
 #include "app/study/error/solver.h"
 #include "tests/app/study/error/small_study.h"

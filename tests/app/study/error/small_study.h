@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/study/error/error_study.h"
-#include "scenes/load_scene.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 
@@ -51,7 +51,7 @@ inline ErrorRun made_up_cvode_run(double tolerance, double error, double run_tim
 
 inline ErrorRun made_up_unstable_run(const std::string& method, int steps_per_second) {
   ErrorRun run = made_up_run(method, steps_per_second, 0.0, 1e-4);
-  run.outcome = ErrorRun::Outcome::unstable;
+  run.status = ErrorRun::Status::unstable;
   run.failure = "at 0.1 s: gone, and \"how\"";
   return run;
 }

@@ -34,7 +34,7 @@ TEST(Reference, AgreesWithRk4AtATinyStep) {
   // 1e-9 is the bound that says which of the two is wrong if they differ. Here rk4's own error is
   // below 1e-13: it falls with the fourth power of the step from 1e-4 at 1/60 s.
   for (const char* material :
-       {"", "pressure = \"valence\"\n", "k_max = 60.0\nrho_g = 0.2\n", "n = 0.0\n"}) {
+       {"", "pressure_weighting = \"valence\"\n", "k_max = 60.0\nrho_g = 0.2\n", "n = 0.0\n"}) {
     sim::World world = small_world();
     if (std::string(material) == "n = 0.0\n") {
       world.soft[0].material.n = 0.0;

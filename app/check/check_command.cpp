@@ -1,0 +1,100 @@
+// pneuma check: a scene as the program understands it, and what a run of it comes to; or a model.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/check/check_model.h"
+#include "app/check/check_report.h"
+#include "app/check/keys_json.h"
+#include "app/host/errors.h"
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+#include "app/world/build_world.h"
+#include "app/world/find_model.h"
+#include "app/world/find_scene.h"
+#include "assets/model_file.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+struct CheckOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool run = false;
+  bool keys = false;
+  bool json = false;
+  int threads = 1;
+};
+
+ExitCode check_model_file(const CheckOptions& options) {
+  if (options.run || !options.overrides.empty()) {
+    throw UsageError(
+        "check: --run and --set are for scenes; for this model use "
+        "`pneuma check model --set model.file=" +
+        options.scene + "`");
+  }
+  const ModelCheck checked = check_model(find_model(options.scene, ""));
+  fmt::print("{}",
+             options.json ? model_check_json(checked).dump(2) + "\n" : model_check_text(checked));
+  return ExitCode::done;
+}
+
+ExitCode check(const CheckOptions& options) {
+  if (options.keys) {
+    fmt::print("{}", options.json ? keys_json().dump(2) + "\n" : scenes::scene_reference());
+    return ExitCode::done;
+  }
+  if (options.scene.empty()) {
+    throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
+  }
+  if (assets::has_model_ending(options.scene)) return check_model_file(options);
+  CheckReport report;
+  report.scene = scenes::load_scene(find_scene(options.scene), options.overrides);
+  const sim::World world = build_world(report.scene);
+  report.plan = sim::make_plan(world);
+  report.size = world_size(world);
+  report.steps = step_advices(world);
+  for (const StepAdvice& advice : report.steps) {
+    if (advice.too_long()) {
+      fmt::print(stderr, "{}: warning: {}\n", report.scene.name, step_warning(advice));
+    }
+  }
+  if (options.run) report.run = run_statistics(report.scene, options.threads);
+
+  fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));
+  if (report.run && report.run->divergence) throw DivergenceError(*report.run->divergence);
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command =
+      app.add_subcommand("check",
+                         "Print a scene's effective values and the stages that will run, or what "
+                         "a model is like");
+  command
+      ->add_option("scene", options->scene,
+                   "A scene file, or the name of one in scenes/; or a model file (" +
+                       assets::model_endings() + ")")
+      ->type_name("SCENE|MODEL");
+  add_override_option(*command, options->overrides);
+  command->add_flag("--run", options->run,
+                    "Also run it without pictures: penetration, energy, contacts, volumes");
+  command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
+  add_threads_option(*command, options->threads);
+  command->add_flag("--json", options->json, "JSON in place of text");
+  add_examples(*command, {"pneuma check my_scene.toml",
+                          "pneuma check one_sphere --run --set simulation.steps_per_second=120",
+                          "pneuma check --keys"});
+  command->callback([options, &action] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace pneuma::app

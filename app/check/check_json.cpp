@@ -1,0 +1,115 @@
+#include <nlohmann/json.hpp>
+
+#include "app/check/check_report.h"
+#include "app/record/world_json.h"
+#include "scenes/loader/print_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+using nlohmann::json;
+
+json item_json(const sim::Plan::Item& item) {
+  if (item.runs) return {{"runs", true}};
+  return {{"runs", false}, {"reason", item.reason}};
+}
+
+json plan_json(const sim::Plan& plan) {
+  const auto stage_json = [&](sim::Stage stage) {
+    return item_json(plan.stages[static_cast<std::size_t>(stage)]);
+  };
+  const auto kind_json = [&](sim::ContactKind kind) {
+    return item_json(plan.contact_kinds[static_cast<std::size_t>(kind)]);
+  };
+  return {{"stages", json_by_stage(stage_json)},
+          {"contact_kinds", json_by_contact_kind(kind_json)}};
+}
+
+json size_json(const WorldSize& size) {
+  return {{"soft_bodies", size.soft_bodies}, {"rigid_boxes", size.rigid_boxes},
+          {"meshes", size.meshes},           {"vertices", size.vertices},
+          {"springs", size.springs},         {"triangles", size.triangles},
+          {"state_bytes", size.state_bytes}};
+}
+
+json contacts_json(const ContactTally& contacts) {
+  const auto count_json = [&](const ContactTally::Count& count) -> json {
+    return {{"mean", contacts.mean(count)}, {"max", count.most}};
+  };
+  json result =
+      json_by_contact_kind([&](sim::ContactKind kind) { return count_json(contacts.of(kind)); });
+  result["all"] = count_json(contacts.all);
+  return result;
+}
+
+json steps_json(const std::vector<StepAdvice>& steps) {
+  json result = json::array();
+  for (const StepAdvice& advice : steps) {
+    result.push_back({{"body", advice.body},
+                      {"step_s", advice.step},
+                      {"stable_up_to_s", number_json(advice.limit)},  // null: none is too long
+                      {"too_long", advice.too_long()}});
+  }
+  return result;
+}
+
+json crossings_json(const CrossingStatistics& crossings) {
+  return {{"frames", crossings.frames},
+          {"max_edges", crossings.edges.value},
+          {"at_s", crossings.edges.time},
+          {"bodies", crossings.first_bodies}};
+}
+
+}  // namespace
+
+json run_statistics_json(const RunStatistics& run) {
+  json volumes = json::array();
+  for (const VolumeRange& range : run.volumes) {
+    volumes.push_back({{"body", range.body},
+                       {"start", range.start},
+                       {"least", range.least},
+                       {"greatest", range.greatest}});
+  }
+  return {
+      {"units", json_units},
+      {"steps", run.steps},
+      {"seconds", run.seconds},
+      {"divergence", run.divergence ? json(*run.divergence) : json(nullptr)},
+      {"frames", run.frames},
+      {"crossings", crossings_json(run.crossings)},
+      {"self_crossings", crossings_json(run.self_crossings)},
+      {"overlap_at_end_m", run.end_overlap},
+      {"overlap_at_end_bodies", run.end_overlap_bodies},
+      {"penetration_m",
+       {{"greatest", run.penetration.value},
+        {"at_s", run.penetration.time},
+        {"at_start", run.start_penetration},
+        {"greatest_in_last_half", run.settled_penetration}}},
+      {"energy_J",
+       {{"start", energy_json(run.energy_start)},
+        {"end", energy_json(run.energy_end)},
+        {"drift", run.energy_end.total() - run.energy_start.total()},
+        {"greatest_rise_between_frames", run.energy_rise.value},
+        {"greatest_rise_at_s", run.energy_rise.time},
+        {"all_rises", run.energy_rises},
+        {"span", run.energy_span}}},
+      {"contacts_per_step", contacts_json(run.contacts)},
+      {"volumes_m3", std::move(volumes)},
+      {"free", run.free},
+      {"momentum",
+       {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},
+      {"end_speed_m_per_s", run.end_speed},
+      {"at_rest", run.end_speed < rest_speed && !run.divergence},
+      {"state_hash", hex(run.state_hash)}};
+}
+
+json check_json(const CheckReport& report) {
+  return {{"scene", report.scene.name},
+          {"effective_scene", scenes::print_scene(report.scene)},
+          {"plan", plan_json(report.plan)},
+          {"size", size_json(report.size)},
+          {"steps", steps_json(report.steps)},
+          {"run", report.run ? run_statistics_json(*report.run) : json(nullptr)}};
+}
+
+}  // namespace pneuma::app

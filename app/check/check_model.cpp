@@ -1,0 +1,114 @@
+#include "app/check/check_model.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/host/interrupt.h"
+#include "app/record/vector_json.h"
+#include "app/terminal/table.h"
+#include "assets/load_model.h"
+
+namespace pneuma::app {
+namespace {
+
+using nlohmann::json;
+
+std::string component_text(const assets::Component& component, std::size_t number, bool kept) {
+  return fmt::format("{}{}: {} vertices, {} triangles, {} boundary edges, {} non-manifold edges{}",
+                     number, component.name.empty() ? "" : fmt::format(" '{}'", component.name),
+                     grouped(component.vertices), grouped(component.triangles),
+                     grouped(component.boundary_edges), grouped(component.non_manifold_edges),
+                     kept ? "" : "; left out");
+}
+
+json component_json(const assets::Component& component) {
+  return {{"name", component.name},
+          {"vertices", component.vertices},
+          {"triangles", component.triangles},
+          {"boundary_edges", component.boundary_edges},
+          {"non_manifold_edges", component.non_manifold_edges},
+          {"size", vector_json(component.size)}};
+}
+
+}  // namespace
+
+ModelCheck check_model(const std::filesystem::path& path) {
+  ModelCheck check;
+  check.path = path;
+  try {
+    check.model = assets::load_model(path);
+  } catch (const assets::ModelError&) {
+    throw_if_interrupted();  // Ctrl-C ends the importer first
+    throw;
+  }
+  check.report = report_on(check.model);
+  return check;
+}
+
+std::string model_check_text(const ModelCheck& check) {
+  const ModelReport& report = check.report;
+  std::string text = fmt::format("{}: fit for a soft body\n", check.path.string());
+  text += named_line("vertices",
+                     fmt::format("{}; {} as read, {} after welding", grouped(report.vertices),
+                                 grouped(report.vertices_before), grouped(report.vertices_welded)));
+  text += named_line("springs", fmt::format("{}; per vertex {} to {}, {:.3g} in the mean",
+                                            grouped(report.edges), report.fewest_springs,
+                                            report.most_springs, report.springs_per_vertex));
+  text += named_line("triangles", fmt::format("{}, smallest angle {:.3g} degrees",
+                                              grouped(report.triangles), report.smallest_angle));
+  text += named_line("boundary edges", grouped(report.boundary_edges));
+  text += named_line("non-manifold edges", grouped(report.non_manifold_edges));
+  text += named_line("genus", grouped(report.genus));
+  text += named_line("volume",
+                     fmt::format("{:.6g} m^3, with one unit of the file a metre", report.volume));
+  text += named_line("area", fmt::format("{:.6g} m^2", report.area));
+  text += named_line("extent", fmt::format("{:.6g} x {:.6g} x {:.6g} m", report.size.x(),
+                                           report.size.y(), report.size.z()));
+  text += named_line("edge lengths",
+                     fmt::format("{:.4g} m (5th percentile), {:.4g} m (median), {:.4g} m "
+                                 "(95th)",
+                                 report.edge_5th, report.edge_median, report.edge_95th));
+  for (std::size_t i = 0; i < check.model.components.size(); ++i) {
+    text += named_line(i == 0 ? "components" : "", component_text(check.model.components[i], i + 1,
+                                                                  sim::at(check.model.kept) == i));
+  }
+  for (const std::string& mended : check.model.mended) {
+    text += named_line(&mended == &check.model.mended.front() ? "mended" : "", mended);
+  }
+  return text;
+}
+
+json model_check_json(const ModelCheck& check) {
+  const ModelReport& report = check.report;
+  json components = json::array();
+  for (const auto& component : check.model.components) {
+    components.push_back(component_json(component));
+  }
+  return {{"model", check.path.string()},
+          {"vertices_in_file", report.vertices_before},
+          {"vertices_welded", report.vertices_welded},
+          {"vertices", report.vertices},
+          {"edges", report.edges},
+          {"triangles", report.triangles},
+          {"boundary_edges", report.boundary_edges},
+          {"non_manifold_edges", report.non_manifold_edges},
+          {"genus", report.genus},
+          {"volume_m3", report.volume},
+          {"area_m2", report.area},
+          {"extent_m", vector_json(report.size)},
+          {"edge_length_m",
+           {{"percentile_5", report.edge_5th},
+            {"median", report.edge_median},
+            {"percentile_95", report.edge_95th}}},
+          {"smallest_angle_degrees", report.smallest_angle},
+          {"springs_per_vertex",
+           {{"mean", report.springs_per_vertex},
+            {"least", report.fewest_springs},
+            {"greatest", report.most_springs}}},
+          {"components", std::move(components)},
+          {"component_kept", check.model.kept + 1},
+          {"mended", check.model.mended}};
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,25 @@
+// What `pneuma check` says of a model file.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "app/check/model_report.h"
+
+namespace pneuma::app {
+
+struct ModelCheck {
+  std::filesystem::path path;
+  assets::CleanModel model;
+  ModelReport report;
+};
+
+/// Reads and mends the model as it is: without scale, turn or choice of a component. Throws
+/// assets::ModelError.
+ModelCheck check_model(const std::filesystem::path& path);
+
+std::string model_check_text(const ModelCheck& check);
+nlohmann::json model_check_json(const ModelCheck& check);
+
+}  // namespace pneuma::app

@@ -1,0 +1,33 @@
+// What `pneuma check` prints.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/check/run_statistics.h"
+#include "app/world/step_advice.h"
+#include "app/world/world_size.h"
+#include "scenes/loader/scene.h"
+#include "sim/step/plan.h"
+
+namespace pneuma::app {
+
+struct CheckReport {
+  scenes::Scene scene;
+  sim::Plan plan;
+  WorldSize size;
+  std::vector<StepAdvice> steps;
+  std::optional<RunStatistics> run;
+};
+
+/// The effective scene, and the rest as comments, so that the whole is a scene file again.
+std::string check_text(const CheckReport& report);
+nlohmann::json check_json(const CheckReport& report);
+
+/// The lines about a run alone.
+std::string run_statistics_text(const RunStatistics& run, double skin_thickness);
+nlohmann::json run_statistics_json(const RunStatistics& run);
+
+}  // namespace pneuma::app

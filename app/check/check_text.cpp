@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "app/check/check_report.h"
+#include "app/record/world_json.h"
+#include "app/terminal/table.h"
+#include "scenes/loader/print_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+std::string planned(const sim::Plan::Item& item) {
+  return item.runs ? "runs" : "left out: " + item.reason;
+}
+
+std::string plan_text(const sim::Plan& plan) {
+  std::string text = "Stages of a step, in their order\n";
+  for (int s = 0; s < sim::stage_count; ++s) {
+    const auto stage = static_cast<sim::Stage>(s);
+    text += named_line(sim::to_string(stage), planned(plan.stages[static_cast<std::size_t>(s)]));
+  }
+  text += "\nKinds of contact that find_contacts looks for\n";
+  for (int k = 0; k < sim::contact_kind_count; ++k) {
+    const auto kind = static_cast<sim::ContactKind>(k);
+    text +=
+        named_line(sim::to_string(kind), planned(plan.contact_kinds[static_cast<std::size_t>(k)]));
+  }
+  return text;
+}
+
+std::string bytes(double count) {
+  if (count < 1e4) return fmt::format("{:.0f} bytes", count);
+  if (count < 1e7) return fmt::format("{:.0f} KiB", count / 1024.0);
+  return fmt::format("{:.0f} MiB", count / (1024.0 * 1024.0));
+}
+
+/// The scene's own estimate leaves models out.
+double memory_gib(const WorldSize& size, const scenes::Scene& scene) {
+  std::int64_t of_models = size.vertices;
+  for (const scenes::BodyScene& body : scene.bodies) {
+    if (body.kind == scenes::BodyKind::rigid) continue;
+    of_models -= scenes::vertex_count(body) * scenes::copy_count(body);
+  }
+  return scenes::estimated_memory_gib(scene) + scenes::estimated_memory_gib(of_models, 1);
+}
+
+std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
+  const double all_bytes = memory_gib(size, scene) * 1024.0 * 1024.0 * 1024.0;
+  const std::string shared =
+      size.soft_bodies > size.meshes
+          ? fmt::format(", sharing {} mesh{}", size.meshes, size.meshes == 1 ? "" : "es")
+          : "";
+  std::string text = "Size\n";
+  text += named_line("soft bodies", grouped(size.soft_bodies) + shared);
+  text += named_line("rigid boxes", grouped(size.rigid_boxes));
+  text += named_line("vertices", grouped(size.vertices));
+  text += named_line("springs", grouped(size.springs));
+  text += named_line("triangles", grouped(size.triangles));
+  text += named_line("state",
+                     fmt::format("{}; with meshes and pictures about {}",
+                                 bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
+  text += named_line(
+      "run", fmt::format("{:g} s: {} steps, {} pictures", scene.duration,
+                         grouped(scenes::frame_count(scene) * (scene.settings.steps_per_second /
+                                                               scene.picture.frames_per_second)),
+                         grouped(scenes::frame_count(scene) + 1)));
+  return text;
+}
+
+std::string steps_text(const std::vector<StepAdvice>& steps) {
+  if (steps.empty()) return "";
+  std::string text = "\nSteps of soft bodies\n";
+  text += named_line("step", fmt::format("{:.4g} s", steps.front().step));
+  for (const StepAdvice& advice : steps) {
+    text += named_line(advice.body,
+                       std::isinf(advice.limit)
+                           ? "no step is too long"
+                           : fmt::format("small motions stay stable up to {:.3g} s{}", advice.limit,
+                                         advice.too_long() ? ": THE STEP IS TOO LONG" : ""));
+  }
+  return text;
+}
+
+std::string crossings_text(const std::string& name, const CrossingStatistics& crossings,
+                           int frames) {
+  if (crossings.frames == 0) return named_line(name, "none");
+  return named_line(name, fmt::format("in {} of {} frames, at most {:.0f} edges at {:.2f} s ({})",
+                                      crossings.frames, frames, crossings.edges.value,
+                                      crossings.edges.time, crossings.first_bodies));
+}
+
+std::string penetration_text(const RunStatistics& run, double skin_thickness) {
+  if (run.penetration.value == 0.0) return named_line("penetration", "none");
+  return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
+                                               run.penetration.value, run.penetration.time)) +
+         named_line("", fmt::format(
+                            "in the last half of the run {:.4f} m, {} the skin thickness of {:g} m",
+                            run.settled_penetration,
+                            run.settled_penetration < skin_thickness ? "below" : "NOT below",
+                            skin_thickness));
+}
+
+std::string energy_text(const RunStatistics& run) {
+  const double start = run.energy_start.total(), end = run.energy_end.total();
+  if (!std::isfinite(start) || !std::isfinite(end))
+    return named_line("energy", "not a finite number");
+  std::string text =
+      named_line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, drift "
+                                       "{:+.4g} J",
+                                       start, end, end - start));
+  const double part = run.energy_span > 0.0 ? run.energy_rise.value / run.energy_span : 0.0;
+  const std::string rise =
+      run.energy_rise.value > 0.0
+          ? fmt::format("{:.4g} J at {:.2f} s, {:.2g} % of the {:.4g} J it varies by",
+                        run.energy_rise.value, run.energy_rise.time, 100.0 * part, run.energy_span)
+          : "none";
+  return text + named_line("", "greatest rise from one frame to the next: " + rise);
+}
+
+std::string contacts_text(const ContactTally& contacts) {
+  std::string text = named_line(
+      "contacts", fmt::format("{} per step in the mean, {} at most",
+                              readable(contacts.mean(contacts.all)), grouped(contacts.all.most)));
+  for (int k = 0; k < sim::contact_kind_count; ++k) {
+    const auto kind = static_cast<sim::ContactKind>(k);
+    const ContactTally::Count& count = contacts.of(kind);
+    if (count.most == 0) continue;
+    text += named_line("", fmt::format("{} {} in the mean, {} at most", sim::to_string(kind),
+                                       readable(contacts.mean(count)), grouped(count.most)));
+  }
+  return text;
+}
+
+std::string volumes_text(const RunStatistics& run) {
+  std::string text;
+  for (const VolumeRange& range : run.volumes) {
+    text += named_line(
+        text.empty() ? "volume" : "",
+        fmt::format("{}: {} to {} m^3, {} at the start", range.body, readable(range.least),
+                    readable(range.greatest), readable(range.start)));
+  }
+  return text;
+}
+
+std::string momentum_text(const RunStatistics& run) {
+  if (!run.free) return named_line("momentum", "changes by gravity and ground");
+  const auto drift = [](const sim::Vec3& start, const sim::Vec3& end, const char* unit) {
+    return fmt::format("{:.6g} {} at the start, changed by {:.2g}", start.norm(), unit,
+                       (end - start).norm());
+  };
+  return named_line("momentum", "linear " + drift(run.momentum_start.linear,
+                                                  run.momentum_end.linear, "kg m/s")) +
+         named_line("", "angular " + drift(run.momentum_start.angular, run.momentum_end.angular,
+                                           "kg m^2/s"));
+}
+
+/// Lines that TOML skips.
+std::string as_comments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string comments;
+  for (std::string line; std::getline(lines, line);) {
+    comments += line.empty() ? "#\n" : "# " + line + '\n';
+  }
+  return comments;
+}
+
+}  // namespace
+
+std::string run_statistics_text(const RunStatistics& run, double skin_thickness) {
+  std::string text = fmt::format("Run of {} steps, {:g} s\n", grouped(run.steps), run.seconds);
+  if (run.divergence) text += named_line("DIVERGED", *run.divergence);
+  text += penetration_text(run, skin_thickness);
+  text += crossings_text("crossings", run.crossings, run.frames);
+  text += crossings_text("self-crossings", run.self_crossings, run.frames);
+  if (run.end_overlap > 0.0) {
+    text += named_line("overlap at the end",
+                       fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
+  }
+  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + momentum_text(run);
+  const bool rests = run.end_speed < rest_speed && !run.divergence;
+  text += named_line("speed at the end",
+                     fmt::format("{:.3g} m/s at most: {} (that is below {:g} m/s)", run.end_speed,
+                                 rests ? "at rest" : "not at rest", rest_speed));
+  return text + named_line("state hash", hex(run.state_hash));
+}
+
+std::string check_text(const CheckReport& report) {
+  std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
+                     steps_text(report.steps);
+  if (report.run) {
+    text += '\n' + run_statistics_text(*report.run, report.scene.settings.skin_thickness);
+  }
+  return scenes::print_scene(report.scene) + '\n' + as_comments(text);
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,67 @@
+// pneuma list: the scenes that come with the program.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+#include "app/terminal/table.h"
+#include "app/world/scene_catalogue.h"
+
+namespace pneuma::app {
+namespace {
+
+using Align = Table::Align;
+
+// With these the table fits 120 columns.
+constexpr std::size_t figure_width = 32;
+constexpr std::size_t title_width = 46;
+
+std::string list_text(const std::vector<CatalogueEntry>& entries) {
+  Table table({{"scene", Align::left},
+               {"the paper's figure or row", Align::left},
+               {"paper\nfps", Align::right},
+               {"title", Align::left}});
+  for (const CatalogueEntry& entry : entries) {
+    const std::string title = entry.error.empty() ? entry.title : "INVALID: " + entry.error;
+    table.add_row({entry.name, entry.figure.empty() ? "-" : wrapped(entry.figure, figure_width),
+                   entry.paper_fps ? fmt::format("{:g}", *entry.paper_fps) : "-",
+                   wrapped(title, title_width)});
+  }
+  return table.text();
+}
+
+nlohmann::json list_json(const std::vector<CatalogueEntry>& entries) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const CatalogueEntry& entry : entries) {
+    nlohmann::json item = {{"scene", entry.name},  {"path", entry.path.string()},
+                           {"title", entry.title}, {"figure", entry.figure},
+                           {"paper_fps", nullptr}, {"error", nullptr}};
+    if (entry.paper_fps) item["paper_fps"] = *entry.paper_fps;
+    if (!entry.error.empty()) item["error"] = entry.error;
+    list.push_back(std::move(item));
+  }
+  return list;
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Action& action) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("list", "List the scenes with the paper's figures");
+  command->add_flag("--json", *json, "Print JSON");
+  add_examples(*command, {"pneuma list", "pneuma list --json"});
+  command->callback([json, &action] {
+    action = [json] {
+      const std::vector<CatalogueEntry> entries = scene_catalogue();
+      fmt::print("{}", *json ? list_json(entries).dump(2) + "\n" : list_text(entries));
+      return ExitCode::done;
+    };
+  });
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,77 @@
+// What a run of a scene comes to, in numbers.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/record/contact_tally.h"
+#include "scenes/loader/scene.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+
+/// A greatest value and when it was reached, s.
+struct Peak {
+  double value = 0.0;
+  double time = 0.0;
+};
+
+struct VolumeRange {
+  std::string body;
+  double start = 0.0;  // m^3
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = 0.0;
+};
+
+/// How often and how much surfaces passed through each other, in the frames of a run.
+struct CrossingStatistics {
+  int frames = 0;            // in which some did
+  Peak edges;                // that passed through another surface at once
+  std::string first_bodies;  // of that moment, "torus and cube 3"; empty: none
+};
+
+/// Contacts are looked at in every step; penetration, energy and volumes at the start and in every
+/// frame, since that is how often the scene's pictures are taken.
+struct RunStatistics {
+  std::int64_t steps = 0;                 // done
+  double seconds = 0.0;                   // of the scene's time
+  std::optional<std::string> divergence;  // where the run ended early; what follows is up to there
+
+  Peak penetration;                   // m, over the whole run
+  double start_penetration = 0.0;     // m
+  double settled_penetration = 0.0;   // m, over the last half of it
+  int frames = 0;                     // looked at, the start among them
+  CrossingStatistics crossings;       // of different bodies (sim/inspect/crossings.h)
+  CrossingStatistics self_crossings;  // of bodies with themselves
+  double end_overlap = 0.0;           // m, of the pair deepest in each other at the end (overlap.h)
+  std::string end_overlap_bodies;     // empty: none
+  ContactTally contacts;
+  ContactTally settled_contacts;  // over the last half of the run
+
+  sim::Energy energy_start;
+  sim::Energy energy_end;
+  Peak energy_rise;           // J, the greatest from one frame to the next
+  double energy_rises = 0.0;  // J, all of them together
+  double energy_span = 0.0;   // J, between the greatest and the least: what a rise is judged by
+
+  std::vector<VolumeRange> volumes;  // of the soft bodies
+
+  bool free = false;  // no ground and no gravity, so that momentum should stay
+  sim::Momentum momentum_start;
+  sim::Momentum momentum_end;
+
+  double end_speed = 0.0;  // m/s, of the fastest point of any body
+  std::uint64_t state_hash = 0;
+};
+
+/// Slower than this, m/s, a body is called at rest. On the ground gravity adds 0.16 m/s in every
+/// 1/60 s, which the contact takes away again: the third of it is what may be left over.
+inline constexpr double rest_speed = 0.05;
+
+/// Runs the scene without pictures. `threads` changes nothing but the time that takes.
+RunStatistics run_statistics(const scenes::Scene& scene, int threads);
+
+}  // namespace pneuma::app

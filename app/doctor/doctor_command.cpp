@@ -1,0 +1,27 @@
+// pneuma doctor: what is missing on this machine, and the command that mends it.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "app/doctor/diagnosis.h"
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+
+namespace pneuma::app {
+
+void add_doctor_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("doctor", "Look at what the program needs here, and how to mend it");
+  add_examples(*command, {"pneuma doctor"});
+  command->callback([&action] {
+    action = [] {
+      const std::vector<Finding> findings = diagnose();
+      fmt::print("{}", diagnosis_text(findings));
+      return exit_code(findings);
+    };
+  });
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,51 @@
+// `pneuma export`: its options.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <map>
+#include <memory>
+
+#include "app/export/export_scene.h"
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+
+namespace pneuma::app {
+
+void add_export_command(CLI::App& app, Action& action) {
+  struct Typed {
+    ExportRequest request;
+    std::string frames;
+    std::string format = "ply";
+  };
+  static const std::map<std::string, MeshFormat> formats = [] {
+    std::map<std::string, MeshFormat> by_name;
+    for (const MeshFormat& format : mesh_formats) by_name.emplace(format.name, format);
+    return by_name;
+  }();
+  CLI::App* command =
+      app.add_subcommand("export", "Write the bodies of each frame as mesh files, no pictures");
+  const auto typed = std::make_shared<Typed>();
+  ExportRequest& request = typed->request;
+
+  add_scene_option(*command, request.scene);
+  command->add_option("--format", typed->format, "ply (double precision), obj or glb [ply]")
+      ->check(CLI::IsMember(formats))
+      ->type_name("FORMAT");
+  command->add_option("--out", request.out, "Folder for the files [out/NAME]")->type_name("DIR");
+  add_override_option(*command, request.overrides);
+  add_frames_option(*command, typed->frames);
+  command->add_flag("--overwrite", request.overwrite, "Replace the mesh files in the folder");
+  add_threads_option(*command, request.threads);
+  add_quiet_option(*command, request.quiet);
+  add_examples(*command, {"pneuma export one_sphere --frames 30",
+                          "pneuma export my_scene.toml --format obj --out meshes --overwrite"});
+  command->callback([typed, &action] {
+    action = [typed] {
+      typed->request.format = formats.at(typed->format);
+      if (!typed->frames.empty()) typed->request.frames = parse_frames(typed->frames);
+      return export_scene(typed->request);
+    };
+  });
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,168 @@
+#include "app/picture/build_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <map>
+#include <utility>
+
+#include "app/host/errors.h"
+#include "app/picture/body_colours.h"
+#include "app/picture/overlay.h"
+#include "sim/mesh/measure.h"
+#include "sim/mesh/primitives.h"
+
+namespace pneuma::app {
+namespace {
+
+using ShowName = std::pair<std::string_view, bool Show::*>;
+constexpr std::array<ShowName, 3> show_names = {ShowName{"wireframe", &Show::wireframe},
+                                                ShowName{"particles", &Show::particles},
+                                                ShowName{"contacts", &Show::contacts}};
+
+using ShapePointer = std::shared_ptr<const render::MeshShape>;
+using sim::Vec3;
+
+std::vector<std::array<std::uint32_t, 3>> indices(const std::vector<sim::Triangle>& triangles) {
+  std::vector<std::array<std::uint32_t, 3>> result;
+  for (const auto& [a, b, c] : triangles) {
+    result.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                      static_cast<std::uint32_t>(c)});
+  }
+  return result;
+}
+
+ShapePointer soft_shape(const sim::SoftMesh& mesh, const scenes::BodyScene& body) {
+  auto shape = std::make_shared<render::MeshShape>();
+  shape->triangles = indices(mesh.topology.triangles());
+  for (const auto& [a, b] : mesh.topology.edges()) {
+    shape->edges.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+  }
+  std::vector<Vec3> vertices;
+  for (int v = 0; v < mesh.rest_positions.size(); ++v) {
+    vertices.emplace_back(mesh.rest_positions[v]);
+  }
+  shape->colours = body_colours(vertices, body.colours, body.colour_axis);
+  return shape;
+}
+
+/// Two corners of a box are the ends of an edge when they differ along one axis only: of the mesh's
+/// 18 edges this leaves out the faces' diagonals.
+bool is_box_edge(const Vec3& a, const Vec3& b) { return (a.array() != b.array()).count() == 1; }
+
+ShapePointer rigid_shape(const sim::RigidBox& box, const scenes::BodyScene& body) {
+  const sim::TriangleMesh mesh = sim::make_box(box.size, 1);
+  auto shape = std::make_shared<render::MeshShape>();
+  shape->triangles = indices(mesh.triangles);
+  for (std::uint32_t a = 0; a < mesh.vertices.size(); ++a) {
+    for (std::uint32_t b = a + 1; b < mesh.vertices.size(); ++b) {
+      if (is_box_edge(mesh.vertices[a], mesh.vertices[b])) shape->edges.push_back({a, b});
+    }
+  }
+  shape->colours = body_colours(mesh.vertices, body.colours, body.colour_axis);
+  return shape;
+}
+
+render::Mesh soft_mesh(const sim::SoftBody& body, const ShapePointer& shape) {
+  render::Mesh mesh;
+  mesh.shape = shape;
+  for (int v = 0; v < body.positions.size(); ++v) {
+    mesh.positions.emplace_back(Vec3(body.positions[v]).cast<float>());
+  }
+  std::vector<Vec3> normals;
+  sim::vertex_normals(body.mesh->topology, body.positions, normals);
+  for (const Vec3& normal : normals) mesh.normals.emplace_back(normal.cast<float>());
+  return mesh;
+}
+
+render::Mesh rigid_mesh(const sim::RigidBox& box, const ShapePointer& shape) {
+  render::Mesh mesh;
+  mesh.shape = shape;
+  for (const Vec3& corner : sim::make_box(box.size, 1).vertices) {
+    mesh.positions.emplace_back((box.position + box.orientation * corner).cast<float>());
+  }
+  return mesh;
+}
+
+/// The renderer's letters are ASCII: any other character becomes one question mark.
+std::string to_ascii(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues_a_character = (byte & 0xC0) == 0x80;
+    if (byte < 0x80) result += c;
+    if (byte >= 0x80 && !continues_a_character) result += '?';
+  }
+  return result;
+}
+
+render::Caption caption(const std::string& title, const sim::World& world) {
+  return {fmt::format("{}\nt = {:.2f} s   step {}", title, sim::time(world), world.steps)};
+}
+
+}  // namespace
+
+std::vector<std::string> shown_names(Show show) {
+  std::vector<std::string> names;
+  for (const auto& [name, member] : show_names) {
+    if (show.*member) names.emplace_back(name);
+  }
+  return names;
+}
+
+Show parse_show(const std::string& option, const std::string& list) {
+  Show show;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, end - begin);
+    const auto known = std::ranges::find(show_names, name, &ShowName::first);
+    if (known == show_names.end()) {
+      throw UsageError(fmt::format(
+          "{}: '{}' is not known; allowed are wireframe, particles and contacts", option, name));
+    }
+    show.*known->second = true;
+    begin = end + 1;
+  }
+  return show;
+}
+
+FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
+                           const render::Camera& camera)
+    : title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
+      caption_(scene.picture.caption) {
+  scenery_.camera = camera;
+  scenery_.light.shadows = scene.picture.shadows;
+  if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
+
+  // build_world puts a body's copies one after the other, in the order of the scene.
+  for (const scenes::BodyScene& body : scene.bodies) {
+    const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
+    if (body.kind == scenes::BodyKind::rigid) {
+      const ShapePointer shape = rigid_shape(world.rigid.at(rigid_shapes_.size()), body);
+      rigid_shapes_.insert(rigid_shapes_.end(), copies, shape);
+    } else {
+      const ShapePointer shape = soft_shape(*world.soft.at(soft_shapes_.size()).mesh, body);
+      soft_shapes_.insert(soft_shapes_.end(), copies, shape);
+    }
+  }
+}
+
+render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::Contact> contacts,
+                                  Show show) const {
+  render::Frame frame = scenery_;
+  frame.wireframe = show.wireframe;
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    frame.meshes.push_back(soft_mesh(world.soft[i], soft_shapes_[i]));
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_shapes_[i]));
+  }
+  if (show.particles) add_particles(world, contacts, frame);
+  if (show.contacts) add_contacts(contacts, frame);
+  if (caption_) frame.caption = caption(title_, world);
+  return frame;
+}
+
+}  // namespace pneuma::app

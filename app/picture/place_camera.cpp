@@ -1,0 +1,111 @@
+#include "app/picture/place_camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/host/errors.h"
+#include "app/world/simulation.h"
+#include "render/frame/camera.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+namespace {
+
+using sim::Bounds;
+using sim::Vec3;
+
+/// How far from where they started, in their own size, bodies are followed. A ball that rolls or
+/// bounces stays within; one that falls for ever does not.
+constexpr double followed_distance = 3.0;
+
+struct Extent {
+  Bounds start;
+  Bounds run;
+  double largest_body = 0.0;
+
+  void include(const sim::World& world) {
+    run.include(sim::bounds(world));
+    for (const sim::SoftBody& body : world.soft) {
+      largest_body = std::max(largest_body, sim::bounds(body.positions).size().norm());
+    }
+    for (const sim::RigidBox& box : world.rigid) {
+      largest_body = std::max(largest_body, box.size.norm());
+    }
+  }
+};
+
+/// Frames and not steps: what lies between two pictures is seen by nobody.
+Extent run_ahead(const scenes::Scene& scene, const sim::World& start, int threads,
+                 const OnFrame& on_frame) {
+  Extent extent;
+  extent.start = sim::bounds(start);
+  extent.include(start);
+  Simulation simulation(scene, start, threads);
+  const std::int64_t last = scenes::frame_count(scene);
+  try {
+    while (simulation.frame() < last) {
+      simulation.advance_frame();
+      extent.include(simulation.world());
+      if (on_frame) on_frame(simulation.world());
+    }
+  } catch (const DivergenceError&) {
+    // The run itself will come to the same step and report it.
+  }
+  return extent;
+}
+
+render::Camera fixed_camera(const scenes::CameraScene& scene) {
+  render::Camera camera;
+  camera.eye = scene.eye->cast<float>();
+  camera.target = scene.target->cast<float>();
+  camera.field_of_view = static_cast<float>(scene.field_of_view);
+  return camera;
+}
+
+render::Camera automatic_camera(const scenes::Scene& scene, const Bounds& bounds) {
+  // The scene counts azimuth from +x, the renderer from -y.
+  const render::ViewDirection direction{static_cast<float>(scene.camera.azimuth) + 90.0f,
+                                        static_cast<float>(scene.camera.elevation)};
+  const float aspect =
+      static_cast<float>(scene.picture.width) / static_cast<float>(scene.picture.height);
+  const render::Box box{bounds.low.cast<float>(), bounds.high.cast<float>()};
+  return render::look_at_bounds(box, direction, static_cast<float>(scene.camera.field_of_view),
+                                aspect);
+}
+
+std::string flown_away(const Bounds& useful, const Bounds& run) {
+  const double beyond =
+      std::max((useful.low - run.low).maxCoeff(), (run.high - useful.high).maxCoeff());
+  return fmt::format(
+      "bodies go as far as {:.3g} m beyond the automatic camera's view, which would be too far "
+      "away "
+      "to show anything; give eye and target in [camera] to choose",
+      beyond);
+}
+
+}  // namespace
+
+Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body) {
+  const double size = std::max(start.size().norm(), largest_body);
+  const Vec3 reach = Vec3::Constant(followed_distance * size);
+  Bounds useful;
+  useful.low = run.low.cwiseMax(start.low - reach);
+  useful.high = run.high.cwiseMin(start.high + reach);
+  return useful;
+}
+
+PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
+                          const OnFrame& on_frame) {
+  if (scene.camera.eye && scene.camera.target) return {fixed_camera(scene.camera), ""};
+  const Extent extent = run_ahead(scene, start, threads, on_frame);
+  const Bounds useful = useful_bounds(extent.start, extent.run, extent.largest_body);
+  PlacedCamera placed{automatic_camera(scene, useful), ""};
+  if (useful.low != extent.run.low || useful.high != extent.run.high) {
+    placed.notice = flown_away(useful, extent.run);
+  }
+  return placed;
+}
+
+}  // namespace pneuma::app

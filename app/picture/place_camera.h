@@ -1,0 +1,33 @@
+// Where the camera of a run stands.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+
+#include "render/frame/frame.h"
+#include "scenes/loader/scene.h"
+#include "sim/mesh/measure.h"
+#include "sim/world/world.h"
+
+namespace pneuma::app {
+
+/// Called once per frame of a simulation that is run ahead; may throw to stop it.
+using OnFrame = std::function<void(const sim::World& world)>;
+
+struct PlacedCamera {
+  render::Camera camera;
+  std::string notice;  // what the user should know about it, if anything
+};
+
+/// The scene's own camera or, where the scene leaves it to the program, one that has all bodies in
+/// view over the whole run: for that the run is simulated once ahead. A run that diverges counts up
+/// to there.
+PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
+                          const OnFrame& on_frame = {});
+
+/// The part of a run's bounds worth showing: bodies that fall or fly away for ever would make all
+/// others vanish. `largest_body` is the max. diagonal of a single body during the run, m.
+sim::Bounds useful_bounds(const sim::Bounds& start, const sim::Bounds& run, double largest_body);
+
+}  // namespace pneuma::app

@@ -1,0 +1,60 @@
+#include "app/record/contact_tally.h"
+
+#include <algorithm>
+
+namespace pneuma::app {
+namespace {
+
+using sim::ContactKind;
+using sim::SideKind;
+
+double ratio(std::int64_t count, std::int64_t steps) {
+  return steps == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(steps);
+}
+
+}  // namespace
+
+ContactKind kind_of(const sim::Contact& contact) {
+  const SideKind a = contact.first.kind, b = contact.second.kind;
+  const bool soft = a == SideKind::soft || b == SideKind::soft;
+  const bool rigid = a == SideKind::rigid || b == SideKind::rigid;
+  if (a == SideKind::ground || b == SideKind::ground) {
+    return soft ? ContactKind::soft_ground : ContactKind::rigid_ground;
+  }
+  if (soft && rigid) return ContactKind::soft_rigid;
+  return soft ? ContactKind::soft_soft : ContactKind::rigid_rigid;
+}
+
+ContactCounts count_by_kind(std::span<const sim::Contact> contacts) {
+  ContactCounts counts = {};
+  for (const sim::Contact& contact : contacts) ++counts[static_cast<std::size_t>(kind_of(contact))];
+  return counts;
+}
+
+void ContactTally::add(std::span<const sim::Contact> contacts) {
+  const ContactCounts counts = count_by_kind(contacts);
+  const auto enter = [](Count& count, std::int64_t value) {
+    count.sum += value;
+    count.most = std::max(count.most, value);
+  };
+  for (std::size_t k = 0; k < counts.size(); ++k) enter(by_kind[k], counts[k]);
+  const auto total = static_cast<std::int64_t>(contacts.size());
+  enter(all, total);
+
+  const std::int64_t with_ground = counts[static_cast<std::size_t>(ContactKind::soft_ground)] +
+                                   counts[static_cast<std::size_t>(ContactKind::rigid_ground)];
+  if (total > with_ground) ++touching_steps;
+  ++steps;
+}
+
+double ContactTally::mean(const Count& count) const { return ratio(count.sum, steps); }
+
+double ContactTally::mean_between_bodies() const {
+  return ratio(of(ContactKind::soft_soft).sum + of(ContactKind::soft_rigid).sum +
+                   of(ContactKind::rigid_rigid).sum,
+               steps);
+}
+
+double ContactTally::touching_share() const { return ratio(touching_steps, steps); }
+
+}  // namespace pneuma::app

@@ -1,0 +1,42 @@
+// Counts contacts over the steps of a run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "sim/collision/contact.h"
+#include "sim/step/plan.h"
+
+namespace pneuma::app {
+
+/// Which of the plan's kinds a contact is.
+sim::ContactKind kind_of(const sim::Contact& contact);
+
+/// How many there are of each kind, by its number.
+using ContactCounts = std::array<std::int64_t, sim::contact_kind_count>;
+ContactCounts count_by_kind(std::span<const sim::Contact> contacts);
+
+struct ContactTally {
+  struct Count {
+    std::int64_t sum = 0;
+    std::int64_t most = 0;  // in one step
+  };
+
+  std::int64_t steps = 0;
+  std::int64_t touching_steps = 0;  // steps in which two bodies touched; the ground does not count
+  Count all;
+  std::array<Count, sim::contact_kind_count> by_kind;
+
+  /// The contacts of one step.
+  void add(std::span<const sim::Contact> contacts);
+
+  /// Per step; 0 before the first.
+  double mean(const Count& count) const;
+  double mean_between_bodies() const;
+  double touching_share() const;
+
+  const Count& of(sim::ContactKind kind) const { return by_kind[static_cast<std::size_t>(kind)]; }
+};
+
+}  // namespace pneuma::app

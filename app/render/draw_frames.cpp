@@ -1,0 +1,173 @@
+#include "app/render/draw_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/host/background.h"
+#include "app/host/clock.h"
+#include "app/host/interrupt.h"
+#include "render/image/png.h"
+#include "sim/base/file.h"
+#include "sim/inspect/checkpoint.h"
+
+namespace pneuma::app {
+namespace {
+
+/// A frame to be drawn, and what is to become of it: all of the simulation that is needed for it,
+/// so that the simulation can go on.
+struct TakenFrame {
+  render::Frame picture;
+  std::optional<render::Frame> overlay;
+  std::int64_t number = 0;
+  FrameState state;
+  std::vector<std::uint8_t> checkpoint;
+  FrameSeconds seconds;
+};
+
+/// The same when it is drawn.
+struct DrawnFrame {
+  TakenFrame of;
+  render::Image picture;
+  std::optional<render::Image> overlay;
+};
+
+/// Draws frames and hands them to a thread that encodes and writes them while the next is made: at
+/// most three frames are in memory, one being drawn, one waiting and one being written.
+/// The order of files, journal and checkpoint stays what it is without that thread.
+class FrameWriter {
+ public:
+  explicit FrameWriter(const FrameOutput& output) : output_(output) {}
+
+  TakenFrame take(const Simulation& simulation) {
+    TakenFrame frame;
+    Stopwatch watch;
+    frame.picture = build(simulation, output_.pictures.show);
+    if (output_.pictures.overlay) frame.overlay = build(simulation, *output_.pictures.overlay);
+    frame.seconds.draw = watch.lap();
+    frame.number = simulation.frame();
+    frame.state = recorder_.state(simulation);
+    frame.checkpoint = sim::save_state(simulation.world());
+    return frame;
+  }
+
+  void write(TakenFrame taken) {
+    const auto frame = std::make_shared<DrawnFrame>();
+    Stopwatch watch;
+    output_.renderer.draw(taken.picture, frame->picture);
+    if (taken.overlay) output_.renderer.draw(*taken.overlay, frame->overlay.emplace());
+    taken.seconds.draw += watch.lap();
+    taken.seconds.total = since_last_frame_.lap();
+    frame->of = std::move(taken);
+    finishing_.submit([this, frame] { finish(*frame); });
+  }
+
+  /// Waits until everything is on disk.
+  void wait() { finishing_.finish(); }
+
+ private:
+  render::Frame build(const Simulation& simulation, Show show) const {
+    return output_.builder.build(simulation.world(), simulation.stepper().contacts(), show);
+  }
+
+  void finish(DrawnFrame& frame) const {
+    const RunFolder& folder = output_.log.folder();
+    TakenFrame& of = frame.of;
+    PictureBytes bytes;
+    bytes.frame = save(frame.picture, folder.frame(of.number), of.seconds);
+    if (frame.overlay) bytes.overlay = save(*frame.overlay, folder.overlay(of.number), of.seconds);
+    output_.log.append_frame(std::move(of.state), bytes, of.seconds, of.checkpoint);
+  }
+
+  /// Returns the size of the file.
+  static std::size_t save(const render::Image& image, const std::filesystem::path& file,
+                          FrameSeconds& seconds) {
+    Stopwatch watch;
+    const std::vector<std::uint8_t> png = render::encode_png(image);
+    seconds.png += watch.lap();
+    base::write_file_atomically(file.string(), png);
+    seconds.write += watch.lap();
+    return png.size();
+  }
+
+  FrameOutput output_;
+  FrameRecorder recorder_;
+  Stopwatch since_last_frame_;
+  Background finishing_{1};  // the last member: it ends before what its jobs use
+};
+
+/// Says that steps which diverged were done in parts: at the first of them, and in the end.
+class DividedSteps {
+ public:
+  void add(const Simulation& simulation, Progress& progress) {
+    const std::vector<int>& parts = simulation.step_parts();
+    if (parts.empty()) return;
+    if (count_ == 0) {
+      progress.say(fmt::format("a step before t = {:.4f} s diverged; it was done again in {} parts",
+                               sim::time(simulation.world()), parts.front()));
+    }
+    count_ += static_cast<std::int64_t>(parts.size());
+    most_ = std::max(most_, *std::max_element(parts.begin(), parts.end()));
+  }
+
+  void summarise(Progress& progress) const {
+    if (count_ == 0) return;
+    progress.say(fmt::format("{} diverged and {} done in parts, up to {} of them",
+                             count_ == 1 ? "1 step" : fmt::format("{} steps", count_),
+                             count_ == 1 ? "was" : "were", most_));
+  }
+
+ private:
+  std::int64_t count_ = 0;
+  int most_ = 0;
+};
+
+}  // namespace
+
+void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
+                 Progress& progress) {
+  FrameWriter writer(output);
+  DividedSteps divided;
+  Stopwatch watch;
+  const double time_at_start = sim::time(simulation.world());
+  ProgressState state;
+  state.last = last;
+  Background stepping(1);
+  const auto wait_for_step = [&] {
+    try {
+      stepping.finish();
+      throw_if_interrupted();
+    } catch (...) {
+      writer.wait();  // a frame that could not be written is the first thing to know
+      throw;
+    }
+  };
+  for (;;) {
+    state.frame = simulation.frame();
+    state.time = sim::time(simulation.world());
+    state.simulated = state.time - time_at_start;
+    std::optional<TakenFrame> frame;
+    if (state.frame >= output.log.next_frame()) frame = writer.take(simulation);
+    const bool more = state.frame < last;
+    if (more) stepping.submit([&simulation] { simulation.advance_frame(); });
+    if (frame) {
+      writer.write(std::move(*frame));
+      ++state.drawn;
+    }
+    state.elapsed += watch.lap();
+    progress.show(progress_line(state));
+    if (!more) break;
+    wait_for_step();
+    divided.add(simulation, progress);
+  }
+  writer.wait();
+  state.elapsed += watch.lap();
+  progress.say(summary_line(state));
+  divided.summarise(progress);
+}
+
+}  // namespace pneuma::app

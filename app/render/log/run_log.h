@@ -1,0 +1,54 @@
+// The log of one run: what is in its folder, where the run goes on, and a line for all that
+// happens.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/render/log/resume.h"
+#include "app/render/log/run_record.h"
+
+namespace pneuma::app {
+
+class RunLog {
+ public:
+  /// Chooses the camera of a run that starts; one that is continued keeps its own.
+  using ChooseCamera = std::function<render::Camera()>;
+
+  /// Opens the folder for the run as `existing` says, and finds the frame from which it goes on.
+  /// Throws base::IoError when the folder holds something else (see resume.h).
+  RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run,
+         const ChooseCamera& choose_camera);
+
+  /// All frames are there already: nothing below may be called but folder().
+  bool finished() const { return !journal_; }
+
+  const RunFolder& folder() const { return folder_; }
+  const render::Camera& camera() const { return camera_; }
+  /// The first frame that is still to be drawn, and the world at the one before it or at the start.
+  std::int64_t next_frame() const { return next_frame_; }
+  const sim::World& world() const { return world_; }
+
+  /// Each appends its line. They throw base::IoError.
+  void append_launch(const std::vector<std::string>& command_line, int threads);
+  void append_divergence(const std::string& message);
+  /// Writes the world's state (sim/inspect/checkpoint.h) after the frame's line: whatever the
+  /// moment of a kill, the state belongs to a frame that the journal knows.
+  void append_frame(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds,
+                    const std::vector<std::uint8_t>& checkpoint);
+
+  /// Turns the journal into run.json, and removes it last: until then the run can be continued.
+  void close();
+
+ private:
+  RunFolder folder_;
+  render::Camera camera_;
+  std::int64_t next_frame_ = 0;
+  sim::World world_;
+  std::optional<Journal> journal_;  // none: the run is finished
+};
+
+}  // namespace pneuma::app

@@ -1,0 +1,187 @@
+#include "app/render/log/run_record.h"
+
+#include <fmt/format.h>
+
+#include "app/host/command_line.h"
+#include "app/host/machine.h"
+#include "app/host/version.h"
+#include "app/record/contact_tally.h"
+#include "app/record/provenance.h"
+#include "app/record/world_json.h"
+#include "app/world/build_world.h"
+#include "scenes/loader/print_scene.h"
+#include "sim/base/file.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+namespace {
+
+Json volumes_json(const sim::World& world) {
+  Json volumes = Json::object();
+  for (const sim::SoftBody& body : world.soft) {
+    volumes[body.name] = number_json<Json>(sim::volume(body.mesh->topology, body.positions));
+  }
+  return volumes;
+}
+
+Json contacts_json(std::span<const sim::Contact> contacts) {
+  const ContactCounts counts = count_by_kind(contacts);
+  Json json = {{"count", contacts.size()}};
+  json.update(json_by_contact_kind<Json>(
+      [&](sim::ContactKind kind) { return counts[static_cast<std::size_t>(kind)]; }));
+  return json;
+}
+
+Json program_json() {
+  const Version built = version();
+  Json libraries = Json::object();
+  for (const auto& [name, number] : library_versions()) libraries[name] = number;
+  return {{"version", built.program},       {"commit", built.commit}, {"compiler", built.compiler},
+          {"build_type", built.build_type}, {"flags", built.flags},   {"libraries", libraries}};
+}
+
+}  // namespace
+
+Json identity_json(const RunIdentity& run) {
+  const Pictures& pictures = run.pictures;
+  const Version built = version();
+  const Json shown = shown_names(pictures.show);
+  const Json overlay = pictures.overlay ? Json(shown_names(*pictures.overlay)) : Json();
+  Json identity = {{"scene", run.scene.name},
+                   {"fingerprint", hex(scenes::scene_fingerprint(run.scene))},
+                   {"first_frame", run.frames.first},
+                   {"last_frame", run.frames.last},
+                   {"show", shown},
+                   {"overlay", overlay},
+                   {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
+                                         built.compiler, built.build_type, built.flags)},
+                   {"gl", run.gl}};
+  if (run.on_divergence == OnDivergence::substep) identity["on_divergence"] = "substep";
+  for (const std::uint64_t model : model_fingerprints(run.scene, run.start)) {
+    identity["models"].push_back(hex(model));
+  }
+  return identity;
+}
+
+Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera) {
+  return {{"run", identity},
+          {"title", scene.title},
+          {"figure", scene.figure},
+          {"seed", scene.settings.seed},
+          {"steps_per_second", scene.settings.steps_per_second},
+          {"frames_per_second", scene.picture.frames_per_second},
+          {"units", json_units},
+          {"camera",
+           {{"eye", vector_json<Json>(camera.eye)},
+            {"target", vector_json<Json>(camera.target)},
+            {"field_of_view", camera.field_of_view}}},
+          {"scene_toml", scenes::print_scene(scene)},
+          {"program", program_json()}};
+}
+
+render::Camera camera_of(const Json& header) {
+  try {
+    const Json& json = header.at("camera");
+    render::Camera camera;
+    for (int axis = 0; axis < 3; ++axis) {
+      camera.eye[axis] = json.at("eye").at(static_cast<std::size_t>(axis)).get<float>();
+      camera.target[axis] = json.at("target").at(static_cast<std::size_t>(axis)).get<float>();
+    }
+    camera.field_of_view = json.at("field_of_view").get<float>();
+    return camera;
+  } catch (const Json::exception& error) {
+    throw base::IoError(
+        fmt::format("the journal's camera cannot be read ({}); start anew with "
+                    "--overwrite",
+                    error.what()));
+  }
+}
+
+Json divergence_line(const std::string& message) { return {{"diverged", message}}; }
+
+Json change_line(const Json& identity, const scenes::Scene& scene, std::int64_t from,
+                 const std::string& reason) {
+  return {{"change",
+           {{"run", identity},
+            {"steps_per_second", scene.settings.steps_per_second},
+            {"scene_toml", scenes::print_scene(scene)}}},
+          {"first_frame", from},
+          {"reason", reason}};
+}
+
+Json present_header(const JournalContents& journal) {
+  Json header = journal.header;
+  for (const Json& line : journal.lines) {
+    if (line.contains("change")) header.update(line["change"]);
+  }
+  return header;
+}
+
+Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
+  const Machine here = machine();
+  return {{"launch",
+           {{"date", utc_date()},
+            {"command_line", shell_line(command_line)},
+            {"first_frame", from},
+            {"threads", threads},
+            {"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}}}}};
+}
+
+FrameState FrameRecorder::state(const Simulation& simulation) {
+  const sim::World& world = simulation.world();
+  Json times = Json::object();
+  const sim::StageTimes& stage_times = simulation.stepper().stage_times();
+  for (std::size_t stage = 0; stage < stage_times.size(); ++stage) {
+    if (!simulation.stepper().plan().runs(static_cast<sim::Stage>(stage))) continue;
+    times[std::string(to_string(static_cast<sim::Stage>(stage)))] =
+        stage_times[stage] - stage_times_[stage];
+  }
+  stage_times_ = stage_times;
+
+  Json line = {{"frame", simulation.frame()},
+               {"time", sim::time(world)},
+               {"step", world.steps},
+               {"state_hash", hex(sim::state_hash(world))},
+               {"energy", energy_json<Json>(sim::energy(world))},
+               {"momentum", momentum_json<Json>(sim::momentum(world))},
+               {"volumes", volumes_json(world)},
+               {"contacts", contacts_json(simulation.stepper().contacts())},
+               {"greatest_penetration", number_json<Json>(sim::max_penetration(world))}};
+  if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
+  return {std::move(line), std::move(times)};
+}
+
+Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {
+  Json times = std::move(state.stage_seconds);
+  times["draw"] = seconds.draw;
+  times["png"] = seconds.png;
+  times["write"] = seconds.write;
+  times["total"] = seconds.total;
+  Json line = std::move(state.line);
+  line["png_bytes"] = bytes.frame;
+  line["seconds"] = std::move(times);
+  if (bytes.overlay) line["overlay_png_bytes"] = *bytes.overlay;
+  return line;
+}
+
+Json whole_record(const JournalContents& journal) {
+  Json record = present_header(journal);
+  Json launches = Json::array();
+  Json changes = Json::array();
+  Json frames = Json::array();
+  double wall_seconds = 0.0;
+  for (const Json& line : journal.lines) {
+    if (line.contains("launch")) launches.push_back(line["launch"]);
+    if (line.contains("change")) changes.push_back(line);
+    if (!line.contains("frame")) continue;
+    frames.push_back(line);
+    wall_seconds += line["seconds"]["total"].get<double>();
+  }
+  record["launches"] = launches;
+  if (!changes.empty()) record["changes"] = changes;
+  record["wall_seconds"] = wall_seconds;
+  record["frames"] = frames;
+  return record;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,94 @@
+// `pneuma render`: its options.
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+
+#include "app/render/render_request.h"
+#include "app/render/render_scene.h"
+#include "app/terminal/command.h"
+#include "app/terminal/common_options.h"
+
+namespace pneuma::app {
+namespace {
+
+constexpr int greatest_sheet = 100;
+
+/// The options as they were typed.
+struct RenderArguments {
+  RenderRequest request;
+  std::string frames;
+  std::string show;
+  std::string overlay;
+  std::string size;
+  std::string sheet;
+  std::string on_divergence;
+  bool no_caption = false;
+  bool overwrite = false;
+  bool resume = false;
+};
+
+RenderRequest read(const RenderArguments& typed) {
+  RenderRequest request = typed.request;
+  if (!typed.frames.empty()) request.frames = parse_frames(typed.frames);
+  if (!typed.show.empty()) request.pictures.show = parse_show("--show", typed.show);
+  if (!typed.overlay.empty()) {
+    request.pictures.overlay = parse_show("--overlay", typed.overlay);
+  }
+  if (!typed.sheet.empty()) request.sheet = parse_grid("--sheet", typed.sheet, greatest_sheet);
+  if (typed.overwrite) request.existing = ExistingRun::overwrite;
+  if (typed.resume) request.existing = ExistingRun::resume;
+  if (typed.on_divergence == "substep") request.on_divergence = OnDivergence::substep;
+  // What the scene can say itself becomes part of the scene, and so of the run's record.
+  if (!typed.size.empty()) append_size(typed.size, request.overrides);
+  if (typed.no_caption) request.overrides.emplace_back("picture.caption=false");
+  return request;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
+  CLI::App* command = app.add_subcommand("render", "Turn a scene into PNG frames");
+  const auto typed = std::make_shared<RenderArguments>();
+  RenderRequest& request = typed->request;
+  request.command_line.assign(command_line.begin(), command_line.end());
+
+  add_scene_option(*command, request.scene);
+  command->add_option("--out", request.out, "Folder for the frames [out/NAME]")->type_name("DIR");
+  add_override_option(*command, request.overrides);
+  add_frames_option(*command, typed->frames);
+  command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
+      ->type_name("WxH");
+  command->add_option("--show", typed->show, "What else to draw: wireframe, particles, contacts")
+      ->type_name("LIST");
+  command
+      ->add_option("--overlay", typed->overlay,
+                   "A second picture of each frame, NAME_overlay_00042.png, with this also drawn")
+      ->type_name("LIST");
+  command->add_flag("--no-caption", typed->no_caption, "Leave out scene, time and step");
+  auto* overwrite =
+      command->add_flag("--overwrite", typed->overwrite, "Replace the run in the folder");
+  command->add_flag("--resume", typed->resume, "Continue the interrupted run in the folder")
+      ->excludes(overwrite);
+  command
+      ->add_option(
+          "--on-divergence", typed->on_divergence,
+          fmt::format("What to do about a step that diverges: stop, or substep, which does "
+                      "it again in up to {} parts [stop]",
+                      greatest_step_parts))
+      ->check(CLI::IsMember({"stop", "substep"}));
+  command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");
+  command->add_option("--video", request.video, "Also a video, by ffmpeg")->type_name("FILE");
+  add_threads_option(*command, request.threads);
+  add_quiet_option(*command, request.quiet);
+  add_examples(
+      *command,
+      {"pneuma render one_sphere",
+       "pneuma render my_scene.toml --out pictures --frames 60 --video run.mp4",
+       "pneuma render one_sphere --set body.k=80 --size 640x480 --out out/stiffer --resume"});
+  command->callback([typed, &action] { action = [typed] { return render_scene(read(*typed)); }; });
+}
+
+}  // namespace pneuma::app

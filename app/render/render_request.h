@@ -1,0 +1,31 @@
+// What `pneuma render` was asked to do.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/build_frame.h"
+#include "app/render/log/resume.h"
+#include "app/terminal/frame_range.h"
+#include "app/terminal/grid_size.h"
+#include "app/world/simulation.h"
+
+namespace pneuma::app {
+
+struct RenderRequest {
+  std::string scene;                   // a path or a name
+  std::string out;                     // folder; empty: out/NAME
+  std::vector<std::string> overrides;  // "PATH=VALUE"
+  FrameRange frames;
+  Pictures pictures;
+  ExistingRun existing = ExistingRun::refuse;
+  OnDivergence on_divergence = OnDivergence::stop;
+  std::optional<GridSize> sheet;
+  std::string video;  // file; empty: none
+  int threads = 1;
+  bool quiet = false;
+  std::vector<std::string> command_line;
+};
+
+}  // namespace pneuma::app

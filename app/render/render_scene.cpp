@@ -1,0 +1,156 @@
+#include "app/render/render_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "app/host/command_line.h"
+#include "app/host/errors.h"
+#include "app/host/find_program.h"
+#include "app/host/interrupt.h"
+#include "app/host/run_command.h"
+#include "app/picture/place_camera.h"
+#include "app/render/contact_sheet.h"
+#include "app/render/draw_frames.h"
+#include "app/render/log/run_log.h"
+#include "app/render/video.h"
+#include "app/world/build_world.h"
+#include "app/world/find_scene.h"
+#include "app/world/step_advice.h"
+#include "scenes/loader/load_scene.h"
+#include "sim/step/plan.h"
+
+namespace pneuma::app {
+namespace {
+
+RunFolder folder_of(const scenes::Scene& scene, const std::string& out) {
+  return {out.empty() ? std::filesystem::path("out") / scene.name : std::filesystem::path(out),
+          scene.name};
+}
+
+render::RenderOptions picture_options(const scenes::PictureScene& picture) {
+  render::RenderOptions options;
+  options.width = picture.width;
+  options.height = picture.height;
+  options.samples = picture.samples;
+  return options;
+}
+
+render::Camera choose_camera(const scenes::Scene& scene, const sim::World& start, int threads,
+                             Progress& progress) {
+  const auto on_frame = [&](const sim::World& world) {
+    throw_if_interrupted();
+    progress.show(fmt::format("looking ahead for the camera: t = {:.2f} s of {:g} s",
+                              sim::time(world), scene.duration));
+  };
+  const PlacedCamera placed = place_camera(scene, start, threads, on_frame);
+  if (!placed.notice.empty()) progress.say(fmt::format("{}: {}", scene.name, placed.notice));
+  return placed.camera;
+}
+
+/// Steps may be too long, and particles are asked for in vain where no two soft bodies can meet.
+void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const sim::World& world,
+                     Progress& progress) {
+  for (const StepAdvice& advice : step_advices(world)) {
+    if (advice.too_long()) {
+      progress.say(fmt::format("{}: warning: {}", scene.name, step_warning(advice)));
+    }
+  }
+  const bool particles =
+      pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
+  const sim::Plan plan = sim::make_plan(world);
+  if (!particles || plan.runs(sim::Stage::move_particles)) return;
+  const auto stage = static_cast<std::size_t>(sim::Stage::move_particles);
+  progress.say(fmt::format("{}: there are no collision particles to draw: {}", scene.name,
+                           plan.stages[stage].reason));
+}
+
+/// The command that continues a run.
+std::string resume_command(std::vector<std::string> command_line) {
+  std::erase_if(command_line, [](const std::string& argument) {
+    return argument == "--overwrite" || argument == "--resume";
+  });
+  command_line.emplace_back("--resume");
+  return shell_line(command_line);
+}
+
+DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request) {
+  return DivergenceError(fmt::format(
+      "{}\nThe frames so far are whole. To go on from the last of them, add what is to be done "
+      "otherwise, a --set simulation.KEY=VALUE or --on-divergence substep, to: {}",
+      error.what(), resume_command(request.command_line)));
+}
+
+/// Scene -> world -> step stages -> frame -> PNG; the last three are in draw_frames.
+void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
+                 const RunFolder& folder, Progress& progress) {
+  const sim::World start = build_world(scene);
+  warn_before_run(request.pictures, scene, start, progress);
+  render::Renderer renderer(picture_options(scene.picture));
+  RunLog log(
+      folder, request.existing,
+      {scene, start, frames, request.pictures, request.on_divergence, renderer.description()},
+      [&] { return choose_camera(scene, start, request.threads, progress); });
+  if (log.finished()) return progress.say("the run is finished already");
+  log.append_launch(request.command_line, request.threads);
+
+  Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
+  const FrameBuilder builder(scene, log.world(), log.camera());
+  try {
+    draw_frames(simulation, frames.last, {builder, request.pictures, renderer, log}, progress);
+  } catch (const DivergenceError& error) {
+    log.append_divergence(error.what());
+    throw with_advice(error, request);
+  }
+  log.close();
+}
+
+/// Before the run, which may take long.
+void check_video(const scenes::Scene& scene, const std::string& video, Progress& progress) {
+  check_video_place(video);
+  if (const auto ffmpeg = find_program("ffmpeg")) {
+    try_video(*ffmpeg, scene.picture.width, scene.picture.height, video);
+  } else {
+    progress.say("ffmpeg is not installed; after the run, the command for the video is printed");
+  }
+}
+
+void make_video(const RunFolder& folder, std::int64_t first, int frames_per_second,
+                const std::string& video) {
+  const auto command = video_command(folder, first, frames_per_second, video);
+  if (const auto ffmpeg = find_program("ffmpeg")) {
+    run_command(*ffmpeg, command);
+    fmt::print("{}\n", video);
+  } else {
+    fmt::print(stderr,
+               "ffmpeg is not installed (apt-get install ffmpeg). The command for {}:\n{}\n", video,
+               shell_line(command));
+  }
+}
+
+}  // namespace
+
+ExitCode render_scene(const RenderRequest& request) {
+  Progress progress(progress_style(request.quiet));
+  const scenes::Scene scene = scenes::load_scene(find_scene(request.scene), request.overrides);
+  const Frames frames = frames_of(scene, request.frames);
+  const RunFolder folder = folder_of(scene, request.out);
+  try {
+    if (!request.video.empty()) check_video(scene, request.video, progress);
+    make_frames(request, scene, frames, folder, progress);
+    fmt::print("{}\n", folder.path().string());
+    if (request.sheet) {
+      write_contact_sheet(folder, frames.first, frames.last, *request.sheet);
+      fmt::print("{}\n", folder.sheet().string());
+    }
+    if (!request.video.empty()) {
+      make_video(folder, frames.first, scene.picture.frames_per_second, request.video);
+    }
+  } catch (const Interrupted&) {
+    throw Interrupted("interrupted; continue with: " + resume_command(request.command_line));
+  }
+  return ExitCode::done;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,25 @@
+// Frames to a video, by ffmpeg where it is installed.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/render/log/run_folder.h"
+
+namespace pneuma::app {
+
+/// ffmpeg's arguments, itself among them, for frames from `first` on.
+std::vector<std::string> video_command(const RunFolder& folder, std::int64_t first,
+                                       int frames_per_second, const std::string& video);
+
+/// Throws base::IoError when no file can be written there: no such folder, a folder itself, or no
+/// permission.
+void check_video_place(const std::string& video);
+
+/// Makes a video of one frame of so many pixels beside where the video will be, with the same
+/// options, and removes it: whatever ffmpeg lacks, it lacks before the run. Throws base::IoError
+/// with what it said.
+void try_video(const std::string& ffmpeg, int width, int height, const std::string& video);
+
+}  // namespace pneuma::app

@@ -1,0 +1,43 @@
+#include "app/terminal/common_options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace pneuma::app {
+
+void add_scene_option(CLI::App& command, std::string& scene) {
+  command.add_option("scene", scene, "A scene file, or the name of one in scenes/")
+      ->required()
+      ->type_name("SCENE");
+}
+
+void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
+  command.add_option("--set", overrides, "Override a value of the scene, as body.k=200")
+      ->type_name("PATH=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);  // or each would take all words up to the next option
+}
+
+void add_frames_option(CLI::App& command, std::string& frames) {
+  command.add_option("--frames", frames, "The first N frames, or a part as 10-20, or 10-")
+      ->type_name("N");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads of the simulation [1]")
+      ->check(CLI::Range(1, 256));
+}
+
+void add_examples(CLI::App& command, std::initializer_list<std::string> lines) {
+  std::string footer = "Examples:";
+  for (const std::string& line : lines) footer += "\n  " + line;
+  command.footer(footer);
+}
+
+void add_quiet_option(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet", quiet, "No progress, only errors");
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,32 @@
+// Options that several subcommands share, so that they read and work alike.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace pneuma::app {
+
+/// SCENE: one, and required.
+void add_scene_option(CLI::App& command, std::string& scene);
+
+/// --set PATH=VALUE, as often as wanted.
+void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// --frames, as typed: see frame_range.h.
+void add_frames_option(CLI::App& command, std::string& frames);
+
+/// --threads of the simulation, 1 to 256.
+void add_threads_option(CLI::App& command, int& threads);
+
+/// Below a command's help: what one may type, each line a whole command.
+void add_examples(CLI::App& command, std::initializer_list<std::string> lines);
+
+/// --quiet.
+void add_quiet_option(CLI::App& command, bool& quiet);
+
+}  // namespace pneuma::app

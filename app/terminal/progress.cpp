@@ -1,0 +1,91 @@
+#include "app/terminal/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace pneuma::app {
+namespace {
+
+constexpr auto terminal_interval = std::chrono::milliseconds(100);
+constexpr auto line_interval = std::chrono::seconds(5);
+
+/// "0:07", "2:03", "1:02:03".
+std::string duration(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  const long long hours = whole / 3600, minutes = whole / 60 % 60;
+  if (hours > 0) return fmt::format("{}:{:02}:{:02}", hours, minutes, whole % 60);
+  return fmt::format("{}:{:02}", minutes, whole % 60);
+}
+
+/// Of standard error now: people change the size of their windows. 0: not known.
+int terminal_columns() {
+  winsize size = {};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? int{size.ws_col} : 0;
+}
+
+std::string pace(const ProgressState& state) {
+  return fmt::format("{:.2g} x real time", state.simulated / state.elapsed);
+}
+
+}  // namespace
+
+std::string fitted_line(const std::string& text, int columns) {
+  return columns > 0 ? text.substr(0, static_cast<std::size_t>(columns - 1)) : text;
+}
+
+std::string summary_line(const ProgressState& state) {
+  return fmt::format("{} frame{} in {:.1f} s: {:.3g} frames/s, {}", state.drawn,
+                     state.drawn == 1 ? "" : "s", state.elapsed,
+                     static_cast<double>(state.drawn) / state.elapsed, pace(state));
+}
+
+std::string progress_line(const ProgressState& state) {
+  std::string line = fmt::format("frame {}/{}   t = {:.2f} s", state.frame, state.last, state.time);
+  if (state.simulated > 0.0) line += "   " + pace(state);
+  if (state.drawn > 0) {
+    const auto left = static_cast<double>(state.last - state.frame);
+    line += "   ETA " + duration(left * state.elapsed / static_cast<double>(state.drawn));
+  }
+  return line;
+}
+
+Progress::~Progress() { clear_line(); }
+
+void Progress::show(const std::string& text) {
+  if (style_ == Style::silent) return;
+  const bool terminal = style_ == Style::terminal;
+  const Clock::time_point now = Clock::now();
+  if (now - last_shown_ < (terminal ? Clock::duration(terminal_interval) : line_interval)) return;
+  last_shown_ = now;
+  if (terminal) {
+    // Back to the start, the line, and clear what an older, longer one left behind it. A line that
+    // filled a second row would leave the first behind each time.
+    fmt::print(stderr, "\r{}\x1b[K", fitted_line(text, terminal_columns()));
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+  line_open_ = terminal;
+}
+
+void Progress::say(const std::string& text) {
+  if (style_ == Style::silent) return;
+  clear_line();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Progress::clear_line() {
+  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  line_open_ = false;
+}
+
+Progress::Style progress_style(bool quiet) {
+  if (quiet) return Progress::Style::silent;
+  return isatty(STDERR_FILENO) != 0 ? Progress::Style::terminal : Progress::Style::lines;
+}
+
+}  // namespace pneuma::app

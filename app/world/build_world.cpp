@@ -1,0 +1,257 @@
+#include "app/world/build_world.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "app/world/find_model.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "sim/mesh/hash_vertices.h"
+#include "sim/mesh/measure.h"
+#include "sim/mesh/primitives.h"
+#include "sim/mesh/rotation.h"
+#include "sim/soft/equilibrium.h"
+
+namespace pneuma::app {
+namespace {
+
+using scenes::BodyKind;
+using scenes::BodyScene;
+using scenes::Shape;
+using sim::Vec3;
+using Quaternion = Eigen::Quaterniond;
+
+/// Random numbers that do not depend on the standard library: it fixes the engine's output, but not
+/// what its distributions make of it.
+class Random {
+ public:
+  /// A stream per body, so that a body's copies stay as they are when another body is added.
+  Random(std::uint64_t seed, std::size_t body)
+      : engine_(seed + (body + 1) * 0x9e3779b97f4a7c15ULL) {}
+
+  /// 0 <= value < 1, from the 53 bits that a double holds.
+  double unit() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+
+  /// Uniform in the ball of radius 1, by rejection from the cube around it.
+  Vec3 in_ball() {
+    for (;;) {
+      const double x = 2.0 * unit() - 1.0, y = 2.0 * unit() - 1.0, z = 2.0 * unit() - 1.0;
+      const Vec3 point(x, y, z);
+      if (point.squaredNorm() <= 1.0) return point;
+    }
+  }
+
+  /// Uniform over all rotations (Shoemake, Uniform random rotations, Graphics Gems III, 1992).
+  Quaternion rotation() {
+    const double share = unit();
+    const double first = 2.0 * std::numbers::pi * unit();
+    const double second = 2.0 * std::numbers::pi * unit();
+    const double a = std::sqrt(1.0 - share), b = std::sqrt(share);
+    return Quaternion(b * std::cos(second), a * std::sin(first), a * std::cos(first),
+                      b * std::sin(second));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Where a body starts: what differs between its copies.
+struct Start {
+  std::string name;
+  Vec3 position;
+  Quaternion orientation;
+};
+
+/// All copies of a body, x fastest.
+std::vector<Start> place_copies(const BodyScene& body, Random random) {
+  std::vector<Start> starts;
+  const auto [nx, ny, nz] = body.copies;
+  const bool numbered = scenes::copy_count(body) > 1;
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        Start start{body.name, body.position + body.spacing.cwiseProduct(Vec3(x, y, z)),
+                    sim::rotation_of_degrees(body.rotation)};
+        if (numbered) start.name += fmt::format(".{}", starts.size() + 1);
+        if (body.jitter > 0.0) start.position += body.jitter * random.in_ball();
+        if (body.tumble) start.orientation = random.rotation() * start.orientation;
+        starts.push_back(std::move(start));
+      }
+    }
+  }
+  return starts;
+}
+
+sim::TriangleMesh make_mesh(const scenes::Scene& scene, const BodyScene& body) {
+  switch (body.shape) {
+    case Shape::sphere:
+      return sim::make_sphere(body.radius, body.stacks, body.slices);
+    case Shape::torus:
+      return sim::make_torus(body.radius, body.tube_radius, body.stacks, body.slices);
+    case Shape::box:
+      return sim::make_box(body.size, body.divisions);
+    case Shape::icosphere:
+      return sim::make_icosphere(body.radius, body.subdivisions);
+    case Shape::model:
+      return load_model_mesh(scene, body);
+  }
+  return {};
+}
+
+[[noreturn]] void refuse(const scenes::Scene& scene, const BodyScene& body,
+                         const std::string& reason) {
+  scenes::Diagnostic diagnostic;
+  diagnostic.file = (scene.folder / (scene.name + ".toml")).string();
+  diagnostic.line = body.line;
+  diagnostic.column = 1;
+  diagnostic.message = fmt::format("body '{}': {}", body.name, reason);
+  throw scenes::SceneError({diagnostic});
+}
+
+std::uint64_t fingerprint(const sim::SoftMesh& mesh) {
+  base::Hash hash;
+  sim::add(hash, mesh.rest_positions);
+  for (const sim::Triangle& triangle : mesh.topology.triangles()) {
+    for (const int v : triangle) hash.add(v);
+  }
+  return hash.value();
+}
+
+class Builder {
+ public:
+  explicit Builder(const scenes::Scene& scene)
+      : scene_(scene), memory_gib_(scenes::estimated_memory_gib(scene)) {
+    world_.settings = scene.settings;
+  }
+
+  sim::World build() {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const BodyScene& body = scene_.bodies[i];
+      const auto starts = place_copies(body, Random(scene_.settings.seed, i));
+      if (body.kind == BodyKind::rigid) {
+        vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
+        for (const Start& start : starts) add_rigid(body, start);
+      } else {
+        const auto mesh = shared_mesh(body);
+        count(body, mesh->topology.vertex_count());
+        check_gas(body, *mesh);
+        const auto held = body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh) : mesh;
+        for (const Start& start : starts) add_soft(body, start, held);
+      }
+    }
+    return std::move(world_);
+  }
+
+ private:
+  std::shared_ptr<const sim::SoftMesh> shared_mesh(const BodyScene& body) {
+    auto& mesh = meshes_[scenes::shape_text(body)];
+    if (mesh) return mesh;
+    try {
+      mesh = sim::make_soft_mesh(make_mesh(scene_, body));
+    } catch (const sim::TopologyError& error) {
+      refuse(scene_, body, error.what());
+    }
+    return mesh;
+  }
+
+  /// Not shared with other bodies: its rest lengths depend on the material.
+  std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh) {
+    try {
+      return sim::make_soft_mesh(
+          mesh,
+          sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
+    } catch (const sim::EquilibriumError& error) {
+      refuse(scene_, body, fmt::format("rest = \"equilibrium\": {}", error.what()));
+    }
+  }
+
+  /// The scene was checked without its models.
+  void count(const BodyScene& body, std::int64_t in_body) {
+    const scenes::Limits& limits = scene_.limits;
+    vertices_ += in_body * scenes::copy_count(body);
+    if (vertices_ > limits.vertices) {
+      refuse(scene_, body,
+             fmt::format("{} vertices are more than the limit of {}; use a smaller model, ask for "
+                         "fewer copies, or raise vertices in [limits]",
+                         vertices_, limits.vertices));
+    }
+    if (body.shape != Shape::model) return;
+    memory_gib_ += scenes::estimated_memory_gib(in_body, scenes::copy_count(body));
+    if (memory_gib_ > limits.memory_gib) {
+      refuse(scene_, body,
+             fmt::format("about {} of memory are needed, more than the limit of {} GiB; "
+                         "use a smaller model, ask for fewer copies, or raise memory_gib in "
+                         "[limits]",
+                         scenes::memory_text(memory_gib_), limits.memory_gib));
+    }
+  }
+
+  /// P = nRT / V needs a volume.
+  void check_gas(const BodyScene& body, const sim::SoftMesh& mesh) const {
+    const double volume = sim::volume(mesh.topology, mesh.rest_positions);
+    if (volume > 0.0 || body.material.n * body.material.temperature == 0.0) return;
+    refuse(scene_, body,
+           fmt::format("holds gas (n = {} mol at {} K) but has a volume of {} m^3; give it a "
+                       "shape with room inside, or n = 0",
+                       body.material.n, body.material.temperature, volume));
+  }
+
+  void add_soft(const BodyScene& scene, const Start& start,
+                const std::shared_ptr<const sim::SoftMesh>& mesh) {
+    sim::SoftBody body;
+    body.name = start.name;
+    body.mesh = mesh;
+    body.material = scene.material;
+    const int count = mesh->topology.vertex_count();
+    body.positions = sim::VertexArray(count);
+    body.velocities = sim::VertexArray(count);
+    const sim::Mat3 rotation = start.orientation.toRotationMatrix();
+    for (int v = 0; v < count; ++v) {
+      const Vec3 arm = rotation * Vec3(mesh->rest_positions[v]);
+      body.positions[v] = start.position + arm;
+      body.velocities[v] = scene.velocity + scene.angular_velocity.cross(arm);
+    }
+    world_.soft.push_back(std::move(body));
+  }
+
+  void add_rigid(const BodyScene& scene, const Start& start) {
+    sim::RigidBox box;
+    box.name = start.name;
+    box.size = scene.size;
+    box.mass = scene.mass;
+    box.rho_g = scene.rho_g;
+    box.surface = scene.surface;
+    box.position = start.position;
+    box.orientation = start.orientation;
+    box.velocity = scene.velocity;
+    box.angular_velocity = scene.angular_velocity;
+    world_.rigid.push_back(std::move(box));
+  }
+
+  const scenes::Scene& scene_;
+  sim::World world_;
+  std::map<std::string, std::shared_ptr<const sim::SoftMesh>> meshes_;  // by shape_text
+  std::int64_t vertices_ = 0;
+  double memory_gib_;
+};
+
+}  // namespace
+
+sim::World build_world(const scenes::Scene& scene) { return Builder(scene).build(); }
+
+std::vector<std::uint64_t> model_fingerprints(const scenes::Scene& scene, const sim::World& world) {
+  std::vector<std::uint64_t> fingerprints;
+  std::size_t index = 0;  // of the body's first copy
+  for (const BodyScene& body : scene.bodies) {
+    if (body.kind == BodyKind::rigid) continue;
+    if (body.shape == Shape::model) fingerprints.push_back(fingerprint(*world.soft[index].mesh));
+    index += static_cast<std::size_t>(scenes::copy_count(body));
+  }
+  return fingerprints;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,22 @@
+// The model files of scenes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scenes/loader/scene.h"
+#include "sim/mesh/triangle_mesh.h"
+
+namespace pneuma::app {
+
+/// An absolute path as it is; another one from the scene file's folder, from here, or from the
+/// folder of models that come with the program: the first of them where there is such a file.
+/// Throws assets::ModelError that lists where it was looked for.
+std::filesystem::path find_model(const std::string& file,
+                                 const std::filesystem::path& scene_folder);
+
+/// The mesh of a body whose shape is a model. Throws assets::ModelError; Interrupted when the
+/// process was asked to stop during the import.
+sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body);
+
+}  // namespace pneuma::app

@@ -1,0 +1,104 @@
+#include "app/world/simulation.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/world/step_advice.h"
+
+namespace pneuma::app {
+namespace {
+
+/// Metres. A run of twenty minutes can fall 7e6 m. Further away there is nothing left to see:
+/// pictures are made of single-precision numbers, which are whole metres apart there.
+constexpr double farthest = 1e8;
+
+/// Empty for a box, and for an implicit integrator, whose steps are never too long.
+std::string cause_and_remedy(const sim::World& world, const std::string& body_name) {
+  for (const sim::SoftBody& body : world.soft) {
+    if (body.name != body_name || sim::is_implicit(world.settings.integrator)) continue;
+    const StepAdvice advice = step_advice(world, body);
+    const std::string cause =
+        advice.too_long()
+            ? fmt::format(
+                  "the step of {:.3g} s is too long: its small motions stay stable up to "
+                  "{:.3g} s",
+                  advice.step, advice.limit)
+            : fmt::format(
+                  "the step of {:.3g} s would do for small motions, but it was hit, "
+                  "stretched or pressed too hard for it",
+                  advice.step);
+    return fmt::format(". Likely {}. Use {}", cause, remedy(advice));
+  }
+  return "";
+}
+
+}  // namespace
+
+DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
+                                 const sim::World& world) {
+  const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
+  return DivergenceError(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}", scene_name,
+                                     divergence.step, time, sim::to_string(divergence.stage),
+                                     divergence.body, divergence.what,
+                                     cause_and_remedy(world, divergence.body)));
+}
+
+Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
+                       OnDivergence on_divergence)
+    : scene_name_(scene.name),
+      threads_(threads),
+      on_divergence_(on_divergence),
+      steps_per_frame_(scene.settings.steps_per_second / scene.picture.frames_per_second),
+      world_(std::move(world)),
+      stepper_(world_, {.threads = threads, .profile = true, .plan = {}}) {}
+
+void Simulation::advance_frame() {
+  step_parts_.clear();
+  for (int i = 0; i < steps_per_frame_; ++i) step();
+  for (const sim::SoftBody& body : world_.soft)
+    require_near(body.name, body.positions.rows().cwiseAbs().maxCoeff());
+  for (const sim::RigidBox& box : world_.rigid)
+    require_near(box.name, box.position.cwiseAbs().maxCoeff());
+}
+
+void Simulation::step() {
+  const auto divergence = stepper_.step(world_);
+  if (!divergence) return;
+  if (on_divergence_ == OnDivergence::substep) {
+    for (int parts = 2; parts <= greatest_step_parts; parts *= 2) {
+      if (step_in_parts(parts)) return;
+    }
+  }
+  const DivergenceError error = divergence_error(scene_name_, *divergence, world_);
+  if (on_divergence_ == OnDivergence::stop) throw error;
+  throw DivergenceError(
+      fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));
+}
+
+/// Whether the next step is valid when it is done in so many. Depends on the world alone, so that a
+/// run that is continued does the same.
+bool Simulation::step_in_parts(int parts) {
+  sim::World finer = world_;
+  finer.settings.steps_per_second *= parts;
+  finer.steps *= parts;
+  sim::Stepper stepper(finer, {.threads = threads_, .plan = {}});
+  for (int i = 0; i < parts; ++i) {
+    if (stepper.step(finer)) return false;
+  }
+  finer.settings = world_.settings;
+  finer.steps = world_.steps + 1;
+  world_ = std::move(finer);
+  step_parts_.push_back(parts);
+  return true;
+}
+
+void Simulation::require_near(const std::string& body, double distance) const {
+  if (distance < farthest) return;
+  throw DivergenceError(
+      fmt::format("{}: step {} (t = {:.4f} s): body {}: it is {:.3g} m away, too "
+                  "far to be seen",
+                  scene_name_, world_.steps, sim::time(world_), body, distance));
+}
+
+}  // namespace pneuma::app

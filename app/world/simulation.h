@@ -1,0 +1,57 @@
+// A world that advances from frame to frame.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/host/errors.h"
+#include "scenes/loader/scene.h"
+#include "sim/step/stepper.h"
+#include "sim/world/world.h"
+
+namespace pneuma::app {
+
+/// Names the scene, step, time, stage and body, what happened, its likely cause and what to do.
+/// `world`: in its last valid state.
+DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
+                                 const sim::World& world);
+
+/// What to do about a step that diverges.
+enum class OnDivergence {
+  stop,
+  substep,  // do it again in 2, 4, ... parts, up to greatest_step_parts
+};
+inline constexpr int greatest_step_parts = 1024;
+
+class Simulation {
+ public:
+  Simulation(const scenes::Scene& scene, sim::World world, int threads,
+             OnDivergence on_divergence = OnDivergence::stop);
+
+  /// The steps from one picture to the next. Throws DivergenceError, also for a body that is beyond
+  /// all reason away; the world is then in its last valid state.
+  void advance_frame();
+
+  const sim::World& world() const { return world_; }
+  const sim::Stepper& stepper() const { return stepper_; }
+  /// Of the steps to the present frame that were done in parts: in how many.
+  const std::vector<int>& step_parts() const { return step_parts_; }
+  /// The frame that shows the present state; frame 0 is the start.
+  std::int64_t frame() const { return world_.steps / steps_per_frame_; }
+
+ private:
+  void step();
+  bool step_in_parts(int parts);
+  void require_near(const std::string& body, double distance) const;
+
+  std::string scene_name_;
+  int threads_;
+  OnDivergence on_divergence_;
+  int steps_per_frame_;
+  sim::World world_;
+  sim::Stepper stepper_;
+  std::vector<int> step_parts_;
+};
+
+}  // namespace pneuma::app

@@ -1,0 +1,100 @@
+#include "app/world/step_advice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "scenes/loader/integrator_names.h"
+#include "sim/soft/stability_limit.h"
+
+namespace pneuma::app {
+namespace {
+
+/// Of the limit: what a body does in earnest is a little stiffer than small motions.
+constexpr double safe_share = 0.9;
+/// By how much shorter steps are to be where the limit does not say.
+constexpr int blind_factor = 4;
+constexpr int most_steps_per_second = 1'000'000;  // what a scene may ask for
+
+/// What makes the motion that fails first so fast.
+std::string reason(const sim::World& world, const sim::SoftBody& body,
+                   const sim::Oscillation& motion) {
+  const sim::SoftMaterial& material = body.material;
+  const std::string by = fmt::format("with {}", scenes::integrator_name(world.settings.integrator));
+  if (motion.decay > std::sqrt(motion.squared_frequency)) {
+    return fmt::format("k = {:g} N/m of k_max = {:g} N/m, rho_g = {:g} {}", material.k,
+                       material.k_max, material.rho_g, by);
+  }
+  return fmt::format("k = {:g} N/m, n = {:g} mol, vertex_mass = {:g} kg {}", material.k, material.n,
+                     material.vertex_mass, by);
+}
+
+bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
+  const auto numbers = [](const sim::SoftMaterial& m) {
+    return std::array{m.k, m.n, m.temperature, m.vertex_mass, m.rho_g, m.k_max};
+  };
+  return a.mesh == b.mesh && numbers(a.material) == numbers(b.material) &&
+         a.material.damping == b.material.damping &&
+         a.material.pressure_weighting == b.material.pressure_weighting;
+}
+
+}  // namespace
+
+StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
+  const sim::StabilityLimit limit = sim::settled_stability_limit(world.settings.integrator, body);
+  StepAdvice advice;
+  advice.body = body.name;
+  advice.step = sim::time_step(world.settings);
+  advice.limit = limit.step;
+  advice.why = reason(world, body, limit.motion);
+  advice.implicit_can = !sim::is_implicit(world.settings.integrator) &&
+                        sim::can_integrate(sim::Integrator::implicit_euler, body.material);
+  const double factor =
+      advice.too_long() ? std::ceil(advice.step / (safe_share * limit.step)) : blind_factor;
+  const double rate = factor * world.settings.steps_per_second;
+  if (rate <= most_steps_per_second) advice.steps_per_second = static_cast<int>(rate);
+  return advice;
+}
+
+std::string remedy(const StepAdvice& advice) {
+  std::vector<std::string> ways;
+  if (advice.steps_per_second > 0) {
+    const double step = 1.0 / advice.steps_per_second;
+    ways.push_back(fmt::format(
+        "a step of at most {:.3g} s for {} (--set "
+        "simulation.steps_per_second={})",
+        advice.too_long() ? safe_share * advice.limit : step, advice.why, advice.steps_per_second));
+  }
+  if (advice.implicit_can) {
+    ways.emplace_back("--set simulation.integrator=implicit_euler");
+  } else if (ways.empty()) {
+    ways.emplace_back(
+        "--set body.pressure_weighting=uniform --set simulation.integrator=implicit_euler");
+  }
+  return fmt::format("{}", fmt::join(ways, ", or "));
+}
+
+std::vector<StepAdvice> step_advices(const sim::World& world) {
+  std::vector<StepAdvice> advices;
+  std::vector<const sim::SoftBody*> known;
+  for (const sim::SoftBody& body : world.soft) {
+    const auto is_known = [&](const sim::SoftBody* other) { return alike(*other, body); };
+    if (std::any_of(known.begin(), known.end(), is_known)) continue;
+    known.push_back(&body);
+    advices.push_back(step_advice(world, body));
+  }
+  return advices;
+}
+
+std::string step_warning(const StepAdvice& advice) {
+  return fmt::format(
+      "body {}: steps of {:.3g} s are longer than the {:.3g} s up to which its small "
+      "motions stay stable; use {}",
+      advice.body, advice.step, advice.limit, remedy(advice));
+}
+
+}  // namespace pneuma::app

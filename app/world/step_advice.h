@@ -1,0 +1,37 @@
+// How long a body's steps may be, and what to do when they are longer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/world/world.h"
+
+namespace pneuma::app {
+
+struct StepAdvice {
+  std::string body;
+  double step = 0.0;          // s, of the scene
+  double limit = 0.0;         // s, of the body's small motions by the scene's integrator
+  int steps_per_second = 0;   // to try again with, a multiple of the scene's; 0: none is allowed
+  std::string why;            // "k = 1e+06 N/m, n = 1 mol, vertex_mass = 0.35 kg with rk4"
+  bool implicit_can = false;  // take over
+
+  bool too_long() const { return step > limit; }
+};
+
+/// Of a soft body as it is, and as it will be when its gas has blown it up (stability_limit.h). To
+/// try again with: steps within nine tenths of the limit; where they already are, a quarter as
+/// long.
+StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
+
+/// "a step of at most 0.0021 s for k = 90000 N/m ... with rk4 (--set
+/// simulation.steps_per_second=540), or --set simulation.integrator=implicit_euler".
+std::string remedy(const StepAdvice& advice);
+
+/// Of one body for each mesh and material: only those can differ before the first step.
+std::vector<StepAdvice> step_advices(const sim::World& world);
+
+/// A line about steps that are too long.
+std::string step_warning(const StepAdvice& advice);
+
+}  // namespace pneuma::app

@@ -1,0 +1,80 @@
+// A picture to be drawn, as plain data: the only thing the renderer is ever handed.
+// Metres, right-handed, +z up. Colours are sRGB, 0..1.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pneuma::render {
+
+using Vec3f = Eigen::Vector3f;
+using Colour = Vec3f;
+
+struct Camera {
+  Vec3f eye = {0.0f, -10.0f, 5.0f};
+  Vec3f target = Vec3f::Zero();
+  float field_of_view = 40.0f;  // degrees, vertical, 1..120
+};
+
+/// One light, far away.
+struct Light {
+  Vec3f direction = {-0.45f, 0.35f, -0.82f};  // the way it shines; any length but zero
+  float softness = 0.03f;  // width of a shadow's edge, as a fraction of the scene, 0..0.2
+  bool shadows = true;
+};
+
+/// The plane z = 0 with a grid that gives scale.
+struct Ground {
+  float grid_spacing = 1.0f;  // m between lines; every fifth is stronger
+};
+
+/// What meshes of one origin share from frame to frame; uploaded once per object.
+struct MeshShape {
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise from outside
+  std::vector<std::array<std::uint32_t, 2>> edges;      // drawn when `wireframe` is on
+  std::vector<Colour> colours;                          // per vertex
+};
+
+struct Mesh {
+  std::shared_ptr<const MeshShape> shape;
+  std::vector<Vec3f> positions;  // per vertex
+  std::vector<Vec3f> normals;    // per vertex, unit; empty for flat shading
+};
+
+/// Drawn over the surfaces, round, with a dark rim so that it stands out on any colour.
+struct Point {
+  Vec3f position;
+  Colour colour;
+  float diameter = 6.0f;       // pixels at 480 lines; scales with the picture's height
+  bool always_visible = true;  // drawn over what would hide it (faintly), or hidden by it
+};
+
+struct Line {
+  Vec3f from;
+  Vec3f to;
+  Colour colour;
+  float width = 1.5f;  // pixels at 480 lines
+};
+
+/// Lines of text in the lower left corner.
+struct Caption {
+  std::string text;  // ASCII; newlines start a new line
+};
+
+struct Frame {
+  Camera camera;
+  Light light;
+  std::optional<Ground> ground = Ground{};
+  std::vector<Mesh> meshes;
+  bool wireframe = false;  // edges over the surfaces
+  std::vector<Point> points;
+  std::vector<Line> lines;
+  std::optional<Caption> caption;
+};
+
+}  // namespace pneuma::render

@@ -1,0 +1,171 @@
+#include "scenes/loader/assign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/loader/nearest.h"
+
+namespace pneuma::scenes {
+namespace {
+
+/// Thrown and caught in this file only: the first thing wrong with a value.
+struct Refusal {
+  Complaint complaint;
+};
+
+class Assignment {
+ public:
+  Assignment(const Key& key, const Value& value) : key_(key), value_(value) {}
+
+  void operator()(std::monostate) const {}
+  void operator()(double* member) const { *member = number(value_, key_.name); }
+  void operator()(int* member) const { *member = static_cast<int>(integer(value_, key_.name)); }
+  void operator()(std::uint64_t* member) const {
+    *member = static_cast<std::uint64_t>(integer(value_, key_.name));
+  }
+  void operator()(bool* member) const { *member = flag(); }
+  void operator()(std::string* member) const { *member = text(value_); }
+  void operator()(Vec3* member) const { *member = vector(); }
+  void operator()(std::optional<double>* member) const { *member = number(value_, key_.name); }
+  void operator()(std::optional<Vec3>* member) const { *member = vector(); }
+
+  void operator()(std::array<int, 3>* member) const {
+    const Array& elements = array_of_three("whole numbers");
+    std::array<int, 3> result = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = static_cast<int>(integer(elements[i], element_name(i)));
+    }
+    *member = result;
+  }
+
+  void operator()(std::vector<std::string>* member) const {
+    const auto* elements = std::get_if<Array>(&value_.data);
+    if (elements == nullptr || elements->empty() || elements->size() > 3) {
+      refuse_type(value_, key_.name, "an array of 1 to 3 strings");
+    }
+    std::vector<std::string> result;
+    for (const Value& element : *elements) result.push_back(text(element));
+    *member = std::move(result);
+  }
+
+  void operator()(std::optional<sim::ContactMaterial>* member) const {
+    const bool present = flag();
+    if (present && !*member) *member = sim::ContactMaterial{};
+    if (!present) member->reset();
+  }
+
+  void operator()(const Word& word) const {
+    const auto* given = std::get_if<std::string>(&value_.data);
+    if (given == nullptr) refuse_type(value_, key_.name, "a word in quotes");
+    const auto found = std::find(word.words.begin(), word.words.end(), *given);
+    if (found == word.words.end()) {
+      refuse(value_, fmt::format("{}: unknown word {}{}", key_.name, in_quotes(*given),
+                                 suggestion_and_all(*given, word.words)));
+    }
+    word.set(static_cast<std::size_t>(found - word.words.begin()));
+  }
+
+ private:
+  [[noreturn]] static void refuse(const Value& value, std::string message) {
+    throw Refusal{{value.at, std::move(message)}};
+  }
+
+  [[noreturn]] static void refuse_type(const Value& value, std::string_view name,
+                                       std::string_view expected) {
+    refuse(value, fmt::format("{}: expected {}, got {}", name, expected, describe(value)));
+  }
+
+  template <class Number>
+  void check_range(const Value& value, std::string_view name, Number number) const {
+    if (key_.range.contains(static_cast<double>(number))) return;
+    const std::string unit = key_.unit.empty() ? std::string() : fmt::format(" {}", key_.unit);
+    if (!std::isfinite(static_cast<double>(number))) {
+      refuse(value, fmt::format("{} = {} is not finite; write a finite number{}", name, number,
+                                unit.empty() ? unit : " of" + unit));
+    }
+    refuse(value, fmt::format("{} = {}{} is out of range; allowed: {}{} ({})", name, number, unit,
+                              key_.range.text(key_.name), unit, key_.meaning));
+  }
+
+  double number(const Value& value, std::string_view name) const {
+    double result = 0.0;
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
+      result = static_cast<double>(*whole);
+    } else if (const auto* real = std::get_if<double>(&value.data)) {
+      result = *real;
+    } else {
+      refuse_type(value, name, "a number");
+    }
+    check_range(value, name, result);
+    return result;
+  }
+
+  std::int64_t integer(const Value& value, std::string_view name) const {
+    const auto* whole = std::get_if<std::int64_t>(&value.data);
+    if (whole == nullptr) refuse_type(value, name, "a whole number");
+    check_range(value, name, *whole);
+    return *whole;
+  }
+
+  bool flag() const {
+    const auto* result = std::get_if<bool>(&value_.data);
+    if (result == nullptr) refuse_type(value_, key_.name, "true or false");
+    return *result;
+  }
+
+  std::string text(const Value& value) const {
+    if (const auto* whole = std::get_if<std::int64_t>(&value.data); whole && key_.or_number) {
+      return fmt::format("{}", *whole);
+    }
+    const auto* result = std::get_if<std::string>(&value.data);
+    if (result == nullptr) {
+      refuse_type(value, key_.name,
+                  key_.or_number ? "a string in quotes or a whole number" : "a string in quotes");
+    }
+    const std::string reason = key_.check == nullptr ? std::string() : key_.check(*result);
+    if (!reason.empty())
+      refuse(value, fmt::format("{}: {} {}", key_.name, in_quotes(*result), reason));
+    return *result;
+  }
+
+  const Array& array_of_three(std::string_view what) const {
+    const auto* elements = std::get_if<Array>(&value_.data);
+    if (elements == nullptr || elements->size() != 3) {
+      refuse_type(value_, key_.name, fmt::format("an array of 3 {}", what));
+    }
+    return *elements;
+  }
+
+  Vec3 vector() const {
+    const Array& elements = array_of_three("numbers");
+    Vec3 result;
+    for (int i = 0; i < 3; ++i) {
+      const auto index = static_cast<std::size_t>(i);
+      result[i] = number(elements[index], element_name(index));
+    }
+    return result;
+  }
+
+  std::string element_name(std::size_t i) const {
+    constexpr std::string_view axes = "xyz";
+    return fmt::format("{} {}", key_.name, axes[i]);
+  }
+
+  const Key& key_;
+  const Value& value_;
+};
+
+}  // namespace
+
+std::optional<Complaint> assign(const Key& key, const Value& value) {
+  try {
+    std::visit(Assignment(key, value), key.slot);
+  } catch (const Refusal& refusal) {
+    return refusal.complaint;
+  }
+  return std::nullopt;
+}
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,226 @@
+#include "scenes/loader/load_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scenes/loader/check_scene.h"
+#include "scenes/loader/document.h"
+#include "scenes/loader/overrides.h"
+#include "scenes/loader/reader.h"
+#include "scenes/loader/sections.h"
+#include "scenes/loader/tables.h"
+#include "sim/base/file.h"
+
+namespace pneuma::scenes {
+namespace {
+
+/// Reads one document into one scene, which must not move while the loader exists.
+class Loader {
+ public:
+  Loader(const Table& document, Scene& scene, Report& report)
+      : document_(document), scene_(scene), report_(report), reader_(report) {}
+
+  void load() {
+    for (const SectionMaker make : section_makers()) read_section(make);
+    const std::vector<Origin> headers = read_bodies();
+    reader_.report_idle_overrides();
+    check_scene(scene_, reader_, headers, report_);
+  }
+
+ private:
+  /// Made twice, because the selectors decide which other keys apply.
+  void read_section(SectionMaker make) {
+    const Section section = make(scene_);
+    const Table* table = find_table(section.table);
+    if (table == nullptr) return;
+    reader_.read_selectors(*table, section);
+    reader_.read_others(*table, make(scene_), child_tables(section.table));
+  }
+
+  /// Null when the file leaves it out, or has something else in its place.
+  const Table* find_table(std::string_view path) {
+    const std::size_t dot = path.rfind('.');
+    const std::string_view key = dot == path.npos ? path : path.substr(dot + 1);
+    const Table* parent = &document_;
+    if (dot != path.npos) parent = tables_[path.substr(0, dot)];
+    return tables_[path] = path.empty() ? parent : table_at(parent, key, path);
+  }
+
+  const Table* table_at(const Table* parent, std::string_view key, std::string_view title) {
+    const Member* member = parent == nullptr ? nullptr : find(*parent, key);
+    if (member == nullptr) return nullptr;
+    const Table* result = std::get_if<Table>(&member->value.data);
+    if (result == nullptr) {
+      report_.add(member->at, fmt::format("{} must be a table, written [{}]; got {}", key, title,
+                                          describe(member->value)));
+    }
+    return result;
+  }
+
+  /// The places of the [[body]] lines.
+  std::vector<Origin> read_bodies() {
+    const Member* member = find(document_, "body");
+    if (member == nullptr) {
+      report_.add(whole_file, "a scene needs at least one [[body]]");
+      return {};
+    }
+    const Array* bodies = std::get_if<Array>(&member->value.data);
+    const bool only_tables =
+        bodies != nullptr && std::all_of(bodies->begin(), bodies->end(), [](const Value& value) {
+          return std::holds_alternative<Table>(value.data);
+        });
+    if (!only_tables || bodies->empty()) {
+      report_.add(member->at,
+                  "a scene needs at least one body, and each is written [[body]], with "
+                  "two brackets");
+      return {};
+    }
+    std::vector<Origin> headers;
+    scene_.bodies.resize(bodies->size());
+    for (std::size_t i = 0; i < bodies->size(); ++i) {
+      const Value& value = (*bodies)[i];
+      headers.push_back(value.at);
+      scene_.bodies[i].name = default_name(i);
+      scene_.bodies[i].line = value.at.line;
+      read_body(std::get<Table>(value.data), scene_.bodies[i]);
+    }
+    return headers;
+  }
+
+  void read_body(const Table& table, BodyScene& body) {
+    reader_.read_selectors(table, body_section(body));
+    if (body.kind == BodyKind::rigid && find(table, "shape") == nullptr) body.shape = Shape::box;
+    reader_.read_others(table, body_section(body));
+  }
+
+  const Table& document_;
+  Scene& scene_;
+  Report& report_;
+  Reader reader_;
+  std::map<std::string_view, const Table*> tables_;  // those read so far, by path
+};
+
+/// The keys of a table within a body become keys of the body: "file" in [body.model] becomes
+/// "model.file".
+Table flattened(Table body, Report& report) {
+  Table flat;
+  for (Member& member : body) {
+    auto* inner_table = std::get_if<Table>(&member.value.data);
+    if (!is_body_table(member.key)) {
+      flat.push_back(std::move(member));
+    } else if (inner_table == nullptr) {
+      report.add(member.at, fmt::format("{0} must be a table, written {0}.KEY = VALUE; got {1}",
+                                        member.key, describe(member.value)));
+    } else {
+      for (Member& inner : *inner_table) {
+        inner.key = fmt::format("{}.{}", member.key, inner.key);
+        flat.push_back(std::move(inner));
+      }
+    }
+  }
+  return flat;
+}
+
+void flatten_bodies(Table& document, Report& report) {
+  Member* member = find(document, "body");
+  auto* bodies = member == nullptr ? nullptr : std::get_if<Array>(&member->value.data);
+  if (bodies == nullptr) return;
+  for (Value& value : *bodies) {
+    if (auto* body = std::get_if<Table>(&value.data)) *body = flattened(std::move(*body), report);
+  }
+}
+
+[[noreturn]] void throw_unreadable(const std::filesystem::path& path, const std::string& why) {
+  throw SceneError({{path.string(), 0, 0, why}});
+}
+
+constexpr double bytes_per_mib = 1024.0 * 1024.0;
+
+/// The limit that holds before a file is read.
+double most_mib(std::span<const std::string> overrides) {
+  const auto raised = number_override(overrides, "limits.scene_file_mib");
+  const bool in_range = raised && *raised > 0.0 && *raised <= max_scene_file_mib;
+  return in_range ? *raised : Limits{}.scene_file_mib;  // out of range: refused with the other keys
+}
+
+std::size_t whole_bytes(double mib) { return static_cast<std::size_t>(mib * bytes_per_mib); }
+
+[[noreturn]] void refuse_size(const std::filesystem::path& path, const std::string& size,
+                              double bytes, double limit) {
+  throw_unreadable(path, fmt::format("{} are more than the limit of {} MiB for a scene file; make "
+                                     "many bodies of one [[body]] with copies, or raise the limit "
+                                     "with --set limits.scene_file_mib={}",
+                                     size, limit, std::ceil(bytes / bytes_per_mib)));
+}
+
+void check_size(const std::filesystem::path& path, std::size_t bytes, double limit) {
+  if (bytes <= whole_bytes(limit)) return;
+  refuse_size(path, fmt::format("{} bytes", bytes), static_cast<double>(bytes), limit);
+}
+
+std::string read_scene_file(const std::filesystem::path& path, double limit) {
+  try {
+    return base::read_text_file(path.string(),
+                                {.max_bytes = whole_bytes(limit), .what = "scene file"});
+  } catch (const base::FileTooLarge& error) {
+    refuse_size(path, error.size_text(), static_cast<double>(error.bytes()), limit);
+  } catch (const base::ReadError& error) {
+    throw_unreadable(path, error.reason());
+  }
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& file,
+                  std::span<const std::string> overrides) {
+  check_size(file, text.size(), most_mib(overrides));
+  Report report(file.string(), text, overrides);
+  Scene scene;
+  scene.name = file.stem().string();
+  scene.folder = file.parent_path();
+  try {
+    Table document = parse_document(text, -1);
+    flatten_bodies(document, report);
+    apply_overrides(overrides, document, report);
+    Loader(document, scene, report).load();
+    check_size(file, text.size(), scene.limits.scene_file_mib);
+  } catch (const SyntaxError& error) {
+    report.add(error.at, error.what());
+  }
+  report.throw_errors();
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  return parse_scene(read_scene_file(path, most_mib(overrides)), path, overrides);
+}
+
+std::vector<SceneInfo> list_scenes(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::vector<SceneInfo> scenes;
+  for (auto entry = std::filesystem::directory_iterator(folder, error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    if (entry->path().extension() != ".toml") continue;
+    SceneInfo info;
+    info.path = entry->path();
+    info.name = info.path.stem().string();
+    try {
+      const Scene scene = load_scene(entry->path());
+      info.title = scene.title;
+      info.figure = scene.figure;
+      info.paper_fps = scene.paper_fps;
+    } catch (const SceneError& invalid) {
+      info.error = to_string(invalid.diagnostics().front());
+    }
+    scenes.push_back(std::move(info));
+  }
+  if (error) throw_unreadable(folder, fmt::format("cannot be listed: {}", error.message()));
+  std::sort(scenes.begin(), scenes.end(),
+            [](const SceneInfo& a, const SceneInfo& b) { return a.name < b.name; });
+  return scenes;
+}
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,110 @@
+#include "scenes/loader/print_scene.h"
+
+#include <fmt/format.h>
+
+#include "scenes/loader/nearest.h"
+#include "scenes/loader/sections.h"
+#include "sim/base/hash.h"
+
+namespace pneuma::scenes {
+namespace {
+
+std::string comment(const Key& key, const std::string& value, const std::string& default_value) {
+  const bool changed = value != default_value;
+  std::string text = fmt::format("# {} ", changed ? '*' : ' ');
+  if (!key.unit.empty()) text += fmt::format("{}: ", key.unit);
+  text += key.meaning;
+  if (!changed) return text;
+  return text + (default_value.empty() ? " (not set by default)"
+                                       : fmt::format(" (default {})", default_value));
+}
+
+/// The keys that apply, as TOML lines. `defaults` is the same section of a struct as it is made.
+std::string section_text(const Section& section, const Section& defaults, bool comments) {
+  std::string text;
+  for (std::size_t i = 0; i < section.keys.size(); ++i) {
+    const Key& key = section.keys[i];
+    const std::string value = value_text(key.slot);
+    if (!key.applies || value.empty()) continue;
+    const std::string line = fmt::format("{} = {}", key.name, value);
+    if (comments) {
+      text +=
+          fmt::format("{:<36}  {}\n", line, comment(key, value, value_text(defaults.keys[i].slot)));
+    } else {
+      text += line + '\n';
+    }
+  }
+  return text;
+}
+
+/// Sections point at members that can be set, so this works on a copy.
+std::string scene_text(Scene scene, bool comments) {
+  Scene default_scene;
+  const std::vector<Section> sections = fixed_sections(scene);
+  const std::vector<Section> defaults = fixed_sections(default_scene);
+  std::string text;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (!sections[i].table.empty()) text += fmt::format("\n[{}]\n", sections[i].table);
+    text += section_text(sections[i], defaults[i], comments);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    BodyScene default_body;
+    default_body.name = default_name(i);
+    if (scene.bodies[i].kind == BodyKind::rigid) default_body.shape = Shape::box;
+    text += "\n[[body]]\n";
+    text += section_text(body_section(scene.bodies[i]), body_section(default_body), comments);
+  }
+  return text;
+}
+
+std::string key_reference(const Key& key) {
+  const std::string range = key.range.text(key.name);
+  const std::string value = value_text(key.slot);
+  std::string text = fmt::format("  {:<20}{}", key.name, key.meaning);
+  if (!key.only_for.empty()) text += fmt::format(" ({} only)", key.only_for);
+  text += fmt::format("\n  {:<20}  {}", "", type_text(key.slot));
+  if (!range.empty()) text += fmt::format(", {}", range);
+  if (!key.unit.empty()) text += fmt::format(" {}", key.unit);
+  return text + (value.empty() ? "; not set by default\n" : fmt::format("; default {}\n", value));
+}
+
+}  // namespace
+
+std::string print_scene(const Scene& scene) {
+  return fmt::format("# The effective scene {}. * marks values that are not the default.\n{}",
+                     in_quotes(scene.name), scene_text(scene, true));
+}
+
+std::uint64_t scene_fingerprint(const Scene& scene) {
+  base::Hash hash;
+  hash.add(scene_text(scene, false));
+  return hash.value();
+}
+
+std::string shape_text(const BodyScene& body) {
+  BodyScene copy = body;  // sections point at members that can be set
+  std::string text;
+  for (const Key& key : body_section(copy).keys) {
+    if (key.of_shape && key.applies)
+      text += fmt::format("{} = {}\n", key.name, value_text(key.slot));
+  }
+  return text;
+}
+
+std::string scene_reference() {
+  Scene scene;
+  BodyScene body;
+  body.name = default_name(0);
+  std::vector<Section> sections = fixed_sections(scene);
+  sections.push_back(body_section(body));
+  std::string text;
+  for (const Section& section : sections) {
+    if (!text.empty()) text += '\n';
+    text += place_of(section.table);
+    text += '\n';
+    for (const Key& key : section.keys) text += key_reference(key);
+  }
+  return text;
+}
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,140 @@
+#include "scenes/loader/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "scenes/loader/assign.h"
+#include "scenes/loader/nearest.h"
+#include "scenes/loader/other_names.h"
+#include "scenes/loader/sections.h"
+
+namespace pneuma::scenes {
+namespace {
+
+/// A key that earlier versions called otherwise; its meaning and its values are the same.
+struct RenamedKey {
+  std::string_view table, before, now;
+};
+constexpr std::array<RenamedKey, 3> renamed_keys = {{
+    {"simulation", "separation_time", "relaxation_time"},
+    {"simulation", "impulse_sweeps", "contact_iterations"},
+    {"body", "pressure", "pressure_weighting"},
+}};
+
+const RenamedKey* find_renamed(std::string_view table, std::string_view key) {
+  const auto found = std::find_if(
+      renamed_keys.begin(), renamed_keys.end(),
+      [&](const RenamedKey& renamed) { return renamed.table == table && renamed.before == key; });
+  return found == renamed_keys.end() ? nullptr : &*found;
+}
+
+/// For a key that is known, but in another table: "; it belongs in [camera]", or nothing.
+std::string belongs_elsewhere(std::string_view key) {
+  Scene scene;
+  BodyScene body;
+  std::vector<Section> sections = fixed_sections(scene);
+  sections.push_back(body_section(body));
+  for (const Section& section : sections) {
+    const bool here = std::any_of(section.keys.begin(), section.keys.end(),
+                                  [&](const Key& known) { return known.name == key; });
+    if (!here) continue;
+    return fmt::format("; it belongs {}", place_of(section.table));
+  }
+  return {};
+}
+
+bool overridden(const Table& table, const Section& section) {
+  return std::any_of(section.keys.begin(), section.keys.end(), [&](const Key& key) {
+    const Member* member = key.selects ? find(table, key.name) : nullptr;
+    return member != nullptr && member->value.at.override_index >= 0;
+  });
+}
+
+}  // namespace
+
+void Reader::read_selectors(const Table& table, const Section& section) {
+  for (const Key& key : section.keys) {
+    const Member* member = key.selects ? find(table, key.name) : nullptr;
+    if (member != nullptr) read_key(key, *member);
+  }
+}
+
+void Reader::read_others(const Table& table, const Section& section,
+                         const std::vector<std::string_view>& children) {
+  const bool selectors_overridden = overridden(table, section);
+  for (const Member& member : table) {
+    if (std::find(children.begin(), children.end(), member.key) != children.end()) continue;
+    const auto key = std::find_if(section.keys.begin(), section.keys.end(),
+                                  [&](const Key& known) { return known.name == member.key; });
+    if (key == section.keys.end()) {
+      refuse_unknown(section, member, children);
+    } else if (!key->applies) {
+      const bool from_file = member.value.at.override_index < 0;
+      if (!(selectors_overridden && from_file)) refuse_inapplicable(section, *key, member);
+    } else if (!key->selects) {
+      read_key(*key, member);
+    }
+  }
+}
+
+void Reader::read_key(const Key& key, const Member& member) {
+  const void* target = member_of(key.slot);
+  origins_[target] = member.value.at;
+  if (member.value.at.override_index >= 0) used_overrides_.insert(member.value.at.override_index);
+  if (const auto complaint = assign(key, member.value)) {
+    report_.add(complaint->at, complaint->message);
+    refused_.insert(target);
+  }
+}
+
+void Reader::refuse_inapplicable(const Section& section, const Key& key, const Member& member) {
+  const std::string only_for = fmt::format("{} applies to {} only", key.name, key.only_for);
+  if (member.where_it_applies) {
+    idle_overrides_[member.value.at.override_index] =
+        fmt::format("{}, and this scene has none", only_for);
+  } else {
+    report_.add(member.at, fmt::format("{}; this is {}", only_for, section.what));
+  }
+}
+
+void Reader::refuse_unknown(const Section& section, const Member& member,
+                            const std::vector<std::string_view>& children) {
+  if (const RenamedKey* renamed = find_renamed(section.table, member.key)) {
+    report_.add(member.at, fmt::format("{0}.{1} is now {0}.{2}", renamed->table, renamed->before,
+                                       renamed->now));
+    return;
+  }
+  std::vector<std::string_view> allowed;
+  for (const Key& key : section.keys) {
+    if (key.applies) allowed.push_back(key.name);
+  }
+  allowed.insert(allowed.end(), children.begin(), children.end());
+  std::string hint = belongs_elsewhere(member.key);
+  if (hint.empty()) hint = meant_key(member.key);
+  if (hint.empty()) hint = suggestion_and_all(member.key, allowed);
+  report_.add(member.at, fmt::format("unknown key {} {}{}", in_quotes(member.key),
+                                     place_of(section.table), hint));
+}
+
+void Reader::report_idle_overrides() {
+  for (const auto& [index, message] : idle_overrides_) {
+    if (used_overrides_.count(index) == 0) report_.add({0, 0, index}, message);
+  }
+}
+
+bool Reader::valid(std::initializer_list<const void*> members) const {
+  return std::none_of(members.begin(), members.end(),
+                      [&](const void* member) { return refused_.count(member) > 0; });
+}
+
+Origin Reader::origin(std::initializer_list<const void*> members, Origin otherwise) const {
+  for (const void* member : members) {
+    const auto found = origins_.find(member);
+    if (found != origins_.end()) return found->second;
+  }
+  return otherwise;
+}
+
+}  // namespace pneuma::scenes

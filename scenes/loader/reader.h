@@ -1,0 +1,52 @@
+// Tables of a document into the structs of a scene.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "scenes/loader/document.h"
+#include "scenes/loader/keys.h"
+
+namespace pneuma::scenes {
+
+/// Reads sections, and remembers where each member's value was written. Members are known by their
+/// addresses, so the scene must stay where it is.
+class Reader {
+ public:
+  explicit Reader(Report& report) : report_(report) {}
+
+  /// The keys that decide which others apply. Make the section again afterwards.
+  void read_selectors(const Table& table, const Section& section);
+
+  /// All other keys. `children` are the tables within this one. A key that does not apply is an
+  /// error, unless an override of this table's selectors is what made it so.
+  void read_others(const Table& table, const Section& section,
+                   const std::vector<std::string_view>& children = {});
+
+  /// Overrides of every body to which a key applies, that met none.
+  void report_idle_overrides();
+
+  /// False when the value of one of the members was refused: checks across keys then say nothing.
+  bool valid(std::initializer_list<const void*> members) const;
+
+  /// Where the first of the members that was given a value got it; `otherwise` when none was.
+  Origin origin(std::initializer_list<const void*> members, Origin otherwise) const;
+
+ private:
+  void read_key(const Key& key, const Member& member);
+  void refuse_inapplicable(const Section& section, const Key& key, const Member& member);
+  void refuse_unknown(const Section& section, const Member& member,
+                      const std::vector<std::string_view>& children);
+
+  Report& report_;
+  std::map<const void*, Origin> origins_;
+  std::set<const void*> refused_;
+  std::map<int, std::string> idle_overrides_;  // the message if it stays idle
+  std::set<int> used_overrides_;
+};
+
+}  // namespace pneuma::scenes

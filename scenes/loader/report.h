@@ -1,0 +1,58 @@
+// Collects the errors of one scene.
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::scenes {
+
+/// Where something was written: a place in the file, or an override.
+struct Origin {
+  int line = 0;
+  int column = 0;
+  int override_index = -1;     // -1: in the file
+  bool of_whole_file = false;  // the line is a place to jump to and not to blame
+};
+
+/// What no line of the file is to blame for.
+inline constexpr Origin whole_file = {1, 1, -1, true};
+
+/// A text that is not the TOML of a scene file.
+struct SyntaxError : std::runtime_error {
+  SyntaxError(Origin origin, const std::string& message)
+      : std::runtime_error(message), at(origin) {}
+  Origin at;
+};
+
+class Report {
+ public:
+  /// `text`, the file's, and `overrides` must outlive the report.
+  Report(std::string file, std::string_view text, std::span<const std::string> overrides);
+
+  void add(Origin origin, std::string message);
+  bool empty() const { return entries_.empty(); }
+  bool blames_override(int override_index) const;
+
+  /// Throws SceneError with everything added, in order, the first of each override, if anything
+  /// was.
+  void throw_errors();
+
+ private:
+  struct Entry {
+    Origin origin;
+    std::string message;
+  };
+  Diagnostic diagnostic(const Entry& entry) const;
+
+  std::string file_;
+  std::string_view text_;
+  std::span<const std::string> overrides_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,152 @@
+// A scene as plain data: what a scene file says, with every default filled in.
+// Simulation settings and materials are the simulation's own structs, so that a default is written
+// once. The keys that set these members, with their ranges, are in sections.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/world/world.h"
+
+namespace pneuma::scenes {
+
+using sim::Vec3;
+
+enum class BodyKind { soft, rigid };
+enum class Shape { sphere, torus, box, icosphere, model };
+
+/// When a soft body's springs are at rest.
+enum class Rest {
+  shape,        // in the shape as it is made: the gas then blows it up
+  equilibrium,  // with tensions in them that hold the shape against its gas
+                // (sim/soft/equilibrium.h)
+};
+
+/// A triangle model from a file of anyone's.
+struct ModelScene {
+  std::string file;              // beside the scene file, or as app/world/find_model.h says
+  std::string component;         // which, by name or number from 1; empty: the only closed one
+  double scale = 1.0;            // m per unit of the file
+  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z: how the model is set up
+  bool centre = true;            // the middle of its bounding box is its centre, else its origin
+};
+
+/// One body, or a block of copies of it.
+struct BodyScene {
+  int line = 0;      // of its [[body]] in the scene file, from 1; 0: it is of no file
+  std::string name;  // unique; by default "body1", "body2", ...
+  BodyKind kind = BodyKind::soft;
+
+  Shape shape = Shape::sphere;  // a rigid body is always a box
+  double radius = 3.0;          // m: sphere, icosphere; of a torus the centre line
+  double tube_radius = 1.0;     // m: torus
+  int stacks = 8;               // sphere, torus
+  int slices = 8;               // sphere, torus
+  int subdivisions = 2;         // icosphere
+  int divisions = 4;            // soft box: squares along each side of a face
+  Vec3 size = {2.0, 2.0, 2.0};  // m: box
+  ModelScene model;             // model
+
+  Rest rest = Rest::shape;     // soft
+  sim::SoftMaterial material;  // soft
+
+  double mass = sim::RigidBox{}.mass;    // kg: rigid
+  double rho_g = sim::RigidBox{}.rho_g;  // rigid; a soft body's is in its material
+  sim::ContactMaterial surface;          // likewise
+
+  Vec3 position = Vec3::Zero();          // m, of the shape's centre
+  Vec3 rotation = Vec3::Zero();          // degrees about world x, then y, then z
+  Vec3 velocity = Vec3::Zero();          // m/s
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
+
+  std::array<int, 3> copies = {1, 1, 1};  // along x, y, z
+  Vec3 spacing = {3.0, 3.0, 3.0};         // m between copies
+  double jitter = 0.0;  // m: each copy's position is moved by up to this, from the seed
+  bool tumble = false;  // each copy starts turned at random, from the seed
+
+  // "#rrggbb". One: plain; two: along colour_axis; three: along body x, y and z.
+  std::vector<std::string> colours = {"#6b8e23", "#d9381e"};
+  Vec3 colour_axis = {0.3, 0.0, 1.0};
+};
+
+/// Without an eye and a target the camera is placed so that every body is in view over the whole
+/// run.
+struct CameraScene {
+  std::optional<Vec3> eye;      // m
+  std::optional<Vec3> target;   // m
+  double azimuth = -60.0;       // degrees from +x towards +y: where an automatic camera stands
+  double elevation = 22.0;      // degrees above the horizon
+  double field_of_view = 35.0;  // degrees, vertical
+};
+
+struct PictureScene {
+  int width = 1280;
+  int height = 720;
+  int frames_per_second = 30;  // divides the steps per second
+  int samples = 4;
+  bool shadows = true;
+  bool caption = true;
+  bool grid = true;  // draw the ground plane with its grid, where the scene has a ground
+};
+
+/// What a scene may ask for at most, so that a slip of the pen does not fill the memory or run for
+/// days. A scene that means it raises them.
+struct Limits {
+  int bodies = 20'000;  // counted with copies
+  int vertices_per_body = 100'000;
+  int vertices = 2'000'000;      // of all bodies, counted with copies
+  int frames = 36'000;           // twenty minutes at 30 frames per second
+  double memory_gib = 4.0;       // GiB, as estimated by estimated_memory_gib
+  int picture_side = 8192;       // pixels
+  double model_file_mib = 64.0;  // MiB, of each model with the files that belong to it
+  // MiB, of the scene file itself; the paper's take about 2 KiB. It is enforced before the file's
+  // own keys are read, so only an override can raise it, and the file only lower it.
+  double scene_file_mib = 1.0;
+};
+
+/// Pixels along a side of the largest picture that the renderer makes.
+inline constexpr int greatest_picture_side = 16384;
+
+/// MiB to which the limit of scene files can be raised.
+inline constexpr double max_scene_file_mib = 1024.0;
+
+struct Scene {
+  std::string name;  // the file's name without its ending: frames are called NAME_00042.png
+  std::filesystem::path folder;  // of the scene file
+  std::string title;
+  std::string figure;               // the paper's figure or benchmark row, as people call it
+  std::optional<double> paper_fps;  // what the paper measured
+  double duration = 10.0;           // s; a whole number of frames
+
+  sim::Settings settings;
+  std::vector<BodyScene> bodies;
+  CameraScene camera;
+  PictureScene picture;
+  Limits limits;
+};
+
+/// Vertices of one copy; a rigid box has 8. 0 for a model: only its file knows, and it is read when
+/// the world is built, which checks the limits again.
+std::int64_t vertex_count(const BodyScene& body);
+
+/// How many bodies the copies make.
+std::int64_t copy_count(const BodyScene& body);
+
+/// Frames of the whole run, without the one at time zero.
+std::int64_t frame_count(const Scene& scene);
+
+/// A rough estimate, from the sizes of meshes, state and picture: within a factor of two or so.
+/// Without models.
+double estimated_memory_gib(const Scene& scene);
+
+/// The part of one body of so many vertices and copies.
+double estimated_memory_gib(std::int64_t vertices, std::int64_t copies);
+
+/// For messages: two decimals, rounded up, so that what is above a limit reads as above it.
+std::string memory_text(double gib);
+
+}  // namespace pneuma::scenes

@@ -1,0 +1,20 @@
+// The tables of a scene file by name, as the sections give them.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace pneuma::scenes {
+
+/// Every table but [[body]], with its path: "simulation", "simulation.particles", "ground", ...
+const std::vector<std::string_view>& table_names();
+
+/// The tables directly within one: "particles" within "simulation"; "body" among those within "".
+std::vector<std::string_view> child_tables(std::string_view table);
+
+/// The tables within a [[body]]. They are for people only: to the loader "model.file" is one key of
+/// the body.
+const std::vector<std::string_view>& body_tables();
+bool is_body_table(std::string_view name);
+
+}  // namespace pneuma::scenes

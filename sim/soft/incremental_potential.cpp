@@ -1,0 +1,160 @@
+#include "sim/soft/incremental_potential.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/mesh/rotation.h"
+#include "sim/soft/pressure_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Mat2 = Eigen::Matrix2d;
+
+/// Sliding friction as a potential: its force grows with the slide u up to the
+/// regularisation length, and is the friction bound from there on (Li et al., Incremental Potential
+/// Contact, 2020, section 5.2, with the simplest function that does so).
+double friction_energy(const IncrementalPotential& energy, const VertexArray& positions) {
+  double sum = 0.0;
+  for (int v = 0; v < positions.size(); ++v) {
+    if (energy.friction_bound[at(v)] == 0.0) continue;
+    const double u = slide(energy, positions, v).norm();
+    sum += energy.friction_bound[at(v)] * (u < energy.regularisation_length
+                                               ? 0.5 * u * u / energy.regularisation_length
+                                               : u - 0.5 * energy.regularisation_length);
+  }
+  return sum;
+}
+
+void add_friction_gradient(const IncrementalPotential& energy, const VertexArray& positions,
+                           VertexArray& gradient) {
+  for (int v = 0; v < positions.size(); ++v) {
+    if (energy.friction_bound[at(v)] == 0.0) continue;
+    const Vec2 u = slide(energy, positions, v);
+    gradient[v].head<2>() +=
+        energy.friction_bound[at(v)] / std::max(u.norm(), energy.regularisation_length) * u;
+  }
+}
+
+void add_friction_hessian(const IncrementalPotential& energy, const VertexArray& positions,
+                          VertexMatrix& hessian) {
+  for (int v = 0; v < positions.size(); ++v) {
+    if (energy.friction_bound[at(v)] == 0.0) continue;
+    const Vec2 u = slide(energy, positions, v);
+    const double size = u.norm();
+    Mat2 block = Mat2::Identity();
+    if (size >= energy.regularisation_length) block -= u * u.transpose() / (size * size);
+    Mat3 whole = Mat3::Zero();
+    whole.topLeftCorner<2, 2>() =
+        energy.friction_bound[at(v)] / std::max(size, energy.regularisation_length) * block;
+    hessian.add(v, whole);
+  }
+}
+
+/// Of s/2 (l - r)^2 in the ends' own rows and columns, and negative between them: stiff along the
+/// spring, across it by as much as the spring is stretched. A spring of no length has no direction.
+Mat3 spring_hessian(const Vec3& edge, double length, double stiffness, double rest_length) {
+  if (!(length > 0.0)) return stiffness * Mat3::Identity();
+  const double across = 1.0 - rest_length / length;
+  const Vec3 d = edge / length;
+  return stiffness * (across * Mat3::Identity() + (1.0 - across) * d * d.transpose());
+}
+
+}  // namespace
+
+IncrementalPotential::IncrementalPotential(const SoftMesh& mesh)
+    : target(mesh.topology.vertex_count()),
+      rest_lengths(mesh.rest_lengths.size()),
+      floor(at(mesh.topology.vertex_count())),
+      friction_anchor(mesh.topology.vertex_count()),
+      anchored(at(mesh.topology.vertex_count())),
+      friction_bound(at(mesh.topology.vertex_count())) {}
+
+EnergyPoint::EnergyPoint(const SoftMesh& mesh)
+    : positions(mesh.topology.vertex_count()),
+      lengths(mesh.rest_lengths.size()),
+      volume_gradient(mesh.topology.vertex_count()) {}
+
+bool evaluate(const SoftMesh& mesh, const IncrementalPotential& energy, EnergyPoint& point) {
+  const auto& x = point.positions.rows();
+  const auto& edges = mesh.topology.edges();
+  double squares = 0.0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    point.lengths[e] = (x.col(edges[e][1]) - x.col(edges[e][0])).norm();
+    squares += std::pow(point.lengths[e] - energy.rest_lengths[e], 2);
+  }
+  point.energy = 0.5 * energy.inertia * (x - energy.target.rows()).squaredNorm() +
+                 0.5 * energy.stiffness * squares;
+  if (energy.friction) point.energy += friction_energy(energy, point.positions);
+  point.magnitude = point.energy;
+  point.volume = 1.0;
+  if (energy.gas > 0.0) {
+    volume_gradient(mesh.topology, point.positions, point.volume_gradient);
+    point.volume = volume(point.positions, point.volume_gradient);
+    if (!(point.volume > volume_rounding(point.positions, point.volume_gradient))) return false;
+    const double gas = -energy.gas * std::log(point.volume);
+    point.energy += gas;
+    point.magnitude += std::abs(gas);
+  }
+  return std::isfinite(point.energy);
+}
+
+double pressure(const IncrementalPotential& energy, const EnergyPoint& point) {
+  return energy.gas > 0.0 ? energy.gas / point.volume : 0.0;
+}
+
+void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& energy,
+                          const EnergyPoint& point, VertexArray& gradient) {
+  const auto& x = point.positions.rows();
+  auto& g = gradient.rows();
+  g.noalias() = energy.inertia * (x - energy.target.rows());
+  const auto& edges = mesh.topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const double length = point.lengths[e];
+    if (!(length > 0.0)) continue;  // no direction: as in spring_force.h, no force
+    const auto& [a, b] = edges[e];
+    const double s = energy.stiffness * (length - energy.rest_lengths[e]) / length;
+    const Eigen::Vector4d pull = s * (x.col(b) - x.col(a));
+    g.col(a) -= pull;
+    g.col(b) += pull;
+  }
+  if (energy.friction) add_friction_gradient(energy, point.positions, gradient);
+}
+
+std::vector<std::array<int, 2>> opposite_vertices(const MeshTopology& topology) {
+  std::vector<std::array<int, 2>> opposite(at(topology.edge_count()));
+  for (int t = 0; t < topology.triangle_count(); ++t) {
+    const Triangle& corners = topology.triangles()[at(t)];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int edge = topology.triangle_edges()[at(t)][i];
+      const bool forwards = topology.edges()[at(edge)][0] == corners[i];
+      opposite[at(edge)][forwards ? 0 : 1] = corners[(i + 2) % 3];
+    }
+  }
+  return opposite;
+}
+
+void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& energy,
+                              const EnergyPoint& point,
+                              const std::vector<std::array<int, 2>>& opposite,
+                              VertexMatrix& hessian) {
+  const VertexArray& x = point.positions;
+  hessian.set_identity(energy.inertia);
+  const auto& edges = mesh.topology.edges();
+  // V = sum of a . (b x c) / 6 is linear in each vertex. In b, the gradient b x c / 6 at a changes
+  // by u x c / 6 with u: of an edge with c and c' across it, d^2V/da db u = u x (c - c') / 6.
+  const double sixth_pressure = pressure(energy, point) / 6.0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& [a, b] = edges[e];
+    const Mat3 spring =
+        spring_hessian(x[b] - x[a], point.lengths[e], energy.stiffness, energy.rest_lengths[e]);
+    const Vec3 across = x[opposite[e][0]] - x[opposite[e][1]];
+    hessian.add(a, spring);
+    hessian.add(b, spring);
+    hessian.add_between(static_cast<int>(e), sixth_pressure * cross_matrix(across) - spring);
+  }
+  if (energy.friction) add_friction_hessian(energy, x, hessian);
+}
+
+}  // namespace pneuma::sim

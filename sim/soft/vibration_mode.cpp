@@ -1,0 +1,130 @@
+#include "sim/soft/vibration_mode.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sim/soft/damping.h"
+#include "sim/soft/incremental_potential.h"
+#include "sim/soft/pressure_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+using Eigen::VectorXd;
+
+/// Lanczos vectors. The largest eigenvalue, at the end of a spectrum that thins out there, is then
+/// known to a fraction of a percent.
+constexpr int max_subspace = 40;
+
+VectorXd random_direction(Eigen::Index size) {
+  std::mt19937_64 random(1);
+  VectorXd result(size);
+  for (double& value : result) value = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
+  return result.normalized();
+}
+
+/// The eigenvector of the largest eigenvalue of a symmetric operator, by Lanczos' method with all
+/// vectors kept orthogonal.
+template <class Operator>
+VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
+  const auto count = std::min<Eigen::Index>(size, max_subspace);
+  Eigen::MatrixXd basis(size, count);
+  VectorXd diagonal(count), off_diagonal(count);
+  VectorXd next = random_direction(size);
+  Eigen::Index used = 0;
+  while (used < count) {
+    basis.col(used) = next;
+    next = apply(VectorXd(basis.col(used)));
+    diagonal[used] = basis.col(used).dot(next);
+    ++used;
+    for (int twice = 0; twice < 2; ++twice) {
+      next -= basis.leftCols(used) * (basis.leftCols(used).transpose() * next);
+    }
+    off_diagonal[used - 1] = next.norm();
+    if (!(off_diagonal[used - 1] > 1e-12 * std::abs(diagonal.head(used).maxCoeff()))) break;
+    next /= off_diagonal[used - 1];
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal.head(used), off_diagonal.head(used - 1));
+  return basis.leftCols(used) * solver.eigenvectors().col(used - 1);
+}
+
+}  // namespace
+
+VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
+                             const VertexArray& positions)
+    : mesh_(mesh),
+      stiffness_(material.k / material.vertex_mass),
+      dashpot_(dashpot_constant(material) / material.vertex_mass),
+      drag_(drag_rate(material)),
+      pressure_(0.0),
+      rank_one_(0.0),
+      area_(positions.size()) {
+  const auto opposite = opposite_vertices(mesh.topology);
+  for (int e = 0; e < mesh.topology.edge_count(); ++e) {
+    const auto& [a, b] = mesh.topology.edges()[at(e)];
+    const Vec3 edge = positions[b] - positions[a];
+    const double length = edge.norm();
+    directions_.push_back(length > 0.0 ? Vec3(edge / length) : Vec3(Vec3::Zero()));
+    stretch_.push_back(length > 0.0 ? 1.0 - mesh.rest_lengths[at(e)] / length : 0.0);
+    across_.push_back(positions[opposite[at(e)][0]] - positions[opposite[at(e)][1]]);
+  }
+  if (gas_strength(material) == 0.0) return;
+  volume_gradient(mesh.topology, positions, area_);
+  const double v = volume(positions, area_);
+  if (!(v > 0.0)) return;  // the law of gases says nothing then
+  pressure_ = gas_strength(material) / v / material.vertex_mass;
+  rank_one_ = pressure_ / v;
+}
+
+/// Springs, and `weight` times the dashpots, which act along them alone.
+void VibrationMode::add_springs(const VectorXd& u, double weight, VectorXd& result) const {
+  for (int e = 0; e < mesh_.topology.edge_count(); ++e) {
+    const auto& [a, b] = mesh_.topology.edges()[at(e)];
+    const Vec3 change = u.segment<3>(3 * b) - u.segment<3>(3 * a);
+    const double across = stiffness_ * stretch_[at(e)];
+    const double along = stiffness_ - across + weight * dashpot_;
+    const Vec3& d = directions_[at(e)];
+    const Vec3 force = across * change + along * d.dot(change) * d;
+    result.segment<3>(3 * b) += force;
+    result.segment<3>(3 * a) -= force;
+  }
+}
+
+/// -P d^2V/dx^2 (incremental_potential.cpp) and P/V dV/dx dV/dx^T.
+void VibrationMode::add_gas(const VectorXd& u, VectorXd& result) const {
+  if (pressure_ == 0.0) return;
+  double change = 0.0;
+  for (int v = 0; v < area_.size(); ++v) change += area_[v].dot(u.segment<3>(3 * v));
+  for (int v = 0; v < area_.size(); ++v) {
+    result.segment<3>(3 * v) += rank_one_ * change * area_[v];
+  }
+  for (int e = 0; e < mesh_.topology.edge_count(); ++e) {
+    const auto& [a, b] = mesh_.topology.edges()[at(e)];
+    const Vec3 turn = pressure_ / 6.0 * across_[at(e)];
+    result.segment<3>(3 * a) += turn.cross(Vec3(u.segment<3>(3 * b)));
+    result.segment<3>(3 * b) -= turn.cross(Vec3(u.segment<3>(3 * a)));
+  }
+}
+
+VectorXd VibrationMode::fastest(double weight) const {
+  return max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
+    VectorXd result = weight * drag_ * u;
+    add_springs(u, weight, result);
+    add_gas(u, result);
+    return result;
+  });
+}
+
+Oscillation VibrationMode::along(const VectorXd& u) const {
+  VectorXd stiff = VectorXd::Zero(u.size()), both = VectorXd::Zero(u.size());
+  add_springs(u, 0.0, stiff);
+  add_springs(u, 1.0, both);
+  const double damped = u.dot(both - stiff) + drag_;
+  add_gas(u, stiff);
+  return {std::max(0.0, u.dot(stiff)), damped};
+}
+
+}  // namespace pneuma::sim

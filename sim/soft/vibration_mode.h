@@ -1,0 +1,46 @@
+// Vibration modes: small motions of a body about a state of rest:
+//
+//   u'' = -K u - D u',    m K = d^2E/dx^2 of springs and gas,    m D = dashpots and drag.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sim/mesh/soft_mesh.h"
+#include "sim/world/soft_body.h"
+
+namespace pneuma::sim {
+
+/// A motion x'' = -frequency^2 x - decay x'.
+struct Oscillation {
+  double squared_frequency = 0.0;  // rad^2/s^2; not below 0
+  double decay = 0.0;              // 1/s
+};
+
+class VibrationMode {
+ public:
+  /// The pressure is taken as uniform: `valence` shifts it by the tenth part or so between
+  /// vertices. Refers to the mesh, which must outlive it.
+  VibrationMode(const SoftMesh& mesh, const SoftMaterial& material, const VertexArray& positions);
+
+  /// The motion u of the largest u.K u + weight u.D u, of size 1.
+  Eigen::VectorXd fastest(double weight) const;
+  /// Of the motion along u alone, a vector of size 1.
+  Oscillation along(const Eigen::VectorXd& u) const;
+
+ private:
+  void add_springs(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
+  void add_gas(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;
+
+  const SoftMesh& mesh_;
+  double stiffness_;              // k / m, 1/s^2
+  double dashpot_;                // c / m, 1/s
+  double drag_;                   // 1/s
+  double pressure_;               // P / m, 1/(m s^2)
+  double rank_one_;               // P / (V m), 1/(m^4 s^2)
+  std::vector<Vec3> directions_;  // of the edges
+  std::vector<double> stretch_;   // of the edges: 1 - L / l
+  std::vector<Vec3> across_;      // m, of the edges: between the vertices on their two sides
+  VertexArray area_;              // dV/dx, m^2
+};
+
+}  // namespace pneuma::sim

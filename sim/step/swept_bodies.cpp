@@ -1,0 +1,176 @@
+#include "sim/step/swept_bodies.h"
+
+#include <algorithm>
+#include <map>
+
+#include "sim/mesh/primitives.h"
+#include "sim/step/stages.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// At most, of the mean edge of a soft body, and of the shortest side of a box: too thin to be
+/// seen, and thick enough that directions between surfaces keep their digits.
+constexpr double skin_of_edge = 0.01;
+constexpr double skin_of_side = 0.0025;
+
+/// A way's box is this many skins larger: surfaces are found before they are too near.
+constexpr double skins_around = 1.5;
+
+}  // namespace
+
+SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(world.soft.size())) {
+  const double skin = world.settings.skin_thickness;
+  std::map<const SoftMesh*, std::shared_ptr<const SurfaceTree>> trees;
+  for (const SoftBody& body : world.soft) {
+    std::shared_ptr<const SurfaceTree>& tree = trees[body.mesh.get()];
+    if (!tree) {
+      tree = std::make_shared<SurfaceTree>(body.mesh->topology, body.mesh->rest_positions, false);
+    }
+    surfaces_.push_back({.tree = tree, .start = {}, .end = {}, .boxes = {}, .ways = {}});
+    skins_.push_back(std::min(skin, skin_of_edge * tree->mean_edge()));
+    changes_.emplace_back(body.positions.size());
+  }
+  for (const RigidBox& box : world.rigid) {
+    const TriangleMesh mesh = make_box(box.size, 1);
+    corners_.push_back(to_vertex_array(mesh.vertices));
+    boxes_.push_back(std::make_unique<const MeshTopology>(static_cast<int>(mesh.vertices.size()),
+                                                          mesh.triangles));
+    auto tree = std::make_shared<SurfaceTree>(*boxes_.back(), corners_.back(), true);
+    const VertexArray none(corners_.back().size());
+    surfaces_.push_back({.tree = tree, .start = none, .end = none, .boxes = {}, .ways = {}});
+    skins_.push_back(std::min(skin, skin_of_side * box.size.minCoeff()));
+  }
+}
+
+void SweptBodies::set_start(const World& world, const MotionStart& start) {
+  moved_again_.assign(world.soft.size(), 0);
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    surfaces_[i].start = start.soft[i].positions;
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const RigidStart& box = start.rigid[i];
+    VertexArray& positions = surfaces_[at(soft_count_) + i].start;
+    for (int v = 0; v < corners_[i].size(); ++v) {
+      positions[v] = box.position + box.orientation * Vec3(corners_[i][v]);
+    }
+  }
+}
+
+void SweptBodies::set_end(const World& world) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) surfaces_[i].end = world.soft[i].positions;
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const RigidBox& box = world.rigid[i];
+    VertexArray& positions = surfaces_[at(soft_count_) + i].end;
+    for (int v = 0; v < corners_[i].size(); ++v) {
+      positions[v] = box.position + box.orientation * Vec3(corners_[i][v]);
+    }
+  }
+}
+
+void SweptBodies::clear_changes(const World& world, const MotionStart* start) {
+  for (VertexArray& changes : changes_) changes.rows().setZero();
+  box_changes_.clear();
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const RigidBox& box = world.rigid[i];
+    box_changes_.push_back(
+        start ? make_box_change(box, start->rigid[i].position, start->rigid[i].orientation)
+              : make_box_change(box, box.position, box.orientation));
+  }
+}
+
+void SweptBodies::find_near_bodies(std::vector<BodyPair>& pairs) {
+  spheres_.clear();
+  for (int i = 0; i < count(); ++i) {
+    MovingSurface& surface = surfaces_[at(i)];
+    refit(surface, skins_around * skin(i));
+    const Bounds& around = surface.boxes.front();
+    spheres_.push_back({around.centre(), 0.5 * around.size().norm()});
+  }
+  sweep_and_prune_.find(spheres_, pairs);
+}
+
+std::span<const int> SweptBodies::vertices(const SurfacePoint& point) const {
+  return surface(point.body).tree->topology().feature_vertices(point.feature);
+}
+
+SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
+  if (point.body == swept_ground) return {};
+  if (is_rigid(point.body)) return {box_changes_[at(box(point.body))], point.point};
+  return {changes_[at(point.body)], vertices(point), point.weights,
+          world.soft[at(point.body)].material.vertex_mass};
+}
+
+Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
+                               const SurfacePoint& point) const {
+  if (point.body == swept_ground) return Vec3::Zero();
+  if (is_rigid(point.body)) {
+    const RigidBox& now = world.rigid[at(box(point.body))];
+    const RigidStart& before = start.rigid[at(box(point.body))];
+    const Vec3 local = before.orientation.conjugate() * (point.point - before.position);
+    return now.position + now.orientation * local - point.point;
+  }
+  const MovingSurface& moving = surface(point.body);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; const int v : vertices(point)) {
+    sum += point.weights[i++] * (moving.end[v] - moving.start[v]);
+  }
+  return sum;
+}
+
+Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& point) const {
+  if (point.body == swept_ground) return Vec3::Zero();
+  if (is_rigid(point.body)) {
+    const RigidStart& before = start.rigid[at(box(point.body))];
+    return before.velocity + before.angular_velocity.cross(point.point - before.position);
+  }
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; const int v : vertices(point)) {
+    sum += point.weights[i++] * start.soft[at(point.body)].velocities[v];
+  }
+  return sum;
+}
+
+Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) const {
+  if (point.body == swept_ground) return Vec3::Zero();
+  if (is_rigid(point.body)) {
+    const RigidBox& now = world.rigid[at(box(point.body))];
+    return now.velocity + now.angular_velocity.cross(point.point - now.position);
+  }
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; const int v : vertices(point)) {
+    sum += point.weights[i++] * world.soft[at(point.body)].velocities[v];
+  }
+  return sum;
+}
+
+std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
+                                                  IntegrateSoftMemory& integrate_soft) {
+  for (int i = 0; i < soft_count_; ++i) {
+    if (moved_again_[at(i)] == 0 && changes_[at(i)].rows().isZero(0.0)) continue;
+    moved_again_[at(i)] = 1;
+    kicked_.positions = start.soft[at(i)].positions;
+    kicked_.velocities = start.soft[at(i)].velocities;
+    kicked_.velocities.rows() += changes_[at(i)].rows();
+    if (auto failed = integrate_soft_again(world, i, kicked_, integrate_soft, 0)) return failed;
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    RigidStart kicked = start.rigid[i];
+    kicked.velocity += box_changes_[i].velocity;
+    kicked.angular_velocity += box_changes_[i].angular_velocity;
+    if (auto failed = integrate_rigid_again(world, static_cast<int>(i), kicked)) return failed;
+  }
+  return std::nullopt;
+}
+
+void SweptBodies::add_changes(World& world) const {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    world.soft[i].velocities.rows() += changes_[i].rows();
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    world.rigid[i].velocity += box_changes_[i].velocity;
+    world.rigid[i].angular_velocity += box_changes_[i].angular_velocity;
+  }
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,80 @@
+// The bodies of a world as surfaces that move through a step and that impulses act on. Private to
+// sim/step.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/collision/sweep_and_prune.h"
+#include "sim/step/stage_memory.h"
+#include "sim/swept/moving_surface.h"
+#include "sim/swept/swept_impulse.h"
+
+namespace pneuma::sim {
+
+/// A point of a body: where a feature of its surface is nearest to another body.
+struct SurfacePoint {
+  int body = 0;  // soft bodies, then boxes; or the ground
+  Feature feature;
+  FeatureWeights weights{};
+  Vec3 point = Vec3::Zero();  // m
+};
+inline constexpr int swept_ground = -1;  // in place of a body: nothing moves it
+
+class SweptBodies {
+ public:
+  explicit SweptBodies(const World& world);
+
+  int count() const { return static_cast<int>(surfaces_.size()); }
+  bool is_rigid(int body) const { return body >= soft_count_; }
+  /// Index into World::rigid.
+  int box(int body) const { return body - soft_count_; }
+  const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
+  /// m, half of what bodies of this kind keep between their surfaces.
+  double skin(int body) const { return skins_[at(body)]; }
+  double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
+
+  /// Where the surfaces are at the start of a step, and at its end.
+  void set_start(const World& world, const MotionStart& start);
+  void set_end(const World& world);
+
+  /// Forgets the changes of velocity. Impulses will act at the start or at the end of the step.
+  void clear_changes(const World& world, const MotionStart* start);
+
+  /// Fills `pairs` with the bodies whose ways come near each other.
+  void find_near_bodies(std::vector<BodyPair>& pairs);
+
+  SweptSide side(const World& world, const SurfacePoint& point);
+  /// m, from the start of the step to its end.
+  Vec3 displacement(const World& world, const MotionStart& start, const SurfacePoint& point) const;
+  /// m/s.
+  Vec3 start_velocity(const MotionStart& start, const SurfacePoint& point) const;
+  Vec3 end_velocity(const World& world, const SurfacePoint& point) const;
+
+  /// Moves the bodies that impulses have changed once more, from their start with other velocities.
+  std::optional<Divergence> move_again(World& world, const MotionStart& start,
+                                       IntegrateSoftMemory& integrate_soft);
+  /// Adds the changes to the velocities at the end of the step.
+  void add_changes(World& world) const;
+
+ private:
+  std::span<const int> vertices(const SurfacePoint& point) const;
+
+  int soft_count_ = 0;
+  std::vector<MovingSurface> surfaces_;
+  std::vector<double> skins_;
+  std::vector<VertexArray> corners_;                        // of the boxes, in their own axes, m
+  std::vector<std::unique_ptr<const MeshTopology>> boxes_;  // their triangles
+  std::vector<VertexArray> changes_;                        // m/s, per soft body
+  std::vector<BoxChange> box_changes_;
+  std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
+  SoftState kicked_;
+  std::vector<BoundingSphere> spheres_;
+  SweepAndPrune sweep_and_prune_;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,286 @@
+#include "sim/step/swept_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/step/find_divergence.h"
+#include "sim/step/stage_runner.h"
+#include "sim/step/stages.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// How often impulses at the start are computed before the step is halved.
+constexpr int max_rounds = 4;
+constexpr int solver_iterations = 50;
+/// Of the thinnest skin, per step: velocities are solved for to this.
+constexpr double solver_tolerance = 1e-3;
+/// Fraction of a missing distance that a step makes up for: what moves slowly has no energy.
+constexpr double made_up = 0.2;
+
+/// Of the shortest side of a box: points nearer than this are one, a step later.
+constexpr double same_contact = 0.05;
+
+class SweptStep {
+ public:
+  SweptStep(World& world, StepWorkspace& workspace)
+      : world_(world),
+        w_(workspace),
+        m_(*workspace.swept),
+        bodies_(m_.bodies),
+        search_(world, workspace.motion_start, m_),
+        run_(workspace) {}
+
+  /// Half steps, if the whole one fails.
+  std::optional<Divergence> advance(int halvings) {
+    keep(m_.starts[at(halvings)]);
+    const double work = m_.work;
+    auto failure = try_step();
+    if (!failure) return std::nullopt;
+    take_back(m_.starts[at(halvings)]);
+    m_.work = work;
+    if (failure->stage != Stage::resolve_contacts || halvings == max_halvings) return failure;
+    world_.settings.steps_per_second *= 2;
+    auto half = advance(halvings + 1);
+    if (!half) half = advance(halvings + 1);
+    world_.settings.steps_per_second /= 2;
+    if (half) take_back(m_.starts[at(halvings)]);
+    return half;
+  }
+
+ private:
+  void keep(SweptStart& start) const {
+    start.soft.resize(world_.soft.size());
+    start.rigid.resize(world_.rigid.size());
+    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
+      start.soft[i].positions = world_.soft[i].positions;
+      start.soft[i].velocities = world_.soft[i].velocities;
+    }
+    for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
+      const RigidBox& box = world_.rigid[i];
+      start.rigid[i] = {box.position, box.orientation, box.velocity, box.angular_velocity};
+    }
+    start.warm_start_impulses = world_.warm_start_impulses;
+  }
+
+  void take_back(const SweptStart& start) {
+    w_.motion_start = {start.soft, start.rigid};
+    world_.warm_start_impulses = start.warm_start_impulses;
+    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
+      world_.soft[i].positions = start.soft[i].positions;
+      world_.soft[i].velocities = start.soft[i].velocities;
+    }
+    for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
+      RigidBox& box = world_.rigid[i];
+      const RigidStart& before = start.rigid[i];
+      box.position = before.position;
+      box.orientation = before.orientation;
+      box.velocity = before.velocity;
+      box.angular_velocity = before.angular_velocity;
+    }
+  }
+
+  std::optional<Divergence> try_step() {
+    if (auto failed = move_freely()) return failed;
+    run_(Stage::find_contacts, [&] {
+      bodies_.set_start(world_, start());
+      bodies_.clear_changes(world_, &start());
+      search_.start();
+    });
+    for (int round = 0; round < max_rounds; ++round) {
+      bool moves = true, collides = false;
+      if (!m_.contacts.empty()) {
+        run_(Stage::resolve_contacts, [&] {
+          aim_at_distances();
+          solve_all();
+        });
+        run_(Stage::integrate_soft,
+             [&] { moves = !bodies_.move_again(world_, start(), w_.integrate_soft).has_value(); });
+        if (!moves) break;
+      }
+      run_(Stage::find_contacts, [&] {
+        if (!m_.contacts.empty()) search_.find_candidates();
+        collides = search_.find_collisions();
+      });
+      if (!collides) {
+        std::optional<Divergence> divergence;
+        run_(Stage::resolve_contacts, [&] { divergence = finish(); });
+        return divergence;
+      }
+    }
+    return blocked();
+  }
+
+  std::optional<Divergence> move_freely() {
+    std::optional<Divergence> failed;
+    run_(Stage::integrate_soft,
+         [&] { failed = integrate_soft(world_, start().soft, w_.integrate_soft, w_.workers); });
+    if (failed) return failed;
+    run_(Stage::integrate_rigid, [&] { failed = integrate_rigid(world_, start().rigid); });
+    return failed;
+  }
+
+  void solve_all() {
+    solve(m_.impulses, solver_tolerance * bodies_.thinnest_skin() / step(), solver_iterations);
+  }
+
+  MotionStart& start() { return w_.motion_start; }
+  double step() const { return time_step(world_.settings); }
+
+  /// What the impulses at the start must still change, with the motion as it came out: what moved
+  /// the sides other than the impulses stays.
+  void aim_at_distances() {
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      const Vec3 free = search_.displacement(contact) / step() - m_.impulses[i].change();
+      const double missing = contact.wanted - contact.distance;
+      const double wanted = missing > 0.0 ? made_up * missing : missing;
+      m_.impulses[i].aim(wanted / step() - contact.normal.dot(free), free);
+    }
+  }
+
+  std::optional<Divergence> finish() {
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      m_.work += m_.impulses[i].work(search_.start_velocity(m_.contacts[i]));
+    }
+    std::swap(m_.first_contacts, m_.contacts);
+    std::swap(m_.first_impulses, m_.impulses);
+    m_.contacts.clear();
+    m_.impulses.clear();
+    bodies_.clear_changes(world_, nullptr);
+    for (const SweptMemory::Candidate& candidate : m_.candidates) touch(candidate);
+    warm_start();
+    solve_all();
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      m_.work += m_.impulses[i].work(search_.end_velocity(m_.contacts[i]));
+    }
+    bodies_.add_changes(world_);
+    remember();
+    report();
+    return find_bad_body();
+  }
+
+  /// What touches at the end does not approach, or bounces. An impulse of the start whose features
+  /// did not meet is given back.
+  void touch(const SweptMemory::Candidate& candidate) {
+    const auto contact = search_.place(candidate, Moment::end);
+    if (!contact) return;
+    const int known = m_.index.find(*contact);
+    const bool acted = known >= 0 && m_.first_impulses[at(known)].normal_impulse() > 0.0;
+    if (!contact->is_near && !acted) return;
+    const ContactMaterial both = search_.material(*contact);
+    SweptImpulse impulse = search_.impulse(*contact, contact->is_near ? both.friction : 0.0);
+    double parting = 0.0;
+    if (acted) {
+      const SweptContact& before = m_.first_contacts[at(known)];
+      const SweptImpulse& given = m_.first_impulses[at(known)];
+      impulse.start_from(given.normal_impulse(), given.friction_impulse());
+      const double bounce = both.restitution * before.approach;
+      if (!contact->is_near) {
+        parting = -before.approach;
+        impulse.only_give_back();
+      } else if (!before.is_near && bounce >= min_bounce_speed) {
+        parting = bounce;
+      }
+    }
+    const Vec3 velocity = search_.end_velocity(*contact);
+    impulse.aim(parting - contact->normal.dot(velocity), velocity);
+    m_.contacts.push_back(*contact);
+    m_.impulses.push_back(impulse);
+  }
+
+  /// Gives the impulse that held a point of a box in the last step to the nearest contact of the
+  /// same boxes (ERRATA row 59).
+  void warm_start() {
+    for (const WarmStartImpulse& resting : world_.warm_start_impulses) {
+      const RigidBox& first = world_.rigid[at(resting.first)];
+      const Vec3 point = first.position + first.orientation * resting.point;
+      double nearest = same_contact * first.size.minCoeff();
+      SweptImpulse* found = nullptr;
+      for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+        const SweptContact& contact = m_.contacts[i];
+        if (!search_.is_rigid(contact) ||
+            search_.boxes(contact) != std::pair(resting.first, resting.second)) {
+          continue;
+        }
+        const double distance = (contact.first.point - point).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        found = &m_.impulses[i];
+      }
+      if (found) found->warm_start(resting.impulse);
+    }
+  }
+
+  void remember() {
+    world_.warm_start_impulses.clear();
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      const SweptImpulse& impulse = m_.impulses[i];
+      if (!search_.is_rigid(contact) || impulse.normal_impulse() == 0.0) continue;
+      const auto [first, second] = search_.boxes(contact);
+      const RigidBox& box = world_.rigid[at(first)];
+      world_.warm_start_impulses.push_back(
+          {first, second, box.orientation.conjugate() * (contact.first.point - box.position),
+           impulse.given()});
+    }
+  }
+
+  /// The contacts that pressed, for those who ask the stepper.
+  void report() {
+    w_.contacts.clear();
+    const auto side = [&](const SurfacePoint& point) {
+      if (point.body == swept_ground) return ContactSide{};
+      if (bodies_.is_rigid(point.body)) {
+        return ContactSide{SideKind::rigid, bodies_.box(point.body), {}};
+      }
+      return ContactSide{SideKind::soft, point.body, point.feature};
+    };
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      if (m_.impulses[i].normal_impulse() == 0.0) continue;
+      w_.contacts.push_back({.first = side(contact.first),
+                             .second = side(contact.second),
+                             .point = contact.first.point,
+                             .normal = contact.normal});
+    }
+  }
+
+  std::optional<Divergence> find_bad_body() const {
+    for (const SoftBody& body : world_.soft) {
+      if (auto divergence = find_divergence(world_, body)) return divergence;
+    }
+    for (const RigidBox& box : world_.rigid) {
+      if (auto divergence = find_divergence(world_, box)) return divergence;
+    }
+    return std::nullopt;
+  }
+
+  const std::string& name(int body) const {
+    return bodies_.is_rigid(body) ? world_.rigid[at(bodies_.box(body))].name
+                                  : world_.soft[at(body)].name;
+  }
+
+  Divergence blocked() const {
+    return {Stage::resolve_contacts, world_.steps + 1, name(search_.blocked().first),
+            "it cannot be kept from passing through " + name(search_.blocked().second) +
+                ", whatever the step"};
+  }
+
+  World& world_;
+  StepWorkspace& w_;
+  SweptMemory& m_;
+  SweptBodies& bodies_;
+  SweptSearch search_;
+  StageRunner run_;
+};
+
+}  // namespace
+
+std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
+  workspace.swept->work = 0.0;
+  return SweptStep(world, workspace).advance(0);
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,27 @@
+// A step in which no body passes through another (ERRATA row 67). Private to sim/step.
+//
+// Contacts act twice. At the start of the step impulses change the velocities so that the free
+// motion that follows, whatever the integrator, leaves every pair of features apart. At its end
+// impulses change the velocities so that what touches does not approach. It is the scheme by which
+// RATTLE (Andersen 1983) keeps equations between positions and velocities, here for inequalities:
+// positions are never corrected, so that all that contacts do is the work of impulses, and these
+// act along lines between bodies, so that momentum is kept.
+//
+// The first impulses are computed for features that move along straight lines. Whether surfaces
+// cross on their ways is then looked at (collide_on_their_ways); if they do, the impulses are
+// computed once more with what was found, and if that does not help, the step is halved.
+#pragma once
+
+#include <optional>
+
+#include "sim/step/stepper.h"
+
+namespace pneuma::sim {
+
+struct StepWorkspace;
+
+/// Steps the world once. What diverges, and bodies that no halving keeps apart, end it: the world
+/// is then as the step found it, also in the workspace's motion_start.
+std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace);
+
+}  // namespace pneuma::sim

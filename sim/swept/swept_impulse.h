@@ -1,0 +1,119 @@
+// The impulse between two features that are kept apart while they move (ERRATA row 67), and what it
+// acts on.
+//
+// Where the features are nearest, each side is a point with weights of its vertices. An impulse
+// goes to the vertices by these weights, so that it has a line of action: the one through both
+// points if it is along the normal. Then linear momentum is kept to rounding and so is angular
+// momentum; friction turns the pair by at most gap times impulse.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "sim/mesh/vertex_array.h"
+#include "sim/swept/closest_points.h"
+#include "sim/world/rigid_box.h"
+
+namespace pneuma::sim {
+
+/// By how much impulses have changed the velocities of a box, and what an impulse does to it.
+struct BoxChange {
+  Vec3 centre = Vec3::Zero();    // m
+  Vec3 velocity = Vec3::Zero();  // m/s
+  Vec3 angular_velocity = Vec3::Zero();
+  double inverse_mass = 0.0;            // 1/kg
+  Mat3 inverse_inertia = Mat3::Zero();  // world axes, 1/(kg m^2)
+};
+
+/// Without a change as yet, of a box that lies there.
+BoxChange make_box_change(const RigidBox& box, const Vec3& position,
+                          const Eigen::Quaterniond& orientation);
+
+/// A point of one side that impulses act on. Refers to the changes of velocity that they make.
+class SweptSide {
+ public:
+  SweptSide() = default;  // a side that nothing moves
+  /// `vertices`: of the feature, as many as it has; their `changes` in m/s.
+  SweptSide(VertexArray& changes, std::span<const int> vertices, const FeatureWeights& weights,
+            double vertex_mass);
+  SweptSide(BoxChange& box, const Vec3& point);
+
+  /// Change of the point's velocity so far, m/s.
+  Vec3 change() const;
+  /// N s.
+  void apply(const Vec3& impulse) const;
+  /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
+  Mat3 mobility() const;
+
+ private:
+  std::array<double*, 3> vertices_{};
+  FeatureWeights weights_{};
+  int count_ = 0;
+  double inverse_vertex_mass_ = 0.0;
+  BoxChange* box_ = nullptr;
+  Vec3 arm_ = Vec3::Zero();  // from the box's centre to the point, m
+};
+
+/// One contact of a Gauss-Seidel solver with Coulomb's friction. Changes of the relative velocity
+/// are asked for, in m/s: how they come from displacements or velocities is the caller's.
+class SweptImpulse {
+ public:
+  SweptImpulse(SweptSide first, SweptSide second, const Vec3& normal, double friction);
+
+  /// What is wanted: that impulses change the velocity along the normal by at least `parting`, and
+  /// across it by -`sliding`.
+  void aim(double parting, const Vec3& sliding);
+  /// Starts from an impulse that was given before and may be taken back, but no more than that.
+  void start_from(double normal, const Vec3& friction);
+  /// Gives an impulse (N s) at once: what the same contact needed in the last step.
+  void warm_start(const Vec3& impulse);
+  /// Gives no more along the normal than it started from.
+  void only_give_back() { max_normal_ = start_normal_; }
+
+  /// One projected Gauss-Seidel correction. Returns by how much the relative velocity changed, m/s.
+  double correct();
+
+  const Vec3& normal() const { return normal_; }
+  /// N s on the first side, together with what was started from: >= 0.
+  double normal_impulse() const { return normal_impulse_; }
+  const Vec3& friction_impulse() const { return friction_impulse_; }
+  /// N s on the first side, without what was started from.
+  Vec3 given() const {
+    return (normal_impulse_ - start_normal_) * normal_ + (friction_impulse_ - start_friction_);
+  }
+  /// Change of the relative velocity by all impulses so far, m/s.
+  Vec3 change() const { return first_.change() - second_.change(); }
+  /// J, the work of what was given since the start, if the sides had the relative velocity `before`
+  /// (m/s) when all impulses began.
+  double work(const Vec3& before) const;
+
+ private:
+  double correct_normal();
+  double correct_friction();
+  void apply(const Vec3& impulse) const;
+
+  SweptSide first_;
+  SweptSide second_;
+  Vec3 normal_;
+  std::array<Vec3, 2> tangents_;
+  double friction_ = 0.0;          // Coulomb's mu
+  double normal_mass_ = 0.0;       // kg
+  Eigen::Matrix2d tangent_mass_;   // kg: the impulse that stops sliding, along the tangents
+  double min_tangent_mass_ = 0.0;  // kg
+  double mobility_ = 0.0;          // 1/kg along the normal
+  double parting_ = 0.0;           // m/s
+  Vec3 sliding_ = Vec3::Zero();    // m/s, across the normal
+  double normal_impulse_ = 0.0;    // N s
+  Vec3 friction_impulse_ = Vec3::Zero();
+  double start_normal_ = 0.0;
+  Vec3 start_friction_ = Vec3::Zero();
+  double max_normal_ = std::numeric_limits<double>::infinity();
+};
+
+/// Corrects all in turn until none changes a velocity by more than `tolerance` (m/s), at most
+/// `max_iterations` times.
+void solve(std::span<SweptImpulse> impulses, double tolerance, int max_iterations);
+
+}  // namespace pneuma::sim

@@ -1,0 +1,56 @@
+// The state of a simulation as plain data: bodies and settings, no algorithms.
+// Units: metre, kilogram, second, kelvin, mole. Right-handed, +z up, ground at z = 0.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/world/rigid_box.h"
+#include "sim/world/settings.h"
+#include "sim/world/soft_body.h"
+
+namespace pneuma::sim {
+
+/// The impulse that held one point of a box in the last step, from which the next step's solver
+/// starts. A stack of boxes stands only with a warm start, so these are state (ERRATA row 59).
+struct WarmStartImpulse {
+  int first = 0;                // box
+  int second = 0;               // box, or -1 for the ground
+  Vec3 point = Vec3::Zero();    // where it acts, in the first box's own axes, m from its centre
+  Vec3 impulse = Vec3::Zero();  // on the first box, N s; the second gets the opposite
+};
+
+/// The collision particles of one pair of soft bodies: the features they rest on, first < second.
+/// They persist from step to step, so they are state (ERRATA row 41).
+struct ParticlePair {
+  int first = 0;
+  int second = 0;
+  std::vector<int> first_features;   // feature ids on `first`
+  std::vector<int> second_features;  // feature ids on `second`
+  bool near = false;                 // in the last step they might have touched
+};
+
+/// Two soft bodies that overlapped deeply and are not yet clear of each other, first < second
+/// (sim/collision/overlapping_pair.h). State, because depenetration begins at one depth and ends at
+/// another.
+struct DepenetratingPair {
+  int first = 0;
+  int second = 0;
+};
+
+struct World {
+  Settings settings;
+  std::vector<SoftBody> soft;
+  std::vector<RigidBox> rigid;
+  std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
+  std::vector<WarmStartImpulse>
+      warm_start_impulses;  // of the last step, ground first, then by (first, second)
+  std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
+  std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
+};
+
+inline double time(const World& world) {
+  return static_cast<double>(world.steps) / world.settings.steps_per_second;
+}
+
+}  // namespace pneuma::sim

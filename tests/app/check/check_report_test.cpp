@@ -1,0 +1,155 @@
+#include "app/check/check_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/record/world_json.h"
+#include "app/world/build_world.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "tests/support/json_numbers.h"
+
+namespace pneuma::app {
+namespace {
+
+constexpr const char* sphere_text = R"(
+duration = 0.5
+[[body]]
+kind = "soft"
+shape = "sphere"
+position = [0.0, 0.0, 3.0]
+)";
+
+CheckReport report_of(const char* text, bool with_run = false) {
+  CheckReport report;
+  report.scene = scenes::parse_scene(text, "test.toml");
+  const sim::World world = build_world(report.scene);
+  report.plan = sim::make_plan(world);
+  report.size = world_size(world);
+  report.steps = step_advices(world);
+  if (with_run) report.run = run_statistics(report.scene, 1);
+  return report;
+}
+
+/// What stands after the name on its line, comment sign or not.
+std::string after(const std::string& text, const std::string& name) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::string plain = line.starts_with("# ") ? line.substr(2) : line;
+    if (!plain.starts_with("  " + name + ' ')) continue;
+    return plain.substr(plain.find_first_not_of(' ', 2 + name.size()));
+  }
+  return "no line of " + name;
+}
+
+TEST(CheckText, SaysOfEveryStageWhetherItRuns) {
+  const std::string text = check_text(report_of(sphere_text));
+  for (const char* stage : {"integrate_soft", "find_contacts", "resolve_contacts"}) {
+    EXPECT_EQ(after(text, stage), "runs");
+  }
+  for (const char* stage : {"integrate_rigid", "broad_phase", "move_particles", "depenetrate"}) {
+    EXPECT_TRUE(after(text, stage).starts_with("left out: ")) << after(text, stage);
+    EXPECT_GT(after(text, stage).size(), std::string("left out: ").size());
+  }
+  EXPECT_EQ(after(text, "soft_ground"), "runs");
+  for (const char* kind : {"rigid_ground", "soft_soft", "soft_rigid", "rigid_rigid"}) {
+    EXPECT_TRUE(after(text, kind).starts_with("left out: ")) << kind;
+  }
+}
+
+TEST(CheckText, IsASceneFileOfTheSameScene) {
+  const CheckReport report = report_of(sphere_text, true);
+  const scenes::Scene read = scenes::parse_scene(check_text(report), "test.toml");
+  EXPECT_EQ(scenes::scene_fingerprint(read), scenes::scene_fingerprint(report.scene));
+}
+
+TEST(CheckText, HasTheRunOnlyWhenThereWasOne) {
+  EXPECT_EQ(check_text(report_of(sphere_text)).find("state hash"), std::string::npos);
+  EXPECT_NE(check_text(report_of(sphere_text, true)).find("state hash"), std::string::npos);
+}
+
+TEST(RunStatisticsText, SaysWhetherPenetrationStaysBelowTheSkin) {
+  RunStatistics run;
+  EXPECT_EQ(after(run_statistics_text(run, 0.5), "penetration"), "none");
+  run.penetration = {0.75, 1.25};
+  run.settled_penetration = 0.25;
+  const std::string below = run_statistics_text(run, 0.5);
+  EXPECT_EQ(after(below, "penetration"), "greatest 0.7500 m at 1.25 s");
+  EXPECT_NE(below.find("0.2500 m, below the skin"), std::string::npos);
+  EXPECT_NE(run_statistics_text(run, 0.125).find("NOT below"), std::string::npos);
+}
+
+TEST(RunStatistics, HaveTheHashOfTheStateInOneForm) {
+  RunStatistics run;
+  run.state_hash = 0x0123456789abcdef;
+  EXPECT_EQ(run_statistics_json(run)["state_hash"], "0x0123456789abcdef");
+  EXPECT_EQ(after(run_statistics_text(run, 0.5), "state hash"), "0x0123456789abcdef");
+}
+
+TEST(RunStatisticsText, SaysAtRestOrNot) {
+  RunStatistics run;
+  run.end_speed = 0.9 * rest_speed;
+  EXPECT_NE(run_statistics_text(run, 0.5).find(": at rest"), std::string::npos);
+  run.end_speed = 1.1 * rest_speed;
+  EXPECT_NE(run_statistics_text(run, 0.5).find(": not at rest"), std::string::npos);
+}
+
+TEST(RunStatisticsText, SaysHowItDiverged) {
+  RunStatistics run;
+  run.divergence = "ball: the volume is -1 m^3";
+  EXPECT_EQ(after(run_statistics_text(run, 0.5), "DIVERGED"), *run.divergence);
+}
+
+TEST(CheckJson, SaysTheSameForMachines) {
+  const auto json = nlohmann::json::parse(check_json(report_of(sphere_text, true)).dump());
+  expect_nulls_only_at(json, {"/run/divergence"});
+  EXPECT_EQ(json["plan"]["stages"].size(), static_cast<std::size_t>(sim::stage_count));
+  EXPECT_EQ(json["plan"]["stages"]["integrate_soft"]["runs"], true);
+  EXPECT_EQ(json["plan"]["stages"]["broad_phase"]["runs"], false);
+  EXPECT_TRUE(json["plan"]["stages"]["broad_phase"]["reason"].is_string());
+  EXPECT_EQ(json["plan"]["contact_kinds"].size(),
+            static_cast<std::size_t>(sim::contact_kind_count));
+  EXPECT_EQ(json["run"]["steps"], 30);
+  EXPECT_EQ(json["run"]["momentum"]["end"]["linear"].size(), 3U);
+  EXPECT_EQ(json["run"]["contacts_per_step"].size(), 1U + sim::contact_kind_count);
+  EXPECT_EQ(json["run"]["units"], std::string(json_units));
+  EXPECT_TRUE(check_json(report_of(sphere_text))["run"].is_null());
+}
+
+TEST(WorldSize, CountsBodiesAndTheirParts) {
+  const sim::World world = build_world(scenes::parse_scene(R"(
+[[body]]
+kind = "soft"
+shape = "sphere"
+copies = [2, 1, 1]
+spacing = [10.0, 10.0, 10.0]
+position = [0.0, 0.0, 5.0]
+[[body]]
+kind = "soft"
+shape = "torus"
+radius = 6.0
+tube_radius = 2.0
+stacks = 16
+slices = 16
+position = [0.0, 30.0, 5.0]
+[[body]]
+kind = "rigid"
+position = [0.0, -20.0, 5.0]
+)",
+                                                           "test.toml"));
+  const WorldSize size = world_size(world);
+  EXPECT_EQ(size.soft_bodies, 3);
+  EXPECT_EQ(size.rigid_boxes, 1);
+  EXPECT_EQ(size.meshes, 2);
+  // Section 6.2: a sphere has 58, 168, 112; a torus 256, 768, 512.
+  EXPECT_EQ(size.vertices, 2 * 58 + 256);
+  EXPECT_EQ(size.springs, 2 * 168 + 768);
+  EXPECT_EQ(size.triangles, 2 * 112 + 512);
+  // Position and velocity of a vertex are four doubles each; a box has 13 numbers.
+  EXPECT_EQ(size.state_bytes, (2 * 58 + 256) * 2 * 4 * 8 + 13 * 8);
+}
+
+}  // namespace
+}  // namespace pneuma::app

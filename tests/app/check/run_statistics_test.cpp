@@ -1,0 +1,123 @@
+#include "app/check/run_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+RunStatistics statistics_of(const char* text, const std::vector<std::string>& overrides = {}) {
+  return run_statistics(scenes::parse_scene(text, "test.toml", overrides), 1);
+}
+
+/// A sphere that is blown up in empty space.
+constexpr const char* free_sphere = R"(
+duration = 0.5
+[ground]
+present = false
+[simulation]
+gravity = [0.0, 0.0, 0.0]
+[[body]]
+name = "balloon"
+kind = "soft"
+shape = "sphere"
+radius = 1.0
+velocity = [1.0, 0.0, 0.0]
+rho_g = 0.0
+)";
+
+TEST(RunStatistics, OfAFreeSoftBodyKeepsMomentumAndLosesEnergy) {
+  const RunStatistics run = statistics_of(free_sphere);
+  EXPECT_FALSE(run.divergence);
+  EXPECT_EQ(run.steps, 30);
+  EXPECT_DOUBLE_EQ(run.seconds, 0.5);
+  EXPECT_TRUE(run.free);
+  // 58 vertices of 0.35 kg at 1 m/s.
+  EXPECT_NEAR(run.momentum_start.linear.x(), 58 * 0.35, 1e-12);
+  // Without drag nothing acts from outside; what is left is rounding, 30 steps of 58 sums.
+  EXPECT_LT((run.momentum_end.linear - run.momentum_start.linear).norm(), 1e-9);
+  EXPECT_LT(run.energy_end.total(), run.energy_start.total());
+  EXPECT_GE(run.energy_span, run.energy_start.total() - run.energy_end.total());
+  EXPECT_EQ(run.contacts.all.sum, 0);
+  EXPECT_EQ(run.penetration.value, 0.0);
+  EXPECT_EQ(run.frames, 16);  // 30 a second, and the start
+  EXPECT_EQ(run.crossings.frames + run.self_crossings.frames, 0);
+  EXPECT_EQ(run.end_overlap, 0.0);
+}
+
+TEST(RunStatistics, NameTheBodiesThatCross) {
+  const RunStatistics run = statistics_of(R"(
+duration = 0.1
+[simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "left"
+kind = "rigid"
+size = [2, 2, 2]
+position = [0, 0, 5]
+[[body]]
+name = "right"
+kind = "rigid"
+size = [1, 1, 4]
+position = [0.5, 0.1, 5.2]
+)");
+  // The upright box sticks out of the other above and below: each of its four upright edges passes.
+  EXPECT_GE(run.crossings.frames, 1);
+  EXPECT_GE(run.crossings.edges.value, 4.0);
+  EXPECT_EQ(run.crossings.first_bodies, "left and right");
+  EXPECT_EQ(run.self_crossings.frames, 0);
+}
+
+TEST(RunStatistics, FollowTheVolumeOfEachBody) {
+  const RunStatistics run = statistics_of(free_sphere);
+  ASSERT_EQ(run.volumes.size(), 1u);
+  EXPECT_EQ(run.volumes[0].body, "balloon");
+  EXPECT_EQ(run.volumes[0].least, run.volumes[0].start);  // gas of 10 mol only blows it up
+  EXPECT_GT(run.volumes[0].greatest, 2.0 * run.volumes[0].start);
+  // The mesh is inscribed in the sphere.
+  EXPECT_LT(run.volumes[0].start, 4.0 / 3.0 * std::numbers::pi);
+  EXPECT_GT(run.volumes[0].start, 2.0);
+}
+
+TEST(RunStatistics, AreNotOfAFreeSceneUnderGravityOrOnAGround) {
+  EXPECT_FALSE(statistics_of(free_sphere, {"simulation.gravity=[0, 0, -9.81]"}).free);
+  EXPECT_FALSE(statistics_of(free_sphere, {"ground.present=true"}).free);
+}
+
+TEST(RunStatistics, CountContactsAndPenetrationOnTheGround) {
+  const RunStatistics run = statistics_of(R"(
+duration = 1.0
+[[body]]
+kind = "soft"
+shape = "sphere"
+radius = 1.0
+position = [0.0, 0.0, 1.0]
+)");
+  EXPECT_FALSE(run.divergence);
+  EXPECT_EQ(run.contacts.steps, 60);
+  EXPECT_GT(run.contacts.of(sim::ContactKind::soft_ground).most, 0);
+  EXPECT_EQ(run.contacts.all.sum, run.contacts.of(sim::ContactKind::soft_ground).sum);
+  EXPECT_LE(run.settled_penetration, run.penetration.value);
+  EXPECT_EQ(run.settled_contacts.steps, 30);
+  EXPECT_NEAR(run.start_penetration, 0.0, 1e-15);  // the pole's height is 1 - 1, rounded
+  EXPECT_LE(run.penetration.time, 1.0);
+}
+
+TEST(RunStatistics, EndWhereTheRunDiverges) {
+  const RunStatistics run =
+      statistics_of(free_sphere, {"body.k=1e12", "simulation.integrator=martin"});
+  ASSERT_TRUE(run.divergence);
+  EXPECT_NE(run.divergence->find("balloon"), std::string::npos);
+  EXPECT_LT(run.steps, 30);
+}
+
+TEST(RunStatistics, DoNotDependOnThreads) {
+  const scenes::Scene scene = scenes::parse_scene(free_sphere, "test.toml");
+  EXPECT_EQ(run_statistics(scene, 1).state_hash, run_statistics(scene, 2).state_hash);
+}
+
+}  // namespace
+}  // namespace pneuma::app

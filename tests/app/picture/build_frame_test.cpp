@@ -1,0 +1,152 @@
+#include "app/picture/build_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "app/host/errors.h"
+#include "app/world/build_world.h"
+#include "render/frame/check_frame.h"
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+using sim::Vec3;
+
+constexpr const char* two_kinds = R"(
+title = "Balls and bricks"
+duration = 1.0
+[[body]]
+kind = "soft"
+shape = "sphere"
+radius = 2.0
+position = [10.0, 0.0, 5.0]
+copies = [2, 1, 1]
+[[body]]
+kind = "rigid"
+size = [1.0, 2.0, 3.0]
+position = [0.0, 0.0, 4.0]
+rotation = [0.0, 0.0, 90.0]
+)";
+
+struct Built {
+  scenes::Scene scene;
+  sim::World world;
+  render::Frame frame;
+};
+
+Built build(const std::vector<std::string>& overrides = {}, Show show = {}) {
+  Built built;
+  built.scene = scenes::parse_scene(two_kinds, "test.toml", overrides);
+  built.world = build_world(built.scene);
+  built.frame = FrameBuilder(built.scene, built.world, {}).build(built.world, {}, show);
+  return built;
+}
+
+TEST(BuildFrame, MakesAFrameThatCanBeDrawn) {
+  EXPECT_NO_THROW(render::check_frame(build({}, {.wireframe = true}).frame));
+}
+
+TEST(BuildFrame, PutsEveryVertexWhereItIs) {
+  const Built built = build();
+  ASSERT_EQ(built.frame.meshes.size(), 3u);
+  for (std::size_t body = 0; body < 2; ++body) {
+    const sim::VertexArray& positions = built.world.soft[body].positions;
+    const render::Mesh& mesh = built.frame.meshes[body];
+    ASSERT_EQ(static_cast<int>(mesh.positions.size()), positions.size());
+    for (int v = 0; v < positions.size(); ++v) {
+      EXPECT_EQ(mesh.positions[sim::at(v)], Vec3(positions[v]).cast<float>());
+    }
+  }
+}
+
+TEST(BuildFrame, TurnsBoxes) {
+  // A quarter turn about z swaps width and height.
+  render::Vec3f low = render::Vec3f::Constant(100.0f), high = -low;
+  const Built built = build();
+  for (const render::Vec3f& corner : built.frame.meshes[2].positions) {
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const float rounding = 1e-6f;
+  EXPECT_LT((high - low - render::Vec3f(2.0f, 1.0f, 3.0f)).norm(), rounding);
+  EXPECT_LT((0.5f * (high + low) - render::Vec3f(0.0f, 0.0f, 4.0f)).norm(), rounding);
+}
+
+TEST(BuildFrame, ShadesSoftBodiesSmoothAndBoxesFlat) {
+  const Built built = build();
+  const render::Mesh& sphere = built.frame.meshes[0];
+  ASSERT_EQ(sphere.normals.size(), sphere.positions.size());
+  for (std::size_t v = 0; v < sphere.normals.size(); ++v) {
+    EXPECT_NEAR(sphere.normals[v].norm(), 1.0f, 1e-6f);
+    const render::Vec3f outwards =
+        (sphere.positions[v] - render::Vec3f(10.0f, 0.0f, 5.0f)).normalized();
+    // 8 x 8 triangles of a sphere differ from it by up to 22 degrees; a vertex between them by
+    // less.
+    EXPECT_GT(sphere.normals[v].dot(outwards), 0.95f);
+  }
+  EXPECT_TRUE(built.frame.meshes[2].normals.empty());
+}
+
+TEST(BuildFrame, DrawsABoxWithoutDiagonals) {
+  const Built built = build();
+  const render::Mesh& box = built.frame.meshes[2];
+  ASSERT_EQ(box.shape->edges.size(), 12u);
+  const float rounding = 1e-5f;
+  for (const auto& [a, b] : box.shape->edges) {
+    const float length = (box.positions[a] - box.positions[b]).norm();
+    EXPECT_NEAR(length, std::round(length), rounding);  // 1, 2 or 3: no diagonal is a whole number
+    EXPECT_LE(length, 3.0f + rounding);
+  }
+}
+
+TEST(BuildFrame, SharesShapesBetweenCopiesAndFrames) {
+  const scenes::Scene scene = scenes::parse_scene(two_kinds, "test.toml");
+  const sim::World world = build_world(scene);
+  const FrameBuilder builder(scene, world, {});
+  const render::Frame first = builder.build(world), second = builder.build(world);
+  EXPECT_EQ(first.meshes[0].shape, first.meshes[1].shape);
+  for (std::size_t i = 0; i < first.meshes.size(); ++i) {
+    EXPECT_EQ(first.meshes[i].shape, second.meshes[i].shape);
+  }
+}
+
+TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
+  EXPECT_TRUE(build().frame.ground);
+  EXPECT_FALSE(build({"picture.grid=false"}).frame.ground);
+  EXPECT_FALSE(build({"ground.present=false"}).frame.ground);
+}
+
+TEST(BuildFrame, FollowsThePictureSettings) {
+  EXPECT_TRUE(build().frame.light.shadows);
+  EXPECT_FALSE(build({"picture.shadows=false"}).frame.light.shadows);
+  EXPECT_FALSE(build().frame.wireframe);
+  EXPECT_TRUE(build({}, {.wireframe = true}).frame.wireframe);
+}
+
+TEST(BuildFrame, SaysSceneTimeAndStep) {
+  Built built = build();
+  built.world.steps = 90;
+  const FrameBuilder builder(built.scene, built.world, {});
+  EXPECT_EQ(builder.build(built.world).caption->text, "Balls and bricks\nt = 1.50 s   step 90");
+  EXPECT_FALSE(build({"picture.caption=false"}).frame.caption);
+}
+
+TEST(BuildFrame, WritesItsCaptionInAscii) {
+  Built built = build({"title=\"\""});
+  built.scene.name = "Bälle × 2";  // from the name of the file, which may be anything
+  const FrameBuilder builder(built.scene, built.world, {});
+  EXPECT_EQ(builder.build(built.world).caption->text.substr(0, 10), "B?lle ? 2\n");
+}
+
+TEST(ParseShow, TakesAListOfKnownNames) {
+  EXPECT_TRUE(parse_show("--show", "wireframe").wireframe);
+  EXPECT_TRUE(parse_show("--show", "wireframe,wireframe").wireframe);
+  for (const char* wrong : {"", "wire", "wireframe,", ",wireframe", "wireframe particles"}) {
+    EXPECT_THROW(parse_show("--show", wrong), UsageError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::app

@@ -1,0 +1,270 @@
+// Swept contacts (ERRATA row 67): nothing passes through anything, momentum is kept, and all that
+// contacts do to the energy is the work of their impulses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/inspect/crossings.h"
+#include "sim/inspect/inspect.h"
+#include "sim/mesh/rotation.h"
+#include "tests/support/count_allocations.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+World make_swept_world() {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  return world;
+}
+
+World make_free_swept_world() {
+  World world = make_swept_world();
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  return world;
+}
+
+/// The paper's sphere, soft, with little gas.
+SoftBody make_ball(const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
+  SoftBody ball = make_body(make_sphere(3.0, 8, 8), position);
+  ball.material.n = 0.5;
+  for (int v = 0; v < ball.velocities.size(); ++v) ball.velocities[v] = velocity;
+  return ball;
+}
+
+SoftBody make_smooth_ball(const Vec3& position, const Vec3& velocity) {
+  SoftBody ball = make_ball(position, velocity);
+  undamp(ball.material);
+  ball.material.surface.friction = 0.0;
+  return ball;
+}
+
+/// Expects of every step that it ends, with no body crossing another and every volume above zero.
+void expect_apart(World& world, double seconds) {
+  Stepper stepper(world);
+  const int steps = static_cast<int>(seconds * world.settings.steps_per_second);
+  for (int i = 0; i < steps; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << "step " << i << ": " << divergence->body << ": "
+                             << divergence->what;
+    ASSERT_EQ(crossings(world).between_bodies, 0) << "after step " << i;
+    for (const SoftBody& body : world.soft) {
+      ASSERT_GT(volume(body.mesh->topology, body.positions), 0.0) << "after step " << i;
+    }
+  }
+}
+
+TEST(Swept, ARodLaidOnABallStaysOnIt) {
+  World world = make_swept_world();
+  world.soft.push_back(make_ball({0.0, 0.0, 3.0}));
+  world.rigid.push_back(make_rigid({12.0, 0.3, 0.3}, {0.2, 0.1, 8.0}, 5.0));
+  expect_apart(world, 3.0);
+  EXPECT_GT(world.rigid[0].position.z(), 3.0);
+}
+
+TEST(Swept, APlateOnEdgeDoesNotCutABall) {
+  for (int i = 0; i < 4; ++i) {
+    World world = make_swept_world();
+    world.soft.push_back(make_ball({0.0, 0.0, 3.0}));
+    RigidBox plate = make_rigid({4.0, 0.1, 4.0}, {0.3 * i, 0.25 * i, 8.3}, 2.0);
+    plate.velocity = {0.0, 0.0, -2.0};
+    world.rigid.push_back(plate);
+    expect_apart(world, 1.0);
+    EXPECT_GT(plate.position.z(), 2.0) << i;
+  }
+}
+
+TEST(Swept, AHeavyBoxPressesABallFlatAndDoesNotEnterIt) {
+  World world = make_swept_world();
+  world.soft.push_back(make_ball({0.0, 0.0, 3.0}));  // 20 kg
+  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.2, 0.1, 8.0}, 200.0));
+  expect_apart(world, 4.0);
+}
+
+TEST(Swept, BallsShotAtEachOtherBounceApart) {
+  for (const double speed : {30.0}) {
+    for (const int steps_per_second : {60, 240}) {
+      for (const double aside : {0.0, 1.1}) {
+        SCOPED_TRACE(testing::Message()
+                     << speed << " m/s, " << steps_per_second << " steps/s, " << aside << " m");
+        World world = make_free_swept_world();
+        world.settings.steps_per_second = steps_per_second;
+        world.soft = {make_ball({0.0, -4.0, 0.0}, {0.0, speed, 0.0}),
+                      make_ball({aside, 4.0, 0.1}, {0.0, -speed, 0.0})};
+        expect_apart(world, 1.0);
+        const Vec3 apart = mean(world.soft[1].positions) - mean(world.soft[0].positions);
+        EXPECT_GT(apart.norm(), 3.0) << "one is in the other";
+      }
+    }
+  }
+}
+
+TEST(Swept, FastCubesDoNotPassEachOther) {
+  for (int phase = 0; phase < 12; ++phase) {
+    World world = make_free_swept_world();
+    world.rigid = {make_rigid(Vec3::Ones(), {0.0, 0.0, -4.0 - 0.13 * phase}),
+                   make_rigid(Vec3::Ones(), {0.05, 0.1, 4.0})};
+    world.rigid[0].velocity = {0.0, 0.0, 50.0};
+    world.rigid[1].velocity = {0.0, 0.0, -50.0};
+    expect_apart(world, 0.3);
+    EXPECT_LT(world.rigid[0].position.z(), world.rigid[1].position.z()) << phase;
+  }
+}
+
+TEST(Swept, AnImpactKeepsLinearAndAngularMomentum) {
+  World world = make_free_swept_world();
+  // Of the integrators the one that keeps angular momentum by itself, whatever the step.
+  world.settings.integrator = Integrator::symplectic_euler;
+  world.soft = {make_smooth_ball({0.0, -4.0, 0.0}, {0.0, 20.0, 0.0}),
+                make_smooth_ball({1.5, 4.0, 0.1}, {0.0, -20.0, 0.0})};
+  RigidBox box = make_rigid({1.0, 2.0, 3.0}, {-5.0, 0.3, 0.2}, 4.0);
+  box.rho_g = 0.0;
+  box.surface.friction = 0.0;
+  box.velocity = {6.0, 0.0, 0.0};
+  world.rigid.push_back(box);
+  const Momentum before = momentum(world);
+  double scale = 0.0;  // of the parts, which cancel
+  for (const SoftBody& ball : world.soft) scale += momentum(ball).linear.norm();
+
+  Stepper stepper(world);
+  std::size_t contacts = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    contacts += stepper.contacts().size();
+  }
+  EXPECT_GT(contacts, 50u);
+  EXPECT_LT((momentum(world).linear - before.linear).norm(), 1e-13 * scale);
+  EXPECT_LT((momentum(world).angular - before.angular).norm(), 1e-10 * scale * 3.0);
+}
+
+/// Points without forces between them, and cubes, which turn evenly: contacts alone change energy.
+TEST(Swept, ContactsChangeTheEnergyByTheWorkOfTheirImpulses) {
+  World world = make_free_swept_world();
+  world.soft = {make_ball({0.0, -3.5, 0.0}, {0.0, 5.0, 0.0}),
+                make_ball({1.0, 3.5, 0.1}, {0.0, -5.0, 0.0})};
+  for (SoftBody& ball : world.soft) {
+    undamp(ball.material);
+    ball.material.k = 0.0;
+    ball.material.n = 0.0;
+  }
+  world.rigid = {make_rigid({1.0, 1.0, 1.0}, {4.0, 0.2, 0.1}, 2.0),
+                 make_rigid({1.0, 1.0, 1.0}, {7.0, 0.1, 0.2}, 3.0)};
+  for (RigidBox& box : world.rigid) box.rho_g = 0.0;
+  world.rigid[0].velocity = {-8.0, 0.0, 0.0};
+  world.rigid[1].velocity = {-20.0, 0.0, 0.0};
+  world.rigid[0].angular_velocity = {1.0, -2.0, 3.0};
+
+  Stepper stepper(world);
+  const double start = energy(world).kinetic;
+  double booked = 0.0;
+  for (int i = 0; i < 40; ++i) {
+    const double before = energy(world).kinetic;
+    ASSERT_FALSE(stepper.step(world));
+    EXPECT_NEAR(energy(world).kinetic - before, stepper.contact_work(), 1e-12 * start);
+    EXPECT_LE(stepper.contact_work(), 1e-12 * start) << "contacts gave energy";
+    booked += stepper.contact_work();
+  }
+  EXPECT_LT(booked, -0.01 * start) << "nothing touched";
+}
+
+TEST(Swept, RestitutionIsTheRatioOfSpeedsAtEveryStep) {
+  for (const double restitution : {0.0, 0.2, 0.5, 1.0}) {
+    for (const int steps_per_second : {60, 240, 960}) {
+      World world = make_free_boxes({make_rigid(Vec3::Ones(), {0.0, 0.0, -2.0}, 1.0),
+                                     make_rigid({2.0, 2.0, 1.0}, {0.0, 0.0, 2.0}, 3.0)},
+                                    restitution);
+      world.settings.contact = ContactMethod::swept;
+      world.settings.steps_per_second = steps_per_second;
+      world.rigid[0].velocity = {0.0, 0.0, 5.0};
+      world.rigid[1].velocity = {0.0, 0.0, -3.0};
+      ASSERT_FALSE(run(world, 1.0));
+      const double apart = world.rigid[1].velocity.z() - world.rigid[0].velocity.z();
+      EXPECT_NEAR(apart, restitution * 8.0, 0.02 * 8.0 * restitution + 1e-3)
+          << restitution << " at " << steps_per_second;
+    }
+  }
+}
+
+TEST(Swept, ABoxDroppedFlatKeepsItsHeightWithoutLoss) {
+  World world = make_swept_world();
+  world.settings.ground = ContactMaterial{1.0, 0.0};
+  world.rigid.push_back(make_rigid(Vec3::Ones(), {0.0, 0.0, 1.5}));
+  world.rigid[0].rho_g = 0.0;
+  const double before = energy(world).total();
+  Stepper stepper(world);
+  double highest = 0.0;
+  for (int i = 0; i < 20 * world.settings.steps_per_second; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    if (time(world) > 19.0) highest = std::max(highest, world.rigid[0].position.z() - 0.5);
+  }
+  EXPECT_NEAR(highest, 1.0, 0.02) << before;
+}
+
+TEST(Swept, AStackOfFiveStands) {
+  World world = make_swept_world();
+  for (int i = 0; i < 5; ++i) {
+    world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.05 * i, 0.0, 1.0 + 2.02 * i}));
+  }
+  expect_apart(world, 5.0);
+  for (int i = 0; i < 5; ++i) {
+    const RigidBox& box = world.rigid[at(i)];
+    EXPECT_NEAR(box.position.x(), 0.05 * i, 0.05) << i;
+    EXPECT_NEAR(box.position.z(), 1.0 + 2.01 * i, 0.03) << i;
+  }
+}
+
+TEST(Swept, FrictionHoldsBelowItsAngleAndLetsSlideAboveIt) {
+  const auto slid = [](double tangent) {
+    World world = make_swept_world();
+    world.settings.ground = ContactMaterial{0.0, 0.5};
+    world.settings.gravity = 9.81 * Vec3(tangent, 0.0, -1.0).normalized();
+    world.rigid.push_back(make_rigid({2.0, 2.0, 1.0}, {0.0, 0.0, 0.5}));
+    world.rigid[0].rho_g = 0.0;
+    EXPECT_FALSE(run(world, 2.0));
+    return world.rigid[0].position.x();
+  };
+  EXPECT_LT(slid(0.49), 0.01);
+  // g (sin - mu cos) t^2 / 2 with tan = 0.6
+  EXPECT_NEAR(slid(0.6), 9.81 * 0.1 / std::hypot(1.0, 0.6) * 2.0, 0.05);
+}
+
+TEST(Swept, ContinuesBitForBitFromACopyAndOverThreads) {
+  World world = make_swept_world();
+  world.soft = {make_ball({0.0, 0.0, 3.1}), make_ball({0.5, 0.3, 9.4})};
+  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {5.0, 0.0, 8.0}));
+  ASSERT_FALSE(run(world, 0.5));
+  World copy = world;
+  ASSERT_FALSE(run(world, 0.5));
+  StepperOptions three;
+  three.threads = 3;
+  ASSERT_FALSE(run(copy, 0.5, three));
+  EXPECT_EQ(state_hash(world), state_hash(copy));
+}
+
+TEST(Swept, AllocatesNothingOnceTheContactsHavePeaked) {
+  World world = make_swept_world();
+  world.soft.push_back(make_ball({0.0, 0.0, 3.0}));
+  world.rigid = {make_rigid({2.0, 2.0, 2.0}, {8.0, 0.0, 1.0}),
+                 make_rigid({2.0, 2.0, 2.0}, {8.0, 0.0, 3.02})};
+  Stepper stepper(world);
+  for (int i = 0; i < 600; ++i) ASSERT_FALSE(stepper.step(world));
+  const long before = allocation_count();
+  for (int i = 0; i < 300; ++i) ASSERT_FALSE(stepper.step(world));
+  EXPECT_EQ(allocation_count() - before, 0);
+}
+
+TEST(Swept, LeavesOutWhatTheImpulsesOfThePaperNeed) {
+  World world = make_swept_world();
+  world.soft = {make_ball({0.0, 0.0, 3.1}), make_ball({0.5, 0.3, 9.4})};
+  const Plan plan = make_plan(world);
+  EXPECT_FALSE(plan.runs(Stage::broad_phase));
+  EXPECT_FALSE(plan.runs(Stage::move_particles));
+  EXPECT_FALSE(plan.runs(Stage::depenetrate));
+  ASSERT_FALSE(run(world, 0.5));
+  EXPECT_TRUE(world.particles.empty());
+}
+
+}  // namespace
+}  // namespace pneuma::sim
