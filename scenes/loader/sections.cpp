@@ -135,7 +135,7 @@ Section simulation_section(Scene& scene) {
            "how soft bodies are stepped"},
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
           {"contact", word(settings.contact, contact_methods), any(), "",
-           "swept: nothing passes through anything; impulses: as in the paper, after the motion"},
+           "swept: no body passes through another; impulses: as in the paper, after the motion"},
           {"skin_thickness", &settings.skin_thickness, length(), "m",
            "features nearer than twice this are in contact; swept contacts need a few hundredths "
            "of "

@@ -79,6 +79,16 @@ inline Vec4d square_root(Vec4d row) {
 inline Vec4d min(Vec4d a, Vec4d b) { return a < b ? a : b; }
 inline Vec4d max(Vec4d a, Vec4d b) { return a > b ? a : b; }
 
+/// Of what a comparison returns.
+template <class Comparison>
+bool all_of_lanes(Comparison lanes) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(__m256d(lanes)) == 0b1111;
+#else
+  return lanes[0] && lanes[1] && lanes[2] && lanes[3];
+#endif
+}
+
 inline double sum_of_lanes(Vec4d row) { return row[0] + row[1] + row[2] + row[3]; }
 
 inline Vec4d to_vec4d(const Vec3& v) { return Vec4d{v.x(), v.y(), v.z(), 0.0}; }

@@ -173,4 +173,20 @@ std::optional<Divergence> find_divergence(const World& world, const RigidBox& bo
                     "its contacts gave it a position or velocity that is not a finite number"};
 }
 
+std::optional<Divergence> find_first_divergence(const World& world,
+                                                std::vector<std::optional<Divergence>>& outcomes,
+                                                Workers& workers) {
+  outcomes.resize(world.soft.size());
+  workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
+    for (int i = begin; i < end; ++i) outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
+  });
+  for (const std::optional<Divergence>& outcome : outcomes) {
+    if (outcome) return outcome;
+  }
+  for (const RigidBox& box : world.rigid) {
+    if (auto divergence = find_divergence(world, box)) return divergence;
+  }
+  return std::nullopt;
+}
+
 }  // namespace pneuma::sim

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sim/soft/soft_state.h"
 #include "sim/step/stepper.h"
+#include "sim/step/workers.h"
 
 namespace pneuma::sim {
 
@@ -30,5 +32,9 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
 /// After resolve_contacts.
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body);
 std::optional<Divergence> find_divergence(const World& world, const RigidBox& box);
+/// The first of all bodies. `outcomes`: memory.
+std::optional<Divergence> find_first_divergence(const World& world,
+                                                std::vector<std::optional<Divergence>>& outcomes,
+                                                Workers& workers);
 
 }  // namespace pneuma::sim

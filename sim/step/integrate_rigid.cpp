@@ -18,10 +18,7 @@ std::optional<Divergence> integrate(const World& world, RigidBox& box) {
 }  // namespace
 
 std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start) {
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const RigidBox& box = world.rigid[i];
-    start[i] = {box.position, box.orientation, box.velocity, box.angular_velocity};
-  }
+  keep_rigid(world, start);
   for (RigidBox& box : world.rigid) {
     if (auto divergence = integrate(world, box)) return divergence;
   }
@@ -30,10 +27,7 @@ std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>&
 
 std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidStart& start) {
   RigidBox& moved = world.rigid[at(box)];
-  moved.position = start.position;
-  moved.orientation = start.orientation;
-  moved.velocity = start.velocity;
-  moved.angular_velocity = start.angular_velocity;
+  set_motion(moved, start);
   return integrate(world, moved);
 }
 

@@ -73,23 +73,6 @@ void remember(World& world, std::span<const Contact> contacts, ResolveContactsMe
   }
 }
 
-/// The last look at a step: the first of all bodies.
-std::optional<Divergence> find_first_divergence(const World& world,
-                                                std::vector<std::optional<Divergence>>& outcomes,
-                                                Workers& workers) {
-  outcomes.resize(world.soft.size());
-  workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
-  });
-  for (const std::optional<Divergence>& outcome : outcomes) {
-    if (outcome) return outcome;
-  }
-  for (const RigidBox& box : world.rigid) {
-    if (auto divergence = find_divergence(world, box)) return divergence;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,

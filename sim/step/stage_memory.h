@@ -16,24 +16,10 @@
 #include "sim/response/contact_islands.h"
 #include "sim/response/depenetrate_pairs.h"
 #include "sim/soft/integrators.h"
+#include "sim/step/motion_start.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::sim {
-
-/// The motion of a box as the step found it.
-struct RigidStart {
-  Vec3 position = Vec3::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  Vec3 velocity = Vec3::Zero();
-  Vec3 angular_velocity = Vec3::Zero();
-};
-
-/// The motion of all bodies as the step found it. integrate_soft and integrate_rigid write it,
-/// resolve_contacts reads it, and a step that fails is taken back to it.
-struct MotionStart {
-  std::vector<SoftState> soft;    // per soft body
-  std::vector<RigidStart> rigid;  // per box
-};
 
 /// What the world knew of its pairs of bodies when the step found it. broad_phase writes it, and a
 /// step that fails is taken back to it.

@@ -13,19 +13,9 @@ namespace {
 /// Takes back what the stages up to the one that failed have done.
 void restore(World& world, const StepWorkspace& workspace, Stage failed) {
   const MotionStart& motion = workspace.motion_start;
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    world.soft[i].positions = motion.soft[i].positions;
-    world.soft[i].velocities = motion.soft[i].velocities;
-  }
+  restore_soft(world, motion.soft);
   if (failed == Stage::integrate_soft) return;
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    RigidBox& box = world.rigid[i];
-    const RigidStart& start = motion.rigid[i];
-    box.position = start.position;
-    box.orientation = start.orientation;
-    box.velocity = start.velocity;
-    box.angular_velocity = start.angular_velocity;
-  }
+  restore_rigid(world, motion.rigid);
   if (failed == Stage::integrate_rigid || !workspace.plan.runs(Stage::broad_phase)) return;
   world.particles = workspace.pair_start.particles;
   world.depenetrating = workspace.pair_start.depenetrating;

@@ -1,7 +1,9 @@
 #include "sim/step/swept_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
 #include "sim/mesh/primitives.h"
 #include "sim/step/stages.h"
@@ -17,6 +19,14 @@ constexpr double skin_of_side = 0.0025;
 /// A way's box is this many skins larger: surfaces are found before they are too near.
 constexpr double skins_around = 1.5;
 
+/// Of its longest way in the step: by so much impulses move its end before all is searched again.
+constexpr double allowed_of_way = 0.5;
+
+/// m, of vertices from where they are in another array.
+double greatest_distance(const VertexArray& one, const VertexArray& other) {
+  return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
+}
+
 }  // namespace
 
 SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(world.soft.size())) {
@@ -27,7 +37,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     if (!tree) {
       tree = std::make_shared<SurfaceTree>(body.mesh->topology, body.mesh->rest_positions, false);
     }
-    surfaces_.push_back({.tree = tree, .start = {}, .end = {}, .boxes = {}, .ways = {}});
+    surfaces_.emplace_back().tree = tree;
     skins_.push_back(std::min(skin, skin_of_edge * tree->mean_edge()));
     changes_.emplace_back(body.positions.size());
   }
@@ -37,10 +47,20 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     boxes_.push_back(std::make_unique<const MeshTopology>(static_cast<int>(mesh.vertices.size()),
                                                           mesh.triangles));
     auto tree = std::make_shared<SurfaceTree>(*boxes_.back(), corners_.back(), true);
-    const VertexArray none(corners_.back().size());
-    surfaces_.push_back({.tree = tree, .start = none, .end = none, .boxes = {}, .ways = {}});
+    MovingSurface& surface = surfaces_.emplace_back();
+    surface.tree = std::move(tree);
+    surface.start = surface.end = VertexArray(corners_.back().size());
     skins_.push_back(std::min(skin, skin_of_side * box.size.minCoeff()));
   }
+  allowances_.resize(surfaces_.size());
+  searched_ends_.resize(surfaces_.size());
+}
+
+void SweptBodies::place_corners(int box, const Vec3& position,
+                                const Eigen::Quaterniond& orientation, VertexArray& corners) const {
+  const VertexArray& own = corners_[at(box)];
+  const Mat3 axes = orientation.toRotationMatrix();
+  for (int v = 0; v < own.size(); ++v) corners[v] = position + axes * Vec3(own[v]);
 }
 
 void SweptBodies::set_start(const World& world, const MotionStart& start) {
@@ -48,34 +68,35 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     surfaces_[i].start = start.soft[i].positions;
   }
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const RigidStart& box = start.rigid[i];
-    VertexArray& positions = surfaces_[at(soft_count_) + i].start;
-    for (int v = 0; v < corners_[i].size(); ++v) {
-      positions[v] = box.position + box.orientation * Vec3(corners_[i][v]);
-    }
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    const RigidStart& box = start.rigid[at(i)];
+    place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
   }
 }
 
 void SweptBodies::set_end(const World& world) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) surfaces_[i].end = world.soft[i].positions;
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const RigidBox& box = world.rigid[i];
-    VertexArray& positions = surfaces_[at(soft_count_) + i].end;
-    for (int v = 0; v < corners_[i].size(); ++v) {
-      positions[v] = box.position + box.orientation * Vec3(corners_[i][v]);
-    }
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    const RigidBox& box = world.rigid[at(i)];
+    place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].end);
   }
 }
 
-void SweptBodies::clear_changes(const World& world, const MotionStart* start) {
+void SweptBodies::begin_at_start(const World& world, const MotionStart& start) {
   for (VertexArray& changes : changes_) changes.rows().setZero();
   box_changes_.clear();
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const RigidBox& box = world.rigid[i];
+    const RigidStart& at_start = start.rigid[i];
     box_changes_.push_back(
-        start ? make_box_change(box, start->rigid[i].position, start->rigid[i].orientation)
-              : make_box_change(box, box.position, box.orientation));
+        make_box_change(world.rigid[i], at_start.position, at_start.orientation));
+  }
+}
+
+void SweptBodies::begin_at_end(const World& world) {
+  for (VertexArray& changes : changes_) changes.rows().setZero();
+  box_changes_.clear();
+  for (const RigidBox& box : world.rigid) {
+    box_changes_.push_back(make_box_change(box, box.position, box.orientation));
   }
 }
 
@@ -83,15 +104,37 @@ void SweptBodies::find_near_bodies(std::vector<BodyPair>& pairs) {
   spheres_.clear();
   for (int i = 0; i < count(); ++i) {
     MovingSurface& surface = surfaces_[at(i)];
-    refit(surface, skins_around * skin(i));
-    const Bounds& around = surface.boxes.front();
-    spheres_.push_back({around.centre(), 0.5 * around.size().norm()});
+    allowances_[at(i)] = allowed_of_way * greatest_distance(surface.start, surface.end) + skin(i);
+    searched_ends_[at(i)] = surface.end;
+    refit(surface, skins_around * skin(i) + allowance(i));
+    const WayBox& around = surface.nodes.front();
+    spheres_.push_back({to_vec3(0.5 * (around.low + around.high)),
+                        0.5 * to_vec3(around.high - around.low).norm()});
   }
   sweep_and_prune_.find(spheres_, pairs);
 }
 
+bool SweptBodies::search_is_valid() const {
+  for (int i = 0; i < count(); ++i) {
+    if (greatest_distance(surface(i).end, searched_ends_[at(i)]) > allowance(i)) return false;
+  }
+  return true;
+}
+
+template <class Value>
+Vec3 SweptBodies::interpolate(const SurfacePoint& point, const Value& value) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; const int v : vertices(point)) sum += point.weights[i++] * value(v);
+  return sum;
+}
+
 std::span<const int> SweptBodies::vertices(const SurfacePoint& point) const {
   return surface(point.body).tree->topology().feature_vertices(point.feature);
+}
+
+Vec3 SweptBodies::start_point(const SurfacePoint& point) const {
+  const VertexArray& start = surface(point.body).start;
+  return interpolate(point, [&](int v) { return start[v]; });
 }
 
 SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
@@ -111,11 +154,7 @@ Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
     return now.position + now.orientation * local - point.point;
   }
   const MovingSurface& moving = surface(point.body);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; const int v : vertices(point)) {
-    sum += point.weights[i++] * (moving.end[v] - moving.start[v]);
-  }
-  return sum;
+  return interpolate(point, [&](int v) -> Vec3 { return moving.end[v] - moving.start[v]; });
 }
 
 Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& point) const {
@@ -124,11 +163,8 @@ Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& p
     const RigidStart& before = start.rigid[at(box(point.body))];
     return before.velocity + before.angular_velocity.cross(point.point - before.position);
   }
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; const int v : vertices(point)) {
-    sum += point.weights[i++] * start.soft[at(point.body)].velocities[v];
-  }
-  return sum;
+  const VertexArray& velocities = start.soft[at(point.body)].velocities;
+  return interpolate(point, [&](int v) { return velocities[v]; });
 }
 
 Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) const {
@@ -137,11 +173,8 @@ Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) co
     const RigidBox& now = world.rigid[at(box(point.body))];
     return now.velocity + now.angular_velocity.cross(point.point - now.position);
   }
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; const int v : vertices(point)) {
-    sum += point.weights[i++] * world.soft[at(point.body)].velocities[v];
-  }
-  return sum;
+  const VertexArray& velocities = world.soft[at(point.body)].velocities;
+  return interpolate(point, [&](int v) { return velocities[v]; });
 }
 
 std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
@@ -156,8 +189,8 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     RigidStart kicked = start.rigid[i];
-    kicked.velocity += box_changes_[i].velocity;
-    kicked.angular_velocity += box_changes_[i].angular_velocity;
+    kicked.velocity += to_vec3(box_changes_[i].velocity);
+    kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);
     if (auto failed = integrate_rigid_again(world, static_cast<int>(i), kicked)) return failed;
   }
   return std::nullopt;
@@ -168,8 +201,8 @@ void SweptBodies::add_changes(World& world) const {
     world.soft[i].velocities.rows() += changes_[i].rows();
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    world.rigid[i].velocity += box_changes_[i].velocity;
-    world.rigid[i].angular_velocity += box_changes_[i].angular_velocity;
+    world.rigid[i].velocity += to_vec3(box_changes_[i].velocity);
+    world.rigid[i].angular_velocity += to_vec3(box_changes_[i].angular_velocity);
   }
 }
 

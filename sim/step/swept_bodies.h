@@ -33,6 +33,8 @@ class SweptBodies {
   bool is_rigid(int body) const { return body >= soft_count_; }
   /// Index into World::rigid.
   int box(int body) const { return body - soft_count_; }
+  /// The body that a box is, or -1 the ground.
+  int of_box(int box) const { return box < 0 ? swept_ground : box + soft_count_; }
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
   /// m, half of what bodies of this kind keep between their surfaces.
   double skin(int body) const { return skins_[at(body)]; }
@@ -42,12 +44,21 @@ class SweptBodies {
   void set_start(const World& world, const MotionStart& start);
   void set_end(const World& world);
 
-  /// Forgets the changes of velocity. Impulses will act at the start or at the end of the step.
-  void clear_changes(const World& world, const MotionStart* start);
+  /// Forgets the changes of velocity. Impulses will act on the bodies as they are at the start of
+  /// the step, or as they are now, at its end.
+  void begin_at_start(const World& world, const MotionStart& start);
+  void begin_at_end(const World& world);
 
-  /// Fills `pairs` with the bodies whose ways come near each other.
+  /// Fills `pairs` with the bodies whose ways come near each other, in ascending order. Their ways
+  /// may then end elsewhere by the allowance of each body without another search.
   void find_near_bodies(std::vector<BodyPair>& pairs);
+  /// m.
+  double allowance(int body) const { return allowances_[at(body)]; }
+  /// Whether all ends are still within the allowances.
+  bool search_is_valid() const;
 
+  /// m, where a point with these weights is at the start of the step.
+  Vec3 start_point(const SurfacePoint& point) const;
   SweptSide side(const World& world, const SurfacePoint& point);
   /// m, from the start of the step to its end.
   Vec3 displacement(const World& world, const MotionStart& start, const SurfacePoint& point) const;
@@ -63,10 +74,17 @@ class SweptBodies {
 
  private:
   std::span<const int> vertices(const SurfacePoint& point) const;
+  /// `value` of each vertex of the point's feature.
+  template <class Value>
+  Vec3 interpolate(const SurfacePoint& point, const Value& value) const;
+  void place_corners(int box, const Vec3& position, const Eigen::Quaterniond& orientation,
+                     VertexArray& corners) const;
 
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
   std::vector<double> skins_;
+  std::vector<double> allowances_;
+  std::vector<VertexArray> searched_ends_;                  // the ends that the last search was for
   std::vector<VertexArray> corners_;                        // of the boxes, in their own axes, m
   std::vector<std::unique_ptr<const MeshTopology>> boxes_;  // their triangles
   std::vector<VertexArray> changes_;                        // m/s, per soft body

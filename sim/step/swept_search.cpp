@@ -1,68 +1,53 @@
 #include "sim/step/swept_search.h"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
 
 namespace pneuma::sim {
 namespace {
 
 /// Features that are nearer than the distance wanted by this factor are in contact.
 constexpr double near = 1.5;
+/// What features keep of their distance on their way: of that at the start, and of that wanted.
+constexpr double kept_of_start = 0.1;
+constexpr double kept_of_wanted = 0.5;
+/// Impulses on boxes act at one common point, so that no couple is left.
+void meet_halfway(SurfacePoint& first, SurfacePoint& second) {
+  first.point = second.point = 0.5 * (first.point + second.point);
+}
+
 /// m. At less than this the direction between two points is rounding.
 constexpr double min_distance = 1e-9;
 
 }  // namespace
 
-SweptIndex::Key SweptIndex::key(const SweptContact& contact) {
-  const auto kind = [](const SurfacePoint& point) { return static_cast<int>(point.feature.kind); };
-  return {contact.first.body,          contact.second.body,  kind(contact.first),
-          contact.first.feature.index, kind(contact.second), contact.second.feature.index};
-}
-
-bool SweptIndex::insert(const SweptContact& contact, int number) {
-  const std::pair entry(key(contact), number);
-  const auto place =
-      std::ranges::lower_bound(entries_, entry.first, {}, &std::pair<Key, int>::first);
-  if (place != entries_.end() && place->first == entry.first) return false;
-  entries_.insert(place, entry);
-  return true;
-}
-
-int SweptIndex::find(const SweptContact& contact) const {
-  const Key wanted = key(contact);
-  const auto place = std::ranges::lower_bound(entries_, wanted, {}, &std::pair<Key, int>::first);
-  return place != entries_.end() && place->first == wanted ? place->second : -1;
-}
-
 double SweptSearch::distance_wanted(int first, int second) const {
   return second == swept_ground ? 0.0 : bodies_.skin(first) + bodies_.skin(second);
 }
 
-/// How far beyond the distance wanted features still are in contact.
-double SweptSearch::slack(int first, int second) const {
-  const double wanted =
-      second == swept_ground ? bodies_.skin(first) : distance_wanted(first, second);
-  return (near - 1.0) * wanted;
+/// Up to which features are in contact.
+double SweptSearch::near_distance(int first, int second) const {
+  if (second == swept_ground) return (near - 1.0) * bodies_.skin(first);
+  return near * distance_wanted(first, second);
 }
 
 void SweptSearch::start() {
   m_.contacts.clear();
   m_.impulses.clear();
-  m_.index.clear();
+  bodies_.set_end(world_);
   find_candidates();
-  for (const SweptMemory::Candidate& candidate : m_.candidates) {
-    const auto contact = place(candidate, Moment::start);
-    if (contact) add_if_it_meets(*contact);
-  }
+  for (SweptCandidate& candidate : m_.candidates) add_if_it_meets(candidate);
 }
 
 void SweptSearch::find_candidates() {
-  bodies_.set_end(world_);
   m_.candidates.clear();
   bodies_.find_near_bodies(m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
     m_.found.clear();
     find_near_features(bodies_.surface(pair.first), bodies_.surface(pair.second), m_.found);
-    for (const NearFeatures& features : m_.found) m_.candidates.push_back({pair, features});
+    for (const NearFeatures& features : m_.found) offer(pair, features);
   }
   if (world_.settings.ground) find_near_ground();
 }
@@ -70,44 +55,102 @@ void SweptSearch::find_candidates() {
 void SweptSearch::find_near_ground() {
   for (int i = 0; i < bodies_.count(); ++i) {
     const MovingSurface& surface = bodies_.surface(i);
-    const double height = slack(i, swept_ground);
+    const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
     for (int v = 0; v < surface.start.size(); ++v) {
       if (std::min(surface.start[v].z(), surface.end[v].z()) >= height) continue;
-      m_.candidates.push_back({{i, swept_ground}, {{FeatureKind::vertex, v}, {}}});
+      m_.candidates.push_back({{i, swept_ground}, {{FeatureKind::vertex, v}, {}}, {}});
     }
   }
 }
 
+/// Only what may be in contact at the end of the step, wherever the allowances let it be.
+void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
+  const auto [first, second] = bodies;
+  const MovingSurface& a = bodies_.surface(first);
+  const MovingSurface& b = bodies_.surface(second);
+  const double reach = near_distance(first, second) + bodies_.allowance(first) +
+                       bodies_.allowance(second) + greatest_change(a, b, features);
+  const auto closest = closest_points(a, b, features, Moment::start, reach);
+  if (closest) m_.candidates.push_back({bodies, features, *closest});
+}
+
+/// Which candidates of another search are contacts already.
+void SweptSearch::recall_contacts() {
+  using Key = std::tuple<int, int, Feature, Feature>;
+  const auto before = [](const Key& a, const Key& b) {
+    const auto numbers = [](const Key& key) {
+      const auto& [first, second, one, other] = key;
+      return std::tuple(first, second, one.kind, one.index, other.kind, other.index);
+    };
+    return numbers(a) < numbers(b);
+  };
+  const auto of_contact = [&](int i) {
+    const SweptContact& contact = m_.contacts[at(i)];
+    return Key(contact.first.body, contact.second.body, contact.first.feature,
+               contact.second.feature);
+  };
+  m_.sorted.resize(m_.contacts.size());
+  std::iota(m_.sorted.begin(), m_.sorted.end(), 0);
+  std::ranges::sort(m_.sorted, before, of_contact);
+  for (SweptCandidate& candidate : m_.candidates) {
+    const Key wanted(candidate.bodies.first, candidate.bodies.second, candidate.features.first,
+                     candidate.features.second);
+    const auto place = std::ranges::lower_bound(m_.sorted, wanted, before, of_contact);
+    const bool is_known = place != m_.sorted.end() && !before(wanted, of_contact(*place));
+    candidate.contact = is_known ? *place : -1;
+  }
+}
+
 bool SweptSearch::find_collisions() {
+  bodies_.set_end(world_);
+  if (!bodies_.search_is_valid()) {
+    find_candidates();
+    recall_contacts();
+  }
   bool collided = false;
-  for (const SweptMemory::Candidate& candidate : m_.candidates) {
+  for (SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
     if (second == swept_ground) {
       collided = goes_into_ground(candidate) || collided;
       continue;
     }
-    const MovingSurface& a = bodies_.surface(first);
-    const MovingSurface& b = bodies_.surface(second);
-    const double distance = closest_points(a, b, candidate.features, Moment::start).distance;
-    if (distance < min_distance) continue;
-    if (!collide_on_their_ways(a, b, candidate.features, distance)) continue;
-    collided = true;
-    blocked_ = candidate.bodies;
-    const auto contact = place(candidate, Moment::start);
-    if (contact) add(*contact, contact->normal.dot(displacement(*contact)));
+    collided = meets(candidate) || collided;
   }
   return collided;
 }
 
-/// A vertex that other impulses pushed, and that was not yet held up.
-bool SweptSearch::goes_into_ground(const SweptMemory::Candidate& candidate) {
-  const SweptContact contact =
-      place_on_ground(candidate.bodies.first, candidate.features.first, Moment::start);
-  const double left = contact.distance + displacement(contact).z();
-  return left < -slack(candidate.bodies.first, swept_ground) && add_if_it_meets(contact);
+/// Whether two features come too near each other on their ways. It becomes a contact: of boxes as
+/// they meet, since they may turn until then; of others as they are at the start.
+bool SweptSearch::meets(SweptCandidate& candidate) {
+  const auto [first, second] = candidate.bodies;
+  const double distance = candidate.start.distance;
+  if (distance < min_distance) return false;
+  const double least =
+      std::min(kept_of_start * distance, kept_of_wanted * distance_wanted(first, second));
+  const auto fraction = time_of_meeting(bodies_.surface(first), bodies_.surface(second),
+                                        candidate.features, distance, least);
+  if (!fraction) return false;
+  blocked_ = candidate.bodies;
+  if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
+    add(candidate, place_at(candidate, *fraction));
+  } else if (candidate.contact < 0 && stands(candidate, candidate.start, Moment::start)) {
+    add(candidate, place(candidate, candidate.start));
+  }
+  return true;
 }
 
-SweptContact SweptSearch::place_on_ground(int body, const Feature& vertex, Moment moment) const {
+/// A vertex that other impulses pushed, and that was not yet held up.
+bool SweptSearch::goes_into_ground(SweptCandidate& candidate) {
+  if (candidate.contact >= 0) return false;
+  const MovingSurface& surface = bodies_.surface(candidate.bodies.first);
+  const double height = surface.end[candidate.features.first.index].z();
+  return height < -near_distance(candidate.bodies.first, swept_ground) &&
+         add_if_it_meets(candidate);
+}
+
+SweptContact SweptSearch::place_on_ground(const SweptCandidate& candidate, Moment moment) const {
+  const int body = candidate.bodies.first;
+  const Feature& vertex = candidate.features.first;
   const MovingSurface& surface = bodies_.surface(body);
   const Vec3 point =
       moment == Moment::start ? surface.start[vertex.index] : surface.end[vertex.index];
@@ -116,32 +159,73 @@ SweptContact SweptSearch::place_on_ground(int body, const Feature& vertex, Momen
           .normal = Vec3::UnitZ(),
           .distance = point.z(),
           .wanted = 0.0,
-          .is_near = point.z() < slack(body, swept_ground)};
+          .is_near = point.z() < near_distance(body, swept_ground)};
 }
 
-std::optional<SweptContact> SweptSearch::place(const SweptMemory::Candidate& candidate,
-                                               Moment moment) const {
+SweptContact SweptSearch::place(const SweptCandidate& candidate,
+                                const ClosestPoints& closest) const {
   const auto [first, second] = candidate.bodies;
-  const NearFeatures& features = candidate.features;
-  if (second == swept_ground) return place_on_ground(first, features.first, moment);
-  const MovingSurface& a = bodies_.surface(first);
-  const MovingSurface& b = bodies_.surface(second);
-  const ClosestPoints closest = closest_points(a, b, features, moment);
-  if (closest.distance < min_distance) return std::nullopt;
-  if (!stands_for_its_parts(a, b, features, closest, moment)) return std::nullopt;
-  const double wanted = distance_wanted(first, second);
-  return SweptContact{
-      .first = {first, features.first, closest.first_weights, closest.first_point},
-      .second = {second, features.second, closest.second_weights, closest.second_point},
+  const auto& [of_first, of_second] = candidate.features;
+  SweptContact contact = {
+      .first = {first, of_first, closest.first_weights, closest.first_point},
+      .second = {second, of_second, closest.second_weights, closest.second_point},
       .normal = (closest.first_point - closest.second_point).normalized(),
       .distance = closest.distance,
-      .wanted = wanted,
-      .is_near = closest.distance < wanted + slack(first, second)};
+      .wanted = distance_wanted(first, second),
+      .is_near = closest.distance < near_distance(first, second)};
+  if (is_rigid(contact)) meet_halfway(contact.first, contact.second);
+  return contact;
+}
+
+bool SweptSearch::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
+                         Moment moment) const {
+  return closest.distance >= min_distance &&
+         stands_for_its_parts(bodies_.surface(candidate.bodies.first),
+                              bodies_.surface(candidate.bodies.second), candidate.features, closest,
+                              moment);
+}
+
+/// At the start, as points that are nearest after a fraction of the step.
+SweptContact SweptSearch::place_at(const SweptCandidate& candidate, double fraction) const {
+  const MovingSurface& a = bodies_.surface(candidate.bodies.first);
+  const MovingSurface& b = bodies_.surface(candidate.bodies.second);
+  SweptContact contact = place(candidate, closest_points_at(a, b, candidate.features, fraction));
+  contact.first.point = bodies_.start_point(contact.first);
+  contact.second.point = bodies_.start_point(contact.second);
+  contact.distance = contact.normal.dot(contact.first.point - contact.second.point);
+  contact.wanted = std::min(contact.wanted, contact.distance);  // nothing is pushed along this line
+  contact.is_near =
+      candidate.start.distance < near_distance(contact.first.body, contact.second.body);
+  return contact;
+}
+
+std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& candidate,
+                                                      bool acted) const {
+  const auto [first, second] = candidate.bodies;
+  if (second == swept_ground) {
+    const SweptContact contact = place_on_ground(candidate, Moment::end);
+    if (contact.is_near || acted) return contact;
+    return std::nullopt;
+  }
+  const double reach =
+      acted ? std::numeric_limits<double>::infinity() : near_distance(first, second);
+  const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
+                                      candidate.features, Moment::end, reach);
+  if (!closest || !stands(candidate, *closest, Moment::end)) return std::nullopt;
+  return place(candidate, *closest);
+}
+
+/// The points of a contact that is placed as boxes will meet lie apart until then.
+std::pair<SurfacePoint, SurfacePoint> SweptSearch::where_impulses_act(
+    const SweptContact& contact) const {
+  std::pair<SurfacePoint, SurfacePoint> points(contact.first, contact.second);
+  if (is_rigid(contact)) meet_halfway(points.first, points.second);
+  return points;
 }
 
 SweptImpulse SweptSearch::impulse(const SweptContact& contact, double friction) {
-  return {bodies_.side(world_, contact.first), bodies_.side(world_, contact.second), contact.normal,
-          friction};
+  const auto [first, second] = where_impulses_act(contact);
+  return {bodies_.side(world_, first), bodies_.side(world_, second), contact.normal, friction};
 }
 
 Vec3 SweptSearch::displacement(const SweptContact& contact) const {
@@ -150,12 +234,13 @@ Vec3 SweptSearch::displacement(const SweptContact& contact) const {
 }
 
 Vec3 SweptSearch::start_velocity(const SweptContact& contact) const {
-  return bodies_.start_velocity(start_, contact.first) -
-         bodies_.start_velocity(start_, contact.second);
+  const auto [first, second] = where_impulses_act(contact);
+  return bodies_.start_velocity(start_, first) - bodies_.start_velocity(start_, second);
 }
 
 Vec3 SweptSearch::end_velocity(const SweptContact& contact) const {
-  return bodies_.end_velocity(world_, contact.first) - bodies_.end_velocity(world_, contact.second);
+  const auto [first, second] = where_impulses_act(contact);
+  return bodies_.end_velocity(world_, first) - bodies_.end_velocity(world_, second);
 }
 
 const ContactMaterial& SweptSearch::material(int body) const {
@@ -174,14 +259,10 @@ bool SweptSearch::is_rigid(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-std::pair<int, int> SweptSearch::boxes(const SweptContact& contact) const {
-  const int second = contact.second.body;
-  return {bodies_.box(contact.first.body), second == swept_ground ? -1 : bodies_.box(second)};
-}
-
 /// The speed at which the sides meet: with an even acceleration over the step, after the fraction
 /// of it in which the distance is used up.
-double SweptSearch::speed_of_meeting(const SweptContact& contact, double moved) const {
+double SweptSearch::speed_of_meeting(const SweptContact& contact) const {
+  const double moved = contact.normal.dot(displacement(contact));
   const double before = contact.normal.dot(start_velocity(contact));
   if (contact.is_near || moved >= 0.0) return std::max(0.0, -before);
   const double after = 2.0 * moved / time_step(world_.settings) - before;
@@ -189,21 +270,23 @@ double SweptSearch::speed_of_meeting(const SweptContact& contact, double moved) 
   return std::max(0.0, -(before + fraction * (after - before)));
 }
 
-bool SweptSearch::add_if_it_meets(const SweptContact& contact) {
-  const double moved = contact.normal.dot(displacement(contact));
-  const double left = contact.distance + moved;
-  if (left > contact.wanted + slack(contact.first.body, contact.second.body)) return false;
-  return add(contact, moved);
+bool SweptSearch::add_if_it_meets(SweptCandidate& candidate) {
+  const auto [first, second] = candidate.bodies;
+  const SweptContact contact = second == swept_ground ? place_on_ground(candidate, Moment::start)
+                                                      : place(candidate, candidate.start);
+  if (contact.distance + contact.normal.dot(displacement(contact)) > near_distance(first, second))
+    return false;
+  if (second != swept_ground && !stands(candidate, candidate.start, Moment::start)) return false;
+  add(candidate, contact);
+  return true;
 }
 
-/// False if it is known already.
-bool SweptSearch::add(SweptContact contact, double moved) {
-  if (!m_.index.insert(contact, static_cast<int>(m_.contacts.size()))) return false;
-  contact.approach = speed_of_meeting(contact, moved);
+void SweptSearch::add(SweptCandidate& candidate, SweptContact contact) {
+  candidate.contact = static_cast<int>(m_.contacts.size());
+  contact.approach = speed_of_meeting(contact);
   m_.contacts.push_back(contact);
   // What is still on its way does not rub.
   m_.impulses.push_back(impulse(contact, contact.is_near ? material(contact).friction : 0.0));
-  return true;
 }
 
 }  // namespace pneuma::sim

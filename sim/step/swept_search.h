@@ -2,12 +2,12 @@
 // ways come near each other. Private to sim/step.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "sim/step/swept_bodies.h"
+#include "sim/swept/feature_ways.h"
 
 namespace pneuma::sim {
 
@@ -22,26 +22,17 @@ struct SweptContact {
   double approach = 0.0;       // m/s, at which the sides meet
 };
 
-/// Where a contact of two features is in a list.
-class SweptIndex {
- public:
-  void clear() { entries_.clear(); }
-  /// False if it is there already.
-  bool insert(const SweptContact& contact, int number);
-  /// The number of the contact of the same features, or -1.
-  int find(const SweptContact& contact) const;
-
- private:
-  using Key = std::array<int, 6>;
-  static Key key(const SweptContact& contact);
-
-  std::vector<std::pair<Key, int>> entries_;  // in ascending order
+/// Features of two bodies, or of one and the ground, that may meet in the step.
+struct SweptCandidate {
+  BodyPair bodies;
+  NearFeatures features;
+  ClosestPoints start;  // where they are nearest then; not of the ground
+  int contact = -1;     // the contact of the start that this is, if any
 };
 
 /// Before a step or a part of it: what is taken back if it fails.
 struct SweptStart {
-  std::vector<SoftState> soft;
-  std::vector<RigidStart> rigid;
+  MotionStart motion;
   std::vector<WarmStartImpulse> warm_start_impulses;
 };
 
@@ -54,16 +45,11 @@ struct SweptMemory {
   SweptBodies bodies;
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
-  /// Features of two bodies, or of one and the ground, that may meet.
-  struct Candidate {
-    BodyPair bodies;
-    NearFeatures features;
-  };
-  std::vector<Candidate> candidates;
+  std::vector<SweptCandidate> candidates;
   std::vector<NearFeatures> found;  // of two bodies
+  std::vector<int> sorted;          // contacts, while candidates are found again
   std::vector<SweptContact> contacts;
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
-  SweptIndex index;                          // of the contacts at the start
   std::vector<SweptContact> first_contacts;  // those of the start, once the end is solved for
   std::vector<SweptImpulse> first_impulses;
   double work = 0.0;  // J, by all impulses of the last step
@@ -78,40 +64,46 @@ class SweptSearch {
 
   /// The contacts that the free motion would use up.
   void start();
-  /// Of the motion as it came out.
-  void find_candidates();
-  /// Adds what was found on the way to the contacts. Whether anything is in the way of the step.
+  /// Adds to the contacts what bodies would pass through on their ways as they came out. Whether
+  /// there is any.
   bool find_collisions();
   /// What was in the way last.
   const BodyPair& blocked() const { return blocked_; }
 
-  /// Where the features of a candidate are nearest. None if another pair stands for it, or if
-  /// nothing says where they would part.
-  std::optional<SweptContact> place(const SweptMemory::Candidate& candidate, Moment moment) const;
+  /// Where the features of a candidate are nearest at the end, if they are in contact then or
+  /// `acted` on each other at the start. None if another pair stands for it, or if nothing says
+  /// where they would part.
+  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted) const;
   SweptImpulse impulse(const SweptContact& contact, double friction);
 
   /// Of the first side against the second, m.
   Vec3 displacement(const SweptContact& contact) const;
-  /// m/s.
+  /// m/s, where impulses act.
   Vec3 start_velocity(const SweptContact& contact) const;
   Vec3 end_velocity(const SweptContact& contact) const;
 
   ContactMaterial material(const SweptContact& contact) const;
   /// Boxes, and boxes and the ground: what rests on each other stays there.
   bool is_rigid(const SweptContact& contact) const;
-  /// Indices into World::rigid, -1 for the ground.
-  std::pair<int, int> boxes(const SweptContact& contact) const;
 
  private:
   double distance_wanted(int first, int second) const;
-  double slack(int first, int second) const;
+  double near_distance(int first, int second) const;
   const ContactMaterial& material(int body) const;
-  double speed_of_meeting(const SweptContact& contact, double moved) const;
+  double speed_of_meeting(const SweptContact& contact) const;
+  std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
+  void find_candidates();
   void find_near_ground();
-  SweptContact place_on_ground(int body, const Feature& vertex, Moment moment) const;
-  bool goes_into_ground(const SweptMemory::Candidate& candidate);
-  bool add(SweptContact contact, double moved);
-  bool add_if_it_meets(const SweptContact& contact);
+  void offer(const BodyPair& bodies, const NearFeatures& features);
+  void recall_contacts();
+  SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest) const;
+  SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
+  SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
+  bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
+  bool meets(SweptCandidate& candidate);
+  bool goes_into_ground(SweptCandidate& candidate);
+  bool add_if_it_meets(SweptCandidate& candidate);
+  void add(SweptCandidate& candidate, SweptContact contact);
 
   const World& world_;
   const MotionStart& start_;

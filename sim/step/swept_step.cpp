@@ -1,8 +1,7 @@
 #include "sim/step/swept_step.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <tuple>
 
 #include "sim/step/find_divergence.h"
 #include "sim/step/stage_runner.h"
@@ -16,7 +15,9 @@ constexpr int max_rounds = 4;
 constexpr int solver_iterations = 50;
 /// Of the thinnest skin, per step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
-/// Fraction of a missing distance that a step makes up for: what moves slowly has no energy.
+/// What is nearer than half the distance wanted is moved apart, by this fraction of what is missing
+/// in each step: what moves slowly has no energy.
+constexpr double closest_allowed = 0.5;
 constexpr double made_up = 0.2;
 
 /// Of the shortest side of a box: points nearer than this are one, a step later.
@@ -51,41 +52,22 @@ class SweptStep {
 
  private:
   void keep(SweptStart& start) const {
-    start.soft.resize(world_.soft.size());
-    start.rigid.resize(world_.rigid.size());
-    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
-      start.soft[i].positions = world_.soft[i].positions;
-      start.soft[i].velocities = world_.soft[i].velocities;
-    }
-    for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
-      const RigidBox& box = world_.rigid[i];
-      start.rigid[i] = {box.position, box.orientation, box.velocity, box.angular_velocity};
-    }
+    keep_soft(world_, start.motion.soft);
+    keep_rigid(world_, start.motion.rigid);
     start.warm_start_impulses = world_.warm_start_impulses;
   }
 
   void take_back(const SweptStart& start) {
-    w_.motion_start = {start.soft, start.rigid};
+    restore_soft(world_, start.motion.soft);
+    restore_rigid(world_, start.motion.rigid);
     world_.warm_start_impulses = start.warm_start_impulses;
-    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
-      world_.soft[i].positions = start.soft[i].positions;
-      world_.soft[i].velocities = start.soft[i].velocities;
-    }
-    for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
-      RigidBox& box = world_.rigid[i];
-      const RigidStart& before = start.rigid[i];
-      box.position = before.position;
-      box.orientation = before.orientation;
-      box.velocity = before.velocity;
-      box.angular_velocity = before.angular_velocity;
-    }
   }
 
   std::optional<Divergence> try_step() {
     if (auto failed = move_freely()) return failed;
     run_(Stage::find_contacts, [&] {
       bodies_.set_start(world_, start());
-      bodies_.clear_changes(world_, &start());
+      bodies_.begin_at_start(world_, start());
       search_.start();
     });
     for (int round = 0; round < max_rounds; ++round) {
@@ -99,10 +81,7 @@ class SweptStep {
              [&] { moves = !bodies_.move_again(world_, start(), w_.integrate_soft).has_value(); });
         if (!moves) break;
       }
-      run_(Stage::find_contacts, [&] {
-        if (!m_.contacts.empty()) search_.find_candidates();
-        collides = search_.find_collisions();
-      });
+      run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
       if (!collides) {
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
@@ -134,10 +113,14 @@ class SweptStep {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
       const Vec3 free = search_.displacement(contact) / step() - m_.impulses[i].change();
-      const double missing = contact.wanted - contact.distance;
-      const double wanted = missing > 0.0 ? made_up * missing : missing;
-      m_.impulses[i].aim(wanted / step() - contact.normal.dot(free), free);
+      m_.impulses[i].aim(may_move(contact) / step() - contact.normal.dot(free), free);
     }
+  }
+
+  /// m, along the normal in this step, at least: negative if there is room.
+  static double may_move(const SweptContact& contact) {
+    if (contact.distance > contact.wanted) return contact.wanted - contact.distance;
+    return made_up * std::max(0.0, closest_allowed * contact.wanted - contact.distance);
   }
 
   std::optional<Divergence> finish() {
@@ -148,8 +131,8 @@ class SweptStep {
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
     m_.impulses.clear();
-    bodies_.clear_changes(world_, nullptr);
-    for (const SweptMemory::Candidate& candidate : m_.candidates) touch(candidate);
+    bodies_.begin_at_end(world_);
+    for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
     warm_start();
     solve_all();
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
@@ -158,17 +141,16 @@ class SweptStep {
     bodies_.add_changes(world_);
     remember();
     report();
-    return find_bad_body();
+    return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
 
   /// What touches at the end does not approach, or bounces. An impulse of the start whose features
   /// did not meet is given back.
-  void touch(const SweptMemory::Candidate& candidate) {
-    const auto contact = search_.place(candidate, Moment::end);
-    if (!contact) return;
-    const int known = m_.index.find(*contact);
+  void touch(const SweptCandidate& candidate) {
+    const int known = candidate.contact;
     const bool acted = known >= 0 && m_.first_impulses[at(known)].normal_impulse() > 0.0;
-    if (!contact->is_near && !acted) return;
+    const auto contact = search_.place_at_end(candidate, acted);
+    if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
     SweptImpulse impulse = search_.impulse(*contact, contact->is_near ? both.friction : 0.0);
     double parting = 0.0;
@@ -193,24 +175,30 @@ class SweptStep {
   /// Gives the impulse that held a point of a box in the last step to the nearest contact of the
   /// same boxes (ERRATA row 59).
   void warm_start() {
+    const auto bodies = [](const SweptContact& contact) { return in_order(contact); };
     for (const WarmStartImpulse& resting : world_.warm_start_impulses) {
       const RigidBox& first = world_.rigid[at(resting.first)];
       const Vec3 point = first.position + first.orientation * resting.point;
       double nearest = same_contact * first.size.minCoeff();
       SweptImpulse* found = nullptr;
-      for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-        const SweptContact& contact = m_.contacts[i];
-        if (!search_.is_rigid(contact) ||
-            search_.boxes(contact) != std::pair(resting.first, resting.second)) {
-          continue;
-        }
-        const double distance = (contact.first.point - point).norm();
+      const auto pair = in_order(bodies_.of_box(resting.first), bodies_.of_box(resting.second));
+      for (auto i = std::ranges::lower_bound(m_.contacts, pair, {}, bodies);
+           i != m_.contacts.end() && bodies(*i) == pair; ++i) {
+        const double distance = (i->first.point - point).norm();
         if (distance >= nearest) continue;
         nearest = distance;
-        found = &m_.impulses[i];
+        found = &m_.impulses[static_cast<std::size_t>(i - m_.contacts.begin())];
       }
       if (found) found->warm_start(resting.impulse);
     }
+  }
+
+  /// Contacts are found in this order: by their bodies, then with the ground.
+  static std::tuple<bool, int, int> in_order(int first, int second) {
+    return {second == swept_ground, first, second};
+  }
+  static std::tuple<bool, int, int> in_order(const SweptContact& contact) {
+    return in_order(contact.first.body, contact.second.body);
   }
 
   void remember() {
@@ -219,7 +207,9 @@ class SweptStep {
       const SweptContact& contact = m_.contacts[i];
       const SweptImpulse& impulse = m_.impulses[i];
       if (!search_.is_rigid(contact) || impulse.normal_impulse() == 0.0) continue;
-      const auto [first, second] = search_.boxes(contact);
+      const int first = bodies_.box(contact.first.body);
+      const int second =
+          contact.second.body == swept_ground ? -1 : bodies_.box(contact.second.body);
       const RigidBox& box = world_.rigid[at(first)];
       world_.warm_start_impulses.push_back(
           {first, second, box.orientation.conjugate() * (contact.first.point - box.position),
@@ -245,16 +235,6 @@ class SweptStep {
                              .point = contact.first.point,
                              .normal = contact.normal});
     }
-  }
-
-  std::optional<Divergence> find_bad_body() const {
-    for (const SoftBody& body : world_.soft) {
-      if (auto divergence = find_divergence(world_, body)) return divergence;
-    }
-    for (const RigidBox& box : world_.rigid) {
-      if (auto divergence = find_divergence(world_, box)) return divergence;
-    }
-    return std::nullopt;
   }
 
   const std::string& name(int body) const {

@@ -21,7 +21,7 @@ namespace pneuma::sim {
 struct StepWorkspace;
 
 /// Steps the world once. What diverges, and bodies that no halving keeps apart, end it: the world
-/// is then as the step found it, also in the workspace's motion_start.
+/// is then as the step found it.
 std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace);
 
 }  // namespace pneuma::sim

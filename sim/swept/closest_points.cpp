@@ -1,11 +1,7 @@
 #include "sim/swept/closest_points.h"
 
-#include <limits>
-
 namespace pneuma::sim {
 namespace {
-
-constexpr double any_reach = std::numeric_limits<double>::infinity();
 
 /// Of a point on the line through two others.
 double fraction(const Vec3& from, const Vec3& to, const Vec3& point) {
@@ -45,15 +41,18 @@ FeatureWeights weights(const std::array<Vec3, Count>& corners, const FeaturePart
 }
 
 template <std::size_t First, std::size_t Second>
-ClosestPoints closest(const Proximity& proximity, const std::array<Vec3, First>& first,
-                      const std::array<Vec3, Second>& second) {
-  return {.first_point = proximity.first_point,
-          .second_point = proximity.second_point,
-          .first_weights = weights(first, proximity.first, proximity.first_point),
-          .second_weights = weights(second, proximity.second, proximity.second_point),
-          .first = proximity.first,
-          .second = proximity.second,
-          .distance = proximity.distance};
+std::optional<ClosestPoints> with_weights(const std::optional<Proximity>& found,
+                                          const std::array<Vec3, First>& first,
+                                          const std::array<Vec3, Second>& second) {
+  if (!found) return std::nullopt;
+  const Proximity& proximity = *found;
+  return ClosestPoints{.first_point = proximity.first_point,
+                       .second_point = proximity.second_point,
+                       .first_weights = weights(first, proximity.first, proximity.first_point),
+                       .second_weights = weights(second, proximity.second, proximity.second_point),
+                       .first = proximity.first,
+                       .second = proximity.second,
+                       .distance = proximity.distance};
 }
 
 }  // namespace
@@ -63,12 +62,14 @@ ClosestPoints mirrored(const ClosestPoints& closest) {
           closest.second,       closest.first,       closest.distance};
 }
 
-ClosestPoints closest_vertex_triangle(const Vec3& vertex, const Corners& triangle) {
-  return closest(*test_vertex_triangle(vertex, triangle, any_reach), std::array{vertex}, triangle);
+std::optional<ClosestPoints> closest_vertex_triangle(const Vec3& vertex, const Corners& triangle,
+                                                     double reach) {
+  return with_weights(test_vertex_triangle(vertex, triangle, reach), std::array{vertex}, triangle);
 }
 
-ClosestPoints closest_edge_edge(const Segment& first, const Segment& second) {
-  return closest(*test_edge_edge(first, second, any_reach), first, second);
+std::optional<ClosestPoints> closest_edge_edge(const Segment& first, const Segment& second,
+                                               double reach) {
+  return with_weights(test_edge_edge(first, second, reach), first, second);
 }
 
 }  // namespace pneuma::sim

@@ -1,11 +1,12 @@
 // Where two features are nearest, as weights of their vertices: what an impulse at that place
 // needs.
 //
-// The feature tests of section 5.2.1.1 (feature_tests.h) without a reach, of the two pairs of
-// features alone of which every way of touching is made: vertex and triangle, edge and edge.
+// The feature tests of section 5.2.1.1 (feature_tests.h), of the two pairs of features alone of
+// which every way of touching is made: vertex and triangle, edge and edge.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "sim/collision/feature_tests.h"
 
@@ -27,8 +28,11 @@ struct ClosestPoints {
 /// The same with first and second exchanged.
 ClosestPoints mirrored(const ClosestPoints& closest);
 
-/// Every finite input is allowed, features without extent too (feature_tests.h).
-ClosestPoints closest_vertex_triangle(const Vec3& vertex, const Corners& triangle);
-ClosestPoints closest_edge_edge(const Segment& first, const Segment& second);
+/// None if they are `reach` (m) apart, or more. Every finite input is allowed, features without
+/// extent too (feature_tests.h).
+std::optional<ClosestPoints> closest_vertex_triangle(const Vec3& vertex, const Corners& triangle,
+                                                     double reach);
+std::optional<ClosestPoints> closest_edge_edge(const Segment& first, const Segment& second,
+                                               double reach);
 
 }  // namespace pneuma::sim

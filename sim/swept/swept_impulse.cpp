@@ -7,14 +7,23 @@
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
+namespace {
+
+/// The vector, or the longest along it that is no longer than `limit`.
+Vec4d within(double limit, Vec4d vector) {
+  const double size = std::sqrt(dot(vector, vector));
+  return size > limit ? limit / size * vector : vector;
+}
+
+}  // namespace
 
 BoxChange make_box_change(const RigidBox& box, const Vec3& position,
                           const Eigen::Quaterniond& orientation) {
   const Mat3 axes = orientation.toRotationMatrix();
-  return {
-      .centre = position,
-      .inverse_mass = 1.0 / box.mass,
-      .inverse_inertia = axes * body_inertia(box).cwiseInverse().asDiagonal() * axes.transpose()};
+  const Mat3 inverse = axes * body_inertia(box).cwiseInverse().asDiagonal() * axes.transpose();
+  return {.centre = to_vec4d(position),
+          .inverse_mass = 1.0 / box.mass,
+          .inverse_inertia = mat3x4(inverse)};
 }
 
 SweptSide::SweptSide(VertexArray& changes, std::span<const int> vertices,
@@ -27,32 +36,36 @@ SweptSide::SweptSide(VertexArray& changes, std::span<const int> vertices,
   }
 }
 
-SweptSide::SweptSide(BoxChange& box, const Vec3& point) : box_(&box), arm_(point - box.centre) {}
+SweptSide::SweptSide(BoxChange& box, const Vec3& point)
+    : box_(&box), arm_(to_vec4d(point) - box.centre) {}
 
-Vec3 SweptSide::change() const {
-  if (box_) return box_->velocity + box_->angular_velocity.cross(arm_);
-  Vec3 sum = Vec3::Zero();
+Vec4d SweptSide::change() const {
+  if (box_) return box_->velocity + cross(box_->angular_velocity, arm_);
+  Vec4d sum{};
   for (std::size_t i = 0; i < at(count_); ++i) {
-    sum += weights_[i] * Eigen::Map<const Vec3>(vertices_[i]);
+    sum = fma(weights_[i], load_vec4d(vertices_[i]), sum);
   }
   return sum;
 }
 
-void SweptSide::apply(const Vec3& impulse) const {
+void SweptSide::apply(Vec4d impulse) const {
   if (box_) {
     box_->velocity += box_->inverse_mass * impulse;
-    box_->angular_velocity += box_->inverse_inertia * arm_.cross(impulse);
+    box_->angular_velocity += box_->inverse_inertia * cross(arm_, impulse);
     return;
   }
+  const Vec4d change = inverse_vertex_mass_ * impulse;
   for (std::size_t i = 0; i < at(count_); ++i) {
-    Eigen::Map<Vec3>(vertices_[i]) += (weights_[i] * inverse_vertex_mass_) * impulse;
+    store_vec4d(fma(weights_[i], change, load_vec4d(vertices_[i])), vertices_[i]);
   }
 }
 
 Mat3 SweptSide::mobility() const {
   if (box_) {
-    const Mat3 arm = cross_matrix(arm_);
-    return box_->inverse_mass * Mat3::Identity() - arm * box_->inverse_inertia * arm;
+    const Mat3 arm = cross_matrix(to_vec3(arm_));
+    Mat3 inverse;
+    for (int i = 0; i < 3; ++i) inverse.col(i) = to_vec3(box_->inverse_inertia.columns[at(i)]);
+    return box_->inverse_mass * Mat3::Identity() - arm * inverse * arm;
   }
   double sum = 0.0;
   for (const double weight : weights_) sum += weight * weight;
@@ -60,48 +73,46 @@ Mat3 SweptSide::mobility() const {
 }
 
 SweptImpulse::SweptImpulse(SweptSide first, SweptSide second, const Vec3& normal, double friction)
-    : first_(first), second_(second), normal_(normal), friction_(friction) {
+    : first_(first), second_(second), normal_(to_vec4d(normal)), friction_(friction) {
   const Mat3 mobility = first_.mobility() + second_.mobility();
-  mobility_ = normal_.dot(mobility * normal_);
+  mobility_ = normal.dot(mobility * normal);
   normal_mass_ = 1.0 / mobility_;
-  tangents_[0] = normal_.unitOrthogonal();
-  tangents_[1] = normal_.cross(tangents_[0]);
   Eigen::Matrix<double, 3, 2> across;
-  across << tangents_[0], tangents_[1];
+  across.col(0) = normal.unitOrthogonal();
+  across.col(1) = normal.cross(across.col(0));
   const Eigen::Matrix2d along = across.transpose() * mobility * across;
-  tangent_mass_ = along.inverse();
   const double half_difference = 0.5 * (along(0, 0) - along(1, 1));
   min_tangent_mass_ = 1.0 / (0.5 * along.trace() + std::hypot(half_difference, along(0, 1)));
 }
 
 void SweptImpulse::aim(double parting, const Vec3& sliding) {
   parting_ = parting;
-  sliding_ = sliding - sliding.dot(normal_) * normal_;
+  sliding_ = to_vec4d(sliding);
+  sliding_ -= dot(sliding_, normal_) * normal_;
 }
 
 void SweptImpulse::start_from(double normal, const Vec3& friction) {
   normal_impulse_ = start_normal_ = normal;
-  friction_impulse_ = start_friction_ = friction;
+  friction_impulse_ = start_friction_ = to_vec4d(friction);
 }
 
 void SweptImpulse::warm_start(const Vec3& impulse) {
-  const double pressing = std::max(0.0, impulse.dot(normal_));
-  Vec3 across = impulse - impulse.dot(normal_) * normal_;
+  const Vec4d whole = to_vec4d(impulse);
+  const double along = dot(whole, normal_), pressing = std::max(0.0, along);
   // The normal may have turned since.
-  const double limit = friction_ * pressing, size = across.norm();
-  if (size > limit) across *= limit / size;
+  const Vec4d across = within(friction_ * pressing, whole - along * normal_);
   normal_impulse_ += pressing;
   friction_impulse_ += across;
   apply(pressing * normal_ + across);
 }
 
-void SweptImpulse::apply(const Vec3& impulse) const {
+void SweptImpulse::apply(Vec4d impulse) const {
   first_.apply(impulse);
   second_.apply(-impulse);
 }
 
 double SweptImpulse::correct_normal() {
-  const double missing = parting_ - normal_.dot(change());
+  const double missing = parting_ - dot(normal_, relative_change());
   const double before = normal_impulse_;
   normal_impulse_ = std::clamp(before + missing * normal_mass_, 0.0, max_normal_);
   const double given = normal_impulse_ - before;
@@ -109,25 +120,19 @@ double SweptImpulse::correct_normal() {
   return std::abs(given) * mobility_;
 }
 
-// As contact_impulse.cpp: what stops the sliding if the cone allows it, else the nearest point in
-// the cone to a step against the sliding, which from within the cone never adds energy.
+// A step against the sliding, then the nearest point in the cone: from within the cone it never
+// adds energy, and unlike the impulse that stops the sliding at once, where there is room for it,
+// it does not jump from one sweep to the next.
 double SweptImpulse::correct_friction() {
   const double limit = friction_ * normal_impulse_;
-  if (limit == 0.0 && friction_impulse_.isZero()) return 0.0;
-  const Vec3 slides = change() + sliding_;
-  const Eigen::Vector2d along(tangents_[0].dot(slides), tangents_[1].dot(slides));
-  const Eigen::Vector2d stop = tangent_mass_ * along;
-  Vec3 after = friction_impulse_ - stop[0] * tangents_[0] - stop[1] * tangents_[1];
-  if (after.squaredNorm() > limit * limit) {
-    after =
-        friction_impulse_ - min_tangent_mass_ * (along[0] * tangents_[0] + along[1] * tangents_[1]);
-    const double size = after.norm();
-    if (size > limit) after *= limit / size;
-  }
-  const Vec3 given = after - friction_impulse_;
+  if (limit == 0.0 && dot(friction_impulse_, friction_impulse_) == 0.0) return 0.0;
+  Vec4d slides = relative_change() + sliding_;
+  slides -= dot(slides, normal_) * normal_;
+  const Vec4d after = within(limit, friction_impulse_ - min_tangent_mass_ * slides);
+  const Vec4d given = after - friction_impulse_;
   friction_impulse_ = after;
   apply(given);
-  return given.norm() / min_tangent_mass_;
+  return std::sqrt(dot(given, given)) / min_tangent_mass_;
 }
 
 double SweptImpulse::correct() {

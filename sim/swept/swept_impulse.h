@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/mesh/vec4d.h"
 #include "sim/mesh/vertex_array.h"
 #include "sim/swept/closest_points.h"
 #include "sim/world/rigid_box.h"
@@ -20,11 +21,11 @@ namespace pneuma::sim {
 
 /// By how much impulses have changed the velocities of a box, and what an impulse does to it.
 struct BoxChange {
-  Vec3 centre = Vec3::Zero();    // m
-  Vec3 velocity = Vec3::Zero();  // m/s
-  Vec3 angular_velocity = Vec3::Zero();
-  double inverse_mass = 0.0;            // 1/kg
-  Mat3 inverse_inertia = Mat3::Zero();  // world axes, 1/(kg m^2)
+  Vec4d centre{};    // m
+  Vec4d velocity{};  // m/s
+  Vec4d angular_velocity{};
+  double inverse_mass = 0.0;  // 1/kg
+  Mat3x4 inverse_inertia{};   // world axes, 1/(kg m^2)
 };
 
 /// Without a change as yet, of a box that lies there.
@@ -41,9 +42,9 @@ class SweptSide {
   SweptSide(BoxChange& box, const Vec3& point);
 
   /// Change of the point's velocity so far, m/s.
-  Vec3 change() const;
+  Vec4d change() const;
   /// N s.
-  void apply(const Vec3& impulse) const;
+  void apply(Vec4d impulse) const;
   /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
   Mat3 mobility() const;
 
@@ -53,7 +54,7 @@ class SweptSide {
   int count_ = 0;
   double inverse_vertex_mass_ = 0.0;
   BoxChange* box_ = nullptr;
-  Vec3 arm_ = Vec3::Zero();  // from the box's centre to the point, m
+  Vec4d arm_{};  // from the box's centre to the point, m
 };
 
 /// One contact of a Gauss-Seidel solver with Coulomb's friction. Changes of the relative velocity
@@ -75,16 +76,16 @@ class SweptImpulse {
   /// One projected Gauss-Seidel correction. Returns by how much the relative velocity changed, m/s.
   double correct();
 
-  const Vec3& normal() const { return normal_; }
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
-  const Vec3& friction_impulse() const { return friction_impulse_; }
+  Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }
   /// N s on the first side, without what was started from.
   Vec3 given() const {
-    return (normal_impulse_ - start_normal_) * normal_ + (friction_impulse_ - start_friction_);
+    return to_vec3((normal_impulse_ - start_normal_) * normal_ +
+                   (friction_impulse_ - start_friction_));
   }
   /// Change of the relative velocity by all impulses so far, m/s.
-  Vec3 change() const { return first_.change() - second_.change(); }
+  Vec3 change() const { return to_vec3(relative_change()); }
   /// J, the work of what was given since the start, if the sides had the relative velocity `before`
   /// (m/s) when all impulses began.
   double work(const Vec3& before) const;
@@ -92,23 +93,22 @@ class SweptImpulse {
  private:
   double correct_normal();
   double correct_friction();
-  void apply(const Vec3& impulse) const;
+  Vec4d relative_change() const { return first_.change() - second_.change(); }
+  void apply(Vec4d impulse) const;
 
   SweptSide first_;
   SweptSide second_;
-  Vec3 normal_;
-  std::array<Vec3, 2> tangents_;
+  Vec4d normal_;
   double friction_ = 0.0;          // Coulomb's mu
   double normal_mass_ = 0.0;       // kg
-  Eigen::Matrix2d tangent_mass_;   // kg: the impulse that stops sliding, along the tangents
-  double min_tangent_mass_ = 0.0;  // kg
+  double min_tangent_mass_ = 0.0;  // kg, of the direction across the normal that is moved easiest
   double mobility_ = 0.0;          // 1/kg along the normal
   double parting_ = 0.0;           // m/s
-  Vec3 sliding_ = Vec3::Zero();    // m/s, across the normal
+  Vec4d sliding_{};                // m/s, across the normal
   double normal_impulse_ = 0.0;    // N s
-  Vec3 friction_impulse_ = Vec3::Zero();
+  Vec4d friction_impulse_{};
   double start_normal_ = 0.0;
-  Vec3 start_friction_ = Vec3::Zero();
+  Vec4d start_friction_{};
   double max_normal_ = std::numeric_limits<double>::infinity();
 };
 

@@ -44,7 +44,7 @@ struct World {
   std::vector<RigidBox> rigid;
   std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
   std::vector<WarmStartImpulse>
-      warm_start_impulses;  // of the last step, ground first, then by (first, second)
+      warm_start_impulses;  // of the last step, those of each pair one after the other
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
 };

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/sim/collision/feature_samples.h"
 
 namespace pneuma::sim {
@@ -42,12 +44,14 @@ void expect_closest(const FeaturePair& pair, const ClosestPoints& closest) {
 }
 
 constexpr int pairs = 20'000;
+constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 TEST(ClosestPoints, OfVertexAndTriangleAreAtTheTrueDistance) {
   FeatureSampler sampler(1);
   for (int i = 0; i < pairs && !testing::Test::HasFailure(); ++i) {
     const FeaturePair pair = sampler.sample(1, 3, i % FeatureSampler::relations);
-    expect_closest(pair, closest_vertex_triangle(pair.first[0], corners(pair.second)));
+    expect_closest(pair,
+                   *closest_vertex_triangle(pair.first[0], corners(pair.second), any_distance));
   }
 }
 
@@ -55,14 +59,15 @@ TEST(ClosestPoints, OfTwoEdgesAreAtTheTrueDistance) {
   FeatureSampler sampler(2);
   for (int i = 0; i < pairs && !testing::Test::HasFailure(); ++i) {
     const FeaturePair pair = sampler.sample(2, 2, i % FeatureSampler::relations);
-    expect_closest(pair, closest_edge_edge(segment(pair.first), segment(pair.second)));
+    expect_closest(pair,
+                   *closest_edge_edge(segment(pair.first), segment(pair.second), any_distance));
   }
 }
 
 TEST(ClosestPoints, SayWhichPartTheyAreOn) {
   const Corners triangle = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const auto part = [&](double x, double y) {
-    return closest_vertex_triangle({x, y, 1.0}, triangle).second;
+    return closest_vertex_triangle({x, y, 1.0}, triangle, any_distance)->second;
   };
   EXPECT_EQ(part(0.2, 0.2), (FeaturePart{FeatureKind::triangle, 0}));
   EXPECT_EQ(part(-1.0, -1.0), (FeaturePart{FeatureKind::vertex, 0}));

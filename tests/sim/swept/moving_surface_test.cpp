@@ -1,10 +1,11 @@
-// Surfaces on their way: what the hierarchy finds against looking at everything, and whether ways
+// Surfaces on their way: what the searches find against looking at everything, and whether ways
 // that cross are seen.
 #include "sim/swept/moving_surface.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <set>
 #include <tuple>
@@ -12,9 +13,12 @@
 #include "sim/collision/bounding_sphere.h"
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/soft_mesh.h"
+#include "sim/swept/feature_ways.h"
 
 namespace pneuma::sim {
 namespace {
+
+constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 /// A body's surface at rest in its rest shape.
 MovingSurface make_surface(const SoftMesh& mesh, const Vec3& offset, bool is_rigid = false) {
@@ -121,7 +125,7 @@ TEST(MovingSurface, OnePairStandsForEachPairOfParts) {
     std::vector<Vec3> points;  // the middles between nearest points
     double nearest = 1.0;
     for (const NearFeatures& pair : pairs) {
-      const ClosestPoints closest = closest_points(a, b, pair, Moment::start);
+      const ClosestPoints closest = *closest_points(a, b, pair, Moment::start, any_distance);
       if (!stands_for_its_parts(a, b, pair, closest, Moment::start)) continue;
       nearest = std::min(nearest, closest.distance);
       points.push_back(0.5 * (closest.first_point + closest.second_point));
@@ -142,7 +146,74 @@ double distance_at(const MovingSurface& a, const MovingSurface& b, const NearFea
   MovingSurface now_a = a, now_b = b;
   now_a.start.rows() = (1.0 - t) * a.start.rows() + t * a.end.rows();
   now_b.start.rows() = (1.0 - t) * b.start.rows() + t * b.end.rows();
-  return closest_points(now_a, now_b, pair, Moment::start).distance;
+  return closest_points(now_a, now_b, pair, Moment::start, any_distance)->distance;
+}
+
+void turn(MovingSurface& surface, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::Quaterniond rotation =
+      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+          .normalized();
+  for (int v = 0; v < surface.start.size(); ++v) {
+    surface.start[v] = (rotation * Vec3(surface.start[v])).eval();
+  }
+}
+
+/// Every pair of features that come within `margin` of each other at one of a few moments.
+std::set<Named> all_that_meet(const MovingSurface& a, const MovingSurface& b, double margin) {
+  std::set<Named> result;
+  const MeshTopology& of_a = a.tree->topology();
+  const MeshTopology& of_b = b.tree->topology();
+  const auto look = [&](Feature first, Feature second) {
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      if (distance_at(a, b, {first, second}, t) < margin) result.insert(named({first, second}));
+    }
+  };
+  for (int v = 0; v < 8; ++v) {
+    for (int t = 0; t < 12; ++t) {
+      look({FeatureKind::vertex, v}, {FeatureKind::triangle, t});
+      look({FeatureKind::triangle, t}, {FeatureKind::vertex, v});
+    }
+  }
+  for (int e = 0; e < of_a.edge_count(); ++e) {
+    for (int f = 0; f < of_b.edge_count(); ++f) {
+      if (a.tree->is_flat(e) || b.tree->is_flat(f)) continue;
+      look({FeatureKind::edge, e}, {FeatureKind::edge, f});
+    }
+  }
+  return result;
+}
+
+TEST(MovingSurface, OfBoxesFindsAllThatMeet) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto cube = make_soft_mesh(make_box({2.0, 2.0, 2.0}, 1));
+  const auto plate = make_soft_mesh(make_box({3.0, 0.1, 2.0}, 1));
+  std::size_t met = 0, looked_at = 0;
+  for (int i = 0; i < 240; ++i) {
+    MovingSurface a = make_surface(*cube, Vec3::Zero(), true);
+    MovingSurface b = make_surface(*plate, Vec3::Zero(), true);
+    turn(a, random);
+    turn(b, random);
+    const Vec3 away = 1.4 * Vec3(uniform(random), uniform(random), uniform(random)).normalized();
+    for (int v = 0; v < 8; ++v) b.start[v] += away;
+    move(a, 0.1, random);
+    move(b, 0.1, random);
+    refit(a, 0.02);
+    refit(b, 0.03);
+    std::vector<NearFeatures> pairs;
+    find_near_features(a, b, pairs);
+    std::set<Named> found;
+    for (const NearFeatures& pair : pairs) {
+      EXPECT_TRUE(found.insert(named(pair)).second) << "a pair was found twice";
+    }
+    const std::set<Named> meeting = all_that_meet(a, b, 0.05);
+    EXPECT_TRUE(std::ranges::includes(found, meeting)) << i;
+    met += meeting.size();
+    looked_at += found.size();
+  }
+  EXPECT_GT(met, 300u);
+  EXPECT_LT(looked_at, 20 * met);
 }
 
 TEST(Ways, ThatComeNearAreSeenAndThoseThatStayApartAreNot) {
@@ -176,10 +247,14 @@ TEST(Ways, ThatComeNearAreSeenAndThoseThatStayApartAreNot) {
     for (int s = 1; s <= samples; ++s) {
       least = std::min(least, distance_at(a, b, pair, static_cast<double>(s) / samples));
     }
-    const bool seen = collide_on_their_ways(a, b, pair, distance);
+    const auto seen = time_of_meeting(a, b, pair, distance, 0.1 * distance);
     // Between samples the features move by up to 6 / 200 m against each other.
     if (least < 0.1 * distance) {
-      EXPECT_TRUE(seen) << i;
+      ASSERT_TRUE(seen) << i;
+      const ClosestPoints met = closest_points_at(a, b, pair, *seen);
+      EXPECT_NEAR(met.distance, distance_at(a, b, pair, *seen), 1e-12) << i;
+      EXPECT_LT(met.distance, 0.12 * distance) << i;
+      EXPECT_GT(met.distance, 0.1 * distance) << "they crossed before";
       ++near;
     } else if (least > 0.15 * distance + 0.03) {
       EXPECT_FALSE(seen) << i;
@@ -204,8 +279,9 @@ TEST(Ways, OfACommonMotionDoNotCollideHoweverLong) {
   find_near_features(a, b, pairs);
   EXPECT_FALSE(pairs.empty());
   for (const NearFeatures& pair : pairs) {
-    const double distance = closest_points(a, b, pair, Moment::start).distance;
-    EXPECT_FALSE(collide_on_their_ways(a, b, pair, distance));
+    const double distance = distance_at(a, b, pair, 0.0);
+    EXPECT_FALSE(time_of_meeting(a, b, pair, distance, 0.1 * distance));
+    EXPECT_EQ(greatest_change(a, b, pair), 0.0);
   }
 }
 

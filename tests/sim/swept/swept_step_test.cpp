@@ -72,7 +72,7 @@ TEST(Swept, APlateOnEdgeDoesNotCutABall) {
     plate.velocity = {0.0, 0.0, -2.0};
     world.rigid.push_back(plate);
     expect_apart(world, 1.0);
-    EXPECT_GT(plate.position.z(), 2.0) << i;
+    EXPECT_GT(world.rigid[0].position.z(), 2.0) << i;
   }
 }
 
@@ -84,9 +84,9 @@ TEST(Swept, AHeavyBoxPressesABallFlatAndDoesNotEnterIt) {
 }
 
 TEST(Swept, BallsShotAtEachOtherBounceApart) {
-  for (const double speed : {30.0}) {
+  for (const double speed : {2.0, 10.0, 30.0}) {
     for (const int steps_per_second : {60, 240}) {
-      for (const double aside : {0.0, 1.1}) {
+      for (const double aside : {0.0, 0.35, 1.1}) {
         SCOPED_TRACE(testing::Message()
                      << speed << " m/s, " << steps_per_second << " steps/s, " << aside << " m");
         World world = make_free_swept_world();
@@ -192,14 +192,13 @@ TEST(Swept, ABoxDroppedFlatKeepsItsHeightWithoutLoss) {
   world.settings.ground = ContactMaterial{1.0, 0.0};
   world.rigid.push_back(make_rigid(Vec3::Ones(), {0.0, 0.0, 1.5}));
   world.rigid[0].rho_g = 0.0;
-  const double before = energy(world).total();
   Stepper stepper(world);
   double highest = 0.0;
   for (int i = 0; i < 20 * world.settings.steps_per_second; ++i) {
     ASSERT_FALSE(stepper.step(world));
     if (time(world) > 19.0) highest = std::max(highest, world.rigid[0].position.z() - 0.5);
   }
-  EXPECT_NEAR(highest, 1.0, 0.02) << before;
+  EXPECT_NEAR(highest, 1.0, 0.02);
 }
 
 TEST(Swept, AStackOfFiveStands) {

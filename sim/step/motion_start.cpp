@@ -1,0 +1,40 @@
+#include "sim/step/motion_start.h"
+
+namespace pneuma::sim {
+
+RigidStart motion_of(const RigidBox& box) {
+  return {box.position, box.orientation, box.velocity, box.angular_velocity};
+}
+
+void set_motion(RigidBox& box, const RigidStart& start) {
+  box.position = start.position;
+  box.orientation = start.orientation;
+  box.velocity = start.velocity;
+  box.angular_velocity = start.angular_velocity;
+}
+
+void keep_soft(const World& world, std::vector<SoftState>& start) {
+  start.resize(world.soft.size());
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    start[i].positions = world.soft[i].positions;
+    start[i].velocities = world.soft[i].velocities;
+  }
+}
+
+void keep_rigid(const World& world, std::vector<RigidStart>& start) {
+  start.resize(world.rigid.size());
+  for (std::size_t i = 0; i < start.size(); ++i) start[i] = motion_of(world.rigid[i]);
+}
+
+void restore_soft(World& world, const std::vector<SoftState>& start) {
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    world.soft[i].positions = start[i].positions;
+    world.soft[i].velocities = start[i].velocities;
+  }
+}
+
+void restore_rigid(World& world, const std::vector<RigidStart>& start) {
+  for (std::size_t i = 0; i < start.size(); ++i) set_motion(world.rigid[i], start[i]);
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,217 @@
+#include "sim/swept/feature_ways.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pneuma::sim {
+namespace {
+
+/// Positions of a feature's vertices at one moment, the first again for those it does not have.
+Corners corners_of(const MeshTopology& topology, const Feature& feature,
+                   const VertexArray& positions) {
+  Corners result;
+  const auto vertices = topology.feature_vertices(feature);
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[i] = positions[vertices[i < vertices.size() ? i : 0]];
+  }
+  return result;
+}
+
+std::optional<ClosestPoints> closest(const NearFeatures& pair, const Corners& first,
+                                     const Corners& second, double reach) {
+  if (pair.first.kind == FeatureKind::edge) {
+    return closest_edge_edge({first[0], first[1]}, {second[0], second[1]}, reach);
+  }
+  if (pair.first.kind == FeatureKind::vertex) {
+    return closest_vertex_triangle(first[0], second, reach);
+  }
+  const auto found = closest_vertex_triangle(second[0], first, reach);
+  if (!found) return std::nullopt;
+  return mirrored(*found);
+}
+
+double distance_between(const NearFeatures& pair, const Corners& first, const Corners& second) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  switch (pair.first.kind) {
+    case FeatureKind::edge:
+      return test_edge_edge({first[0], first[1]}, {second[0], second[1]}, any)->distance;
+    case FeatureKind::vertex:
+      return test_vertex_triangle(first[0], second, any)->distance;
+    case FeatureKind::triangle:
+      break;
+  }
+  return test_vertex_triangle(second[0], first, any)->distance;
+}
+
+/// Where a pair's corners are at the start of the step, and their ways to its end. The same motion
+/// for all changes no distance: their mean is left out.
+struct PairMotion {
+  Corners first, second;  // m
+  Corners first_way, second_way;
+
+  PairMotion(const MovingSurface& a, const MovingSurface& b, const NearFeatures& pair)
+      : first(corners_of(a.tree->topology(), pair.first, a.start)),
+        second(corners_of(b.tree->topology(), pair.second, b.start)),
+        first_way(corners_of(a.tree->topology(), pair.first, a.end)),
+        second_way(corners_of(b.tree->topology(), pair.second, b.end)) {
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      first_way[i] -= first[i];
+      second_way[i] -= second[i];
+      mean += (first_way[i] + second_way[i]) / 6.0;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      first_way[i] -= mean;
+      second_way[i] -= mean;
+    }
+  }
+
+  /// m, of a point of the first against one of the second, at most.
+  double greatest() const {
+    double of_first = 0.0, of_second = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      of_first = std::max(of_first, first_way[i].squaredNorm());
+      of_second = std::max(of_second, second_way[i].squaredNorm());
+    }
+    return std::sqrt(of_first) + std::sqrt(of_second);
+  }
+
+  /// Both from the start to a fraction of the step.
+  void advance(Corners& a, Corners& b, double fraction) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] += fraction * first_way[i];
+      b[i] += fraction * second_way[i];
+    }
+  }
+
+  /// m.
+  double distance_at(double fraction, const NearFeatures& pair) const {
+    Corners a = first, b = second;
+    advance(a, b, fraction);
+    return distance_between(pair, a, b);
+  }
+};
+
+const VertexArray& positions(const MovingSurface& surface, Moment moment) {
+  return moment == Moment::start ? surface.start : surface.end;
+}
+
+/// A part of a surface that a point beside the surface may be nearest to, and the way to it.
+struct SurfacePart {
+  const MovingSurface& surface;
+  Moment moment;
+  Vec3 point;  // on the part, m
+  Vec3 away;   // from there to what is nearest to it, m
+
+  /// Whether going along `inward` brings a point nearer to what this is thought to be nearest to.
+  bool is_nearer(const Vec3& inward) const {
+    constexpr double sine_of_flat = 1e-6;  // surfaces as flat as this are one
+    return away.dot(inward) > sine_of_flat * away.norm() * inward.norm();
+  }
+};
+
+/// Whether no other point next to an edge is nearer: the edge's Voronoi region.
+bool is_nearest_edge(const SurfacePart& part, int edge) {
+  const MeshTopology& topology = part.surface.tree->topology();
+  const VertexArray& x = positions(part.surface, part.moment);
+  const int from = topology.edges()[at(edge)][0], to = topology.edges()[at(edge)][1];
+  const Vec3 along = (x[to] - x[from]).normalized();
+  return std::ranges::none_of(topology.edge_triangles()[at(edge)], [&](int triangle) {
+    const auto& [a, b, c] = topology.triangles()[at(triangle)];
+    const Vec3 opposite = x[a + b + c - from - to];
+    const Vec3 inward = opposite - part.point;
+    return part.is_nearer(inward - inward.dot(along) * along);
+  });
+}
+
+bool is_nearest_vertex(const SurfacePart& part, int vertex) {
+  const VertexArray& x = positions(part.surface, part.moment);
+  return std::ranges::none_of(part.surface.tree->topology().ring(vertex),
+                              [&](const MeshTopology::Spoke& spoke) {
+                                return part.is_nearer(x[spoke.vertex] - part.point);
+                              });
+}
+
+/// Whether a pair of a vertex and a `triangle` stands for the part of the triangle that is nearest.
+bool stands_for(const SurfacePart& part, int triangle, const FeaturePart& nearest) {
+  const SurfaceTree& tree = *part.surface.tree;
+  switch (nearest.kind) {
+    case FeatureKind::triangle:
+      return true;
+    case FeatureKind::edge: {
+      const int edge = tree.topology().triangle_edges()[at(triangle)][at(nearest.index)];
+      return tree.owner_of_edge(edge) == triangle && is_nearest_edge(part, edge);
+    }
+    case FeatureKind::vertex:
+      break;
+  }
+  const int vertex = tree.topology().triangles()[at(triangle)][at(nearest.index)];
+  return tree.owner_of_vertex(vertex) == triangle && is_nearest_vertex(part, vertex);
+}
+
+}  // namespace
+
+std::optional<ClosestPoints> closest_points(const MovingSurface& first, const MovingSurface& second,
+                                            const NearFeatures& pair, Moment moment, double reach) {
+  return closest(pair, corners_of(first.tree->topology(), pair.first, positions(first, moment)),
+                 corners_of(second.tree->topology(), pair.second, positions(second, moment)),
+                 reach);
+}
+
+double greatest_change(const MovingSurface& first, const MovingSurface& second,
+                       const NearFeatures& pair) {
+  return PairMotion(first, second, pair).greatest();
+}
+
+bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
+                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment) {
+  const Vec3 away = closest.first_point - closest.second_point;
+  const SurfacePart of_first{first, moment, closest.first_point, -away};
+  const SurfacePart of_second{second, moment, closest.second_point, away};
+  switch (pair.first.kind) {
+    case FeatureKind::edge:
+      return closest.first.kind == FeatureKind::edge && closest.second.kind == FeatureKind::edge &&
+             is_nearest_edge(of_first, pair.first.index) &&
+             is_nearest_edge(of_second, pair.second.index);
+    case FeatureKind::vertex:
+      return stands_for(of_second, pair.second.index, closest.second);
+    case FeatureKind::triangle:
+      break;
+  }
+  // Two vertices that are nearest to each other are one pair, not two.
+  if (closest.first.kind == FeatureKind::vertex &&
+      is_nearest_vertex(of_second, pair.second.index)) {
+    return false;
+  }
+  return stands_for(of_first, pair.first.index, closest.first);
+}
+
+std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSurface& second,
+                                      const NearFeatures& pair, double distance, double least) {
+  constexpr double advanced = 0.9;   // of what is certainly free
+  constexpr double met = 0.2;        // of the least distance: nearer to it, and they meet
+  constexpr int max_advances = 200;  // in practice a dozen
+  const PairMotion motion(first, second, pair);
+  const double greatest = motion.greatest();
+  double free = distance - least, moved = 0.0;
+  for (int i = 0; i < max_advances; ++i) {
+    const double advance = advanced * free;
+    if (moved + advance >= greatest) return std::nullopt;
+    moved += advance;
+    free = motion.distance_at(moved / greatest, pair) - least;
+    if (free < met * least) break;
+  }
+  return moved / greatest;
+}
+
+ClosestPoints closest_points_at(const MovingSurface& first, const MovingSurface& second,
+                                const NearFeatures& pair, double fraction) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const PairMotion motion(first, second, pair);
+  Corners a = motion.first, b = motion.second;
+  motion.advance(a, b, fraction);
+  return *closest(pair, a, b, any);
+}
+
+}  // namespace pneuma::sim

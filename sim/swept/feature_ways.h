@@ -1,0 +1,40 @@
+// Two features on their ways through a step: where they are nearest, and whether they meet.
+#pragma once
+
+#include <optional>
+
+#include "sim/swept/closest_points.h"
+#include "sim/swept/moving_surface.h"
+
+namespace pneuma::sim {
+
+enum class Moment { start, end };
+
+/// The nearest points of a pair at the start or the end of the step, if they are less than `reach`
+/// (m) apart.
+std::optional<ClosestPoints> closest_points(const MovingSurface& first, const MovingSurface& second,
+                                            const NearFeatures& pair, Moment moment, double reach);
+
+/// m. By how much the distance of a pair can change on their ways at most.
+double greatest_change(const MovingSurface& first, const MovingSurface& second,
+                       const NearFeatures& pair);
+
+/// Of the pairs of features whose nearest points are on common edges and vertices one stands for
+/// them all, and none where other features next to these are nearer.
+bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
+                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment);
+
+/// After which fraction of their ways the features have come to within 1.2 times `least` (m, above
+/// zero and less than their distance at the start); none if they stay further apart. Conservative:
+/// they may also just come near that. Never misses a crossing: each advance is shorter than the
+/// features would need to meet at their greatest relative speed (additive continuous collision
+/// detection; Li, Kaufman and Jiang 2021, "Codimensional incremental potential contact", section
+/// 5).
+std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSurface& second,
+                                      const NearFeatures& pair, double distance, double least);
+
+/// The nearest points of a pair after a fraction of the step.
+ClosestPoints closest_points_at(const MovingSurface& first, const MovingSurface& second,
+                                const NearFeatures& pair, double fraction);
+
+}  // namespace pneuma::sim
