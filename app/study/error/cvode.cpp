@@ -3,6 +3,7 @@
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
 #include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -28,6 +29,31 @@ Pointer require(Pointer pointer, const char* call) {
   if (pointer != nullptr) return pointer;
   throw std::runtime_error(fmt::format("SUNDIALS: {} failed", call));
 }
+
+// Debian 12 has SUNDIALS 6, Debian 13 has 7: they name "no MPI" differently, and say differently
+// that what fails is reported by us alone.
+#if SUNDIALS_VERSION_MAJOR >= 7
+
+SUNContext make_context() {
+  SUNContext context = nullptr;
+  require(SUNContext_Create(SUN_COMM_NULL, &context), "SUNContext_Create");
+  require(SUNContext_ClearErrHandlers(context), "SUNContext_ClearErrHandlers");
+  return context;
+}
+
+void silence(void* /*solver*/) {}  // its errors go to the handlers of its context
+
+#else
+
+SUNContext make_context() {
+  SUNContext context = nullptr;
+  require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  return context;
+}
+
+void silence(void* solver) { require(CVodeSetErrFile(solver, nullptr), "CVodeSetErrFile"); }
+
+#endif
 
 }  // namespace
 
@@ -56,7 +82,7 @@ struct Cvode::Memory {
 
   void set_up(CvodeMethod method, const CvodeTolerances& tolerances);
   void set_up_solver(CvodeMethod method);
-  static int evaluate(realtype time, N_Vector state, N_Vector derivative, void* memory);
+  static int evaluate(sunrealtype time, N_Vector state, N_Vector derivative, void* memory);
 
   RightHandSide right_hand_side;
   std::vector<double> values;  // where `state` keeps its numbers
@@ -67,7 +93,7 @@ struct Cvode::Memory {
   void* solver = nullptr;
 };
 
-int Cvode::Memory::evaluate(realtype, N_Vector state, N_Vector derivative, void* memory) {
+int Cvode::Memory::evaluate(sunrealtype, N_Vector state, N_Vector derivative, void* memory) {
   const auto& self = *static_cast<const Memory*>(memory);
   const bool sound =
       self.right_hand_side(N_VGetArrayPointer(state), N_VGetArrayPointer(derivative));
@@ -75,12 +101,12 @@ int Cvode::Memory::evaluate(realtype, N_Vector state, N_Vector derivative, void*
 }
 
 void Cvode::Memory::set_up(CvodeMethod method, const CvodeTolerances& tolerances) {
-  require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+  context = make_context();
   const auto count = static_cast<sunindextype>(values.size());
   state = require(N_VMake_Serial(count, values.data(), context), "N_VMake_Serial");
   const int kind = method == CvodeMethod::adams ? CV_ADAMS : CV_BDF;
   solver = require(CVodeCreate(kind, context), "CVodeCreate");
-  require(CVodeSetErrFile(solver, nullptr), "CVodeSetErrFile");  // what fails is reported by us
+  silence(solver);
   require(CVodeInit(solver, evaluate, 0.0, state), "CVodeInit");
   require(CVodeSetUserData(solver, this), "CVodeSetUserData");
   require(CVodeSetMaxNumSteps(solver, most_steps), "CVodeSetMaxNumSteps");
@@ -116,7 +142,7 @@ Cvode::Cvode(Cvode&&) noexcept = default;
 Cvode& Cvode::operator=(Cvode&&) noexcept = default;
 
 bool Cvode::advance_to(double time) {
-  realtype reached = 0.0;
+  sunrealtype reached = 0.0;
   return CVode(memory_->solver, time, memory_->state, &reached, CV_NORMAL) >= 0;
 }
 
