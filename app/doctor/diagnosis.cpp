@@ -184,7 +184,8 @@ Finding scenes_finding(const std::function<std::vector<CatalogueEntry>()>& catal
   const auto none = [&](const std::string& why) {
     finding.state = State::broken;
     finding.detail = why;
-    finding.remedy = "cd to the project's folder, or name scene files by their paths";
+    finding.remedy =
+        "install pneuma again (cmake --install build), or name scene files by their paths";
     finding.code = ExitCode::invalid_scene;
     return finding;
   };

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <vector>
 
-#include "app/host/build_info.h"
 #include "app/host/interrupt.h"
+#include "app/world/data_folders.h"
 #include "assets/load_model.h"
 
 namespace pneuma::app {
@@ -18,8 +18,9 @@ fs::path find_model(const std::string& file, const fs::path& scene_folder) {
   const fs::path path(file);
   if (path.is_absolute()) return path;
   std::vector<std::string> searched;
-  for (const fs::path& folder :
-       {scene_folder, fs::path(), fs::path("assets"), fs::path(PNEUMA_ASSETS_FOLDER)}) {
+  std::vector<fs::path> folders = {scene_folder, fs::path(), fs::path("assets")};
+  for (const fs::path& folder : data_folders("assets")) folders.push_back(folder);
+  for (const fs::path& folder : folders) {
     std::error_code ignored;
     const fs::path candidate = folder / path;
     if (fs::exists(candidate, ignored)) return candidate;

@@ -9,7 +9,7 @@
 
 namespace pneuma::app {
 
-/// An absolute path as it is; another one from the scene file's folder, from here, or from the
+/// An absolute path as it is; another one from the scene file's folder, from here, or from a
 /// folder of models that come with the program: the first of them where there is such a file.
 /// Throws assets::ModelError that lists where it was looked for.
 std::filesystem::path find_model(const std::string& file,

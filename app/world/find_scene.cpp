@@ -5,7 +5,7 @@
 
 #include <system_error>
 
-#include "app/host/build_info.h"
+#include "app/world/data_folders.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/nearest.h"
 
@@ -49,12 +49,8 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
 
 std::vector<fs::path> scene_folders() {
   std::vector<fs::path> folders;
-  for (const fs::path& folder : {fs::path("scenes"), fs::path(PNEUMA_SCENE_FOLDER)}) {
-    std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) continue;
-    if (!folders.empty() && fs::equivalent(folder, folders.front(), ignored)) continue;
-    folders.push_back(folder);
-  }
+  add_folder(folders, "scenes");
+  for (const fs::path& folder : data_folders("scenes")) add_folder(folders, folder);
   return folders;
 }
 

@@ -7,8 +7,7 @@
 
 namespace pneuma::app {
 
-/// The folders that hold scenes, those that exist: ./scenes, then the one known when the program
-/// was built.
+/// The folders that hold scenes, those that exist: ./scenes, then those of data_folders.h.
 std::vector<std::filesystem::path> scene_folders();
 
 /// A path to a file as it is; a name ("pressure_soft") as that scene in one of the folders.

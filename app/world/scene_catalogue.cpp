@@ -43,8 +43,8 @@ std::vector<CatalogueEntry> scene_catalogue() {
   const std::vector<std::filesystem::path> folders = scene_folders();
   if (folders.empty()) {
     fail(
-        "there is no folder of scenes here; run pneuma in the project's folder, or name scene "
-        "files");
+        "there is no folder of scenes here, beside the program, or in pneuma/ of the XDG data "
+        "folders; install pneuma again, or name scene files");
   }
   std::map<std::string, CatalogueEntry> entries;
   for (const auto& folder : folders) {

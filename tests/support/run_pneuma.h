@@ -1,34 +1,16 @@
 // Runs the program as a user does.
 #pragma once
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <stdexcept>
 #include <string>
 
-namespace pneuma {
+#include "tests/support/run_command.h"
 
-struct ProgramResult {
-  int exit_code = -1;  // -1 when a signal ended it
-  std::string output;
-};
+namespace pneuma {
 
 /// `arguments` as in a shell, so that a redirection at their end works; `environment` as
 /// "NAME=value ". PNEUMA_PROGRAM is the path of the program, from CMake.
 inline ProgramResult run_pneuma(const std::string& arguments, const std::string& environment = "") {
-  const std::string command = environment + " '" PNEUMA_PROGRAM "' " + arguments;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-  ProgramResult result;
-  std::array<char, 4096> buffer;
-  for (std::size_t read = 0; (read = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    result.output.append(buffer.data(), read);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
-  return result;
+  return run_command(environment + " '" PNEUMA_PROGRAM "' " + arguments);
 }
 
 }  // namespace pneuma

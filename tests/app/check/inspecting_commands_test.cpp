@@ -153,7 +153,7 @@ TEST(List, HasEverySceneFile) {
   EXPECT_EQ(json.exit_code, 0);
   std::vector<std::string> listed;
   for (const auto& scene : nlohmann::json::parse(json.output)) listed.push_back(scene["scene"]);
-  for (const auto& file : fs::directory_iterator(PNEUMA_SCENE_FOLDER)) {
+  for (const auto& file : fs::directory_iterator(PNEUMA_SOURCE_FOLDER "/scenes")) {
     if (file.path().extension() != ".toml") continue;
     const std::string name = file.path().stem().string();
     EXPECT_NE(text.output.find('\n' + name + ' '), std::string::npos) << name;

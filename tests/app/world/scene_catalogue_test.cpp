@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 TEST(SceneCatalogue, HasEverySceneFile) {
   std::set<std::string> files, names;
-  for (const auto& file : fs::directory_iterator(PNEUMA_SCENE_FOLDER)) {
+  for (const auto& file : fs::directory_iterator(PNEUMA_SOURCE_FOLDER "/scenes")) {
     if (file.path().extension() == ".toml") files.insert(file.path().stem().string());
   }
   for (const CatalogueEntry& entry : scene_catalogue()) {

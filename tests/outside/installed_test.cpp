@@ -1,0 +1,64 @@
+// The program as `cmake --install` leaves it, under a prefix that is new, and then moved.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/run_command.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pneuma {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Installed : public testing::Test {
+ protected:
+  void SetUp() override {
+    const ProgramResult result =
+        run_command("cmake --install '" PNEUMA_BUILD_FOLDER "' --prefix '" + prefix_.string() +
+                    "' 2>&1 >/dev/null");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+  }
+
+  /// From an empty folder, without anything that belongs to a user or to the system.
+  ProgramResult run(const std::string& arguments) const {
+    fs::create_directories(elsewhere_);
+    return run_command("cd '" + elsewhere_.string() +
+                       "' && XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere '" +
+                       (prefix_ / "bin/pneuma").string() + "' " + arguments + " 2>&1");
+  }
+
+  void expect_scenes_below_the_prefix() const {
+    const ProgramResult result = run("list --json");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    const auto scenes = nlohmann::json::parse(result.output);
+    EXPECT_GE(scenes.size(), 13u);
+    for (const auto& scene : scenes) {
+      EXPECT_TRUE(scene["path"].get<std::string>().starts_with(prefix_.string())) << scene;
+    }
+  }
+
+  TemporaryFolder folder_;
+  fs::path prefix_ = folder_ / "prefix";
+  fs::path elsewhere_ = folder_ / "elsewhere";
+};
+
+TEST_F(Installed, FindsItsScenesAndModelsAlsoWhenMoved) {
+  expect_scenes_below_the_prefix();
+  const fs::path moved = folder_ / "moved to/here";
+  fs::create_directories(moved.parent_path());
+  fs::rename(prefix_, moved);
+  prefix_ = moved;
+  expect_scenes_below_the_prefix();
+  const ProgramResult rendered = run("render one_sphere --frames 1 --size 64x48");
+  EXPECT_EQ(rendered.exit_code, 0) << rendered.output;
+  EXPECT_TRUE(fs::exists(elsewhere_ / "out/one_sphere/one_sphere_00000.png"));
+  const ProgramResult model = run("check pear.ply");
+  EXPECT_EQ(model.exit_code, 0) << model.output;
+}
+
+}  // namespace
+}  // namespace pneuma
