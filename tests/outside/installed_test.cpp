@@ -1,4 +1,4 @@
-// The program as `cmake --install` leaves it, under a prefix that is new, and then moved.
+// Program and libraries as `cmake --install` leaves them under a new prefix.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "render/image/png.h"
+#include "tests/project/include_graph.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -58,6 +60,39 @@ TEST_F(Installed, FindsItsScenesAndModelsAlsoWhenMoved) {
   EXPECT_TRUE(fs::exists(elsewhere_ / "out/one_sphere/one_sphere_00000.png"));
   const ProgramResult model = run("check pear.ply");
   EXPECT_EQ(model.exit_code, 0) << model.output;
+}
+
+TEST_F(Installed, IsFoundByAProjectOutsideWhichDrawsAPicture) {
+  fs::create_directories(elsewhere_);
+  const std::string build = (folder_ / "build").string();
+  const ProgramResult built =
+      run_command("exec 2>&1; cmake -S '" PNEUMA_EXAMPLE_FOLDER "' -B '" + build +
+                  "' -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER='" PNEUMA_CXX_COMPILER
+                  "' -DCMAKE_PREFIX_PATH='" +
+                  prefix_.string() + "' && cmake --build '" + build + "'");
+  ASSERT_EQ(built.exit_code, 0) << built.output;
+  const ProgramResult ran =
+      run_command("cd '" + elsewhere_.string() + "' && '" + build + "/example' 2>&1");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+
+  const render::Image picture = render::read_png((elsewhere_ / "ball.png").string());
+  ASSERT_EQ(picture.width, 320);
+  std::size_t red = 0;  // pixels of the ball
+  for (std::size_t p = 0; p < picture.pixels.size(); p += 3) {
+    red += picture.pixels[p] > 2 * picture.pixels[p + 2] ? 1 : 0;
+  }
+  EXPECT_GT(red, 500u);
+}
+
+// A header that includes another one of ours that stays behind cannot be used.
+TEST_F(Installed, HasAllHeadersThatItsHeadersInclude) {
+  const fs::path headers = prefix_ / "include/pneuma";
+  const auto includes = includes_of_tree(headers, {"sim", "render"});
+  EXPECT_GT(includes.size(), 20u);
+  for (const Include& include : includes) {
+    EXPECT_TRUE(!include.ours || fs::exists(headers / include.included))
+        << include.file << " includes " << include.included;
+  }
 }
 
 }  // namespace
