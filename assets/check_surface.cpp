@@ -12,17 +12,19 @@ namespace {
 
 using sim::at;
 
-std::string edges_fault(const NumberedMesh& mesh, const std::vector<Edge>& faulty,
+std::string edges_fault(const NumberedMesh& mesh, const std::vector<const Edge*>& faulty,
                         std::string_view what) {
   return fmt::format("{}{}", what, first_places(faulty.size(), [&](std::size_t i) {
-                       return edge_place(mesh, faulty[i]);
+                       return edge_place(mesh, *faulty[i]);
                      }));
 }
 
 template <class Predicate>
-std::vector<Edge> those(const std::vector<Edge>& edges, const Predicate& predicate) {
-  std::vector<Edge> result;
-  std::copy_if(edges.begin(), edges.end(), std::back_inserter(result), predicate);
+std::vector<const Edge*> those(const std::vector<Edge>& edges, const Predicate& predicate) {
+  std::vector<const Edge*> result;
+  for (const Edge& edge : edges) {
+    if (predicate(edge)) result.push_back(&edge);
+  }
   return result;
 }
 
