@@ -11,12 +11,9 @@
 #include <system_error>
 #include <vector>
 
+#include "app/all_commands.h"
 #include "app/host/errors.h"
 #include "app/host/interrupt.h"
-#include "app/host/version.h"
-#include "app/study/study_command.h"
-#include "app/terminal/command.h"
-#include "app/terminal/common_options.h"
 #include "app/terminal/read_command_line.h"
 #include "assets/model.h"
 #include "render/context/context.h"
@@ -75,18 +72,8 @@ int main(int argc, char** argv) {
   const std::vector<std::string> command_line(argv, argv + argc);
   app::Action action;
 
-  CLI::App cli("Soft bodies held up by gas pressure, rendered off screen", "pneuma");
-  cli.set_version_flag("--version", app::version_text);
-  cli.require_subcommand(1);
-  app::add_render_command(cli, action, command_line);
-  app::add_export_command(cli, action);
-  app::add_bench_command(cli, action);
-  app::add_study_command(cli, action, command_line);
-  app::add_check_command(cli, action);
-  app::add_list_command(cli, action);
-  app::add_doctor_command(cli, action);
-  app::add_examples(cli,
-                    {"pneuma doctor", "pneuma list", "pneuma render one_sphere --out pictures"});
+  CLI::App cli;
+  app::add_all_commands(cli, action, command_line);
   return static_cast<int>(
       run([&] { return app::read_command_line(cli, command_line) ? action() : ExitCode::done; }));
 }

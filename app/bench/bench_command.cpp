@@ -112,7 +112,8 @@ void add_bench_command(CLI::App& app, Action& action) {
   add_threads_option(*command, options->measure.threads);
   command->add_flag("--json", options->json, "JSON in place of tables");
   add_examples(*command,
-               {"pneuma bench", "pneuma bench one_sphere one_torus --no-pictures --seconds 5",
+               {"pneuma bench", "pneuma bench one_sphere --no-pictures --json",
+                "pneuma bench one_sphere one_torus --seconds 5",
                 "pneuma bench one_sphere --set simulation.integrator=implicit_euler --json"});
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }

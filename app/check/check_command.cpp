@@ -91,7 +91,7 @@ void add_check_command(CLI::App& app, Action& action) {
   command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "JSON in place of text");
-  add_examples(*command, {"pneuma check my_scene.toml",
+  add_examples(*command, {"pneuma check one_torus", "pneuma check two_balls.toml --run",
                           "pneuma check one_sphere --run --set simulation.steps_per_second=120",
                           "pneuma check --keys"});
   command->callback([options, &action] { action = [options] { return check(*options); }; });

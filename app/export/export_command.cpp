@@ -37,8 +37,8 @@ void add_export_command(CLI::App& app, Action& action) {
   command->add_flag("--overwrite", request.overwrite, "Replace the mesh files in the folder");
   add_threads_option(*command, request.threads);
   add_quiet_option(*command, request.quiet);
-  add_examples(*command, {"pneuma export one_sphere --frames 30",
-                          "pneuma export my_scene.toml --format obj --out meshes --overwrite"});
+  add_examples(*command, {"pneuma export pressure_soft --format ply --out meshes",
+                          "pneuma export my_scene.toml --format obj --frames 30 --overwrite"});
   command->callback([typed, &action] {
     action = [typed] {
       typed->request.format = formats.at(typed->format);

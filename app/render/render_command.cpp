@@ -85,9 +85,12 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   add_quiet_option(*command, request.quiet);
   add_examples(
       *command,
-      {"pneuma render one_sphere",
-       "pneuma render my_scene.toml --out pictures --frames 60 --video run.mp4",
-       "pneuma render one_sphere --set body.k=80 --size 640x480 --out out/stiffer --resume"});
+      {"pneuma render pressure_soft", "pneuma render one_torus --sheet 4x3 --out torus",
+       "pneuma render one_sphere --set body.k=200 --set duration=4 --show wireframe --out stiff",
+       "pneuma render pressure_firm --video firm.mp4",
+       "pneuma render two_spheres_contact --show particles,contacts,wireframe",
+       "pneuma render sphere_in_torus --overlay particles", "pneuma render two_balls.toml",
+       "pneuma render my_scene.toml --out pictures --frames 60 --size 640x480 --resume"});
   command->callback([typed, &action] { action = [typed] { return render_scene(read(*typed)); }; });
 }
 

@@ -25,13 +25,13 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_examples(*study->get_subcommand("choices"),
                {"pneuma study choices", "pneuma study choices one_torus --short --json"});
   add_examples(*study->get_subcommand("collision"),
-               {"pneuma study collision", "pneuma study collision sphere_in_torus --seconds 2"});
+               {"pneuma study collision sphere_in_torus", "pneuma study collision --seconds 2"});
   add_examples(*study->get_subcommand("growth"),
-               {"pneuma study growth --short", "pneuma study growth --out out/growth"});
+               {"pneuma study growth", "pneuma study growth --short --out out/growth"});
   add_examples(*study->get_subcommand("extremes"),
-               {"pneuma study extremes --short", "pneuma study extremes --out out/extremes"});
+               {"pneuma study extremes", "pneuma study extremes --short --out out/extremes"});
   add_examples(*study->get_subcommand("stability"),
-               {"pneuma study stability --short", "pneuma study stability one_sphere"});
+               {"pneuma study stability", "pneuma study stability one_sphere --short"});
 }
 
 }  // namespace pneuma::app

@@ -95,5 +95,24 @@ TEST_F(Installed, HasAllHeadersThatItsHeadersInclude) {
   }
 }
 
+TEST(DebianPackage, DependsOnWhatTheProgramLinksAndRunsWhereItIsUnpacked) {
+  const TemporaryFolder folder;
+  const std::string here = "exec 2>&1; cd '" + folder.path().string() + "' && ";
+  const ProgramResult made = run_command(here + "cpack --config '" PNEUMA_BUILD_FOLDER
+                                                "/CPackConfig.cmake' -B . && mv *.deb it.deb");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const std::string depends = run_command(here + "dpkg-deb --field it.deb Depends").output;
+  for (const char* package : {"libc6", "libstdc++6", "libassimp5", "libsundials-cvode"}) {
+    EXPECT_NE(depends.find(package), std::string::npos) << depends;
+  }
+  const ProgramResult ran = run_command(
+      here + "dpkg-deb -x it.deb root && XDG_DATA_DIRS=/nowhere root/usr/bin/pneuma check model");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  for (const char* file : {"man/man1/pneuma.1", "bash-completion/completions/pneuma",
+                           "zsh/vendor-completions/_pneuma", "doc/pneuma/copyright"}) {
+    EXPECT_GT(fs::file_size(folder / "root/usr/share" / file), 500u) << file;
+  }
+}
+
 }  // namespace
 }  // namespace pneuma
