@@ -105,7 +105,7 @@ TEST(ErrorJson, SaysTheSameForMachines) {
 }
 
 /// The series of unstable runs behind that of the name.
-const DiagramSeries& unstable_series(const Diagram& diagram, const std::string& name) {
+const DiagramSeries& unstable_series(const Diagram& diagram, std::string_view name) {
   const auto series = std::ranges::find_if(
       diagram.series, [&](const DiagramSeries& s) { return s.name.starts_with(name); });
   return *(series + 1);

@@ -29,11 +29,11 @@ const ErrorStudy& small_study() {
   return study;
 }
 
-const ErrorRun& run_of(const std::string& method, int rate) {
+const ErrorRun& run_of(std::string_view method, int rate) {
   for (const ErrorRun& run : small_study().runs) {
     if (run.method == method && run.steps_per_second == rate) return run;
   }
-  throw std::out_of_range(method);
+  throw std::out_of_range(std::string(method));
 }
 
 sim::VertexArray positions_after(const std::string& method, int rate, double seconds) {
