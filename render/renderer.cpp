@@ -54,8 +54,9 @@ bool ground_hides(const Frame& frame, const View& view) {
 struct Renderer::Resources {
   explicit Resources(const RenderOptions& chosen)
       : options(check_options(chosen)),
-        description(
-            fmt::format("OpenGL {} on {}", context.report().version, context.report().renderer)),
+        context({.backend = chosen.backend}),
+        description(fmt::format("OpenGL {} on {}, by {}", context.report().version,
+                                context.report().renderer, to_string(context.backend()))),
         target(options.width, options.height),
         layer(options.width, options.height, options.samples),
         shadow_map(options.shadow_size),

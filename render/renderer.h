@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "render/context/backend.h"
 #include "render/frame/frame.h"
 #include "render/image/image.h"
 
@@ -14,6 +16,7 @@ struct RenderOptions {
   int height = 720;       // pixels, 16..16384
   int samples = 4;        // per pixel: 1, 2 or 4. Four cost up to 1.7 times as much as one
   int shadow_size = 768;  // texels on a side of the shadow map, 256..8192
+  std::optional<Backend> backend = std::nullopt;  // none: OSMesa where it is installed, else EGL
 };
 
 /// Owns a GL context of its own, current on the thread that made it: make, use and destroy a
@@ -29,7 +32,7 @@ class Renderer {
   /// Resizes `image` to the options' size and fills it.
   void draw(const Frame& frame, Image& image);
 
-  /// What really runs: GL version and renderer, as one line.
+  /// What really runs: GL version, renderer and backend, as one line.
   const std::string& description() const;
 
  private:

@@ -109,6 +109,7 @@ void add_bench_command(CLI::App& app, Action& action) {
       ->add_option("--size", options->size,
                    fmt::format("Size of the pictures in pixels [{}]", default_size))
       ->type_name("WxH");
+  add_backend_option(*command, options->measure.backend);
   add_threads_option(*command, options->measure.threads);
   command->add_flag("--json", options->json, "JSON in place of tables");
   add_examples(*command,

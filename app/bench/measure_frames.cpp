@@ -24,12 +24,13 @@ struct Readings {
 class FrameMaker {
  public:
   FrameMaker(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-             const render::Camera& camera)
+             const render::Camera& camera, std::optional<render::Backend> backend)
       : replay_(replay),
         steps_per_frame_(steps_per_frame),
         renderer_({.width = scene.picture.width,
                    .height = scene.picture.height,
-                   .samples = scene.picture.samples}),
+                   .samples = scene.picture.samples,
+                   .backend = backend}),
         builder_(scene, replay.world(), camera) {}
 
   /// Draws the replay's present state while it goes on to the next.
@@ -78,9 +79,10 @@ class FrameMaker {
 }  // namespace
 
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Budget& budget) {
+                          const render::Camera& camera, const Budget& budget,
+                          std::optional<render::Backend> backend) {
   Readings ignored, readings;
-  FrameMaker maker(replay, steps_per_frame, scene, camera);
+  FrameMaker maker(replay, steps_per_frame, scene, camera, backend);
   for (int i = 0; i < warm_up_frames; ++i) maker.make(ignored);  // also fills the pipeline
   while (budget.more(static_cast<std::int64_t>(readings.total.size()))) maker.make(readings);
   maker.finish();

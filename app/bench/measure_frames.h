@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "app/host/budget.h"
 #include "app/host/clock.h"
 #include "app/record/statistics.h"
 #include "app/world/replay.h"
+#include "render/context/backend.h"
 #include "render/frame/frame.h"
 #include "scenes/loader/scene.h"
 
@@ -29,6 +31,7 @@ struct FrameTimes {
 
 /// The frames that follow the replay's present state. Throws DivergenceError and render::GlError.
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Budget& budget);
+                          const render::Camera& camera, const Budget& budget,
+                          std::optional<render::Backend> backend);
 
 }  // namespace pneuma::app

@@ -170,8 +170,9 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
           throw_if_interrupted();
         }).camera;
     Replay frames(scene.name, world, part.length, plain);
-    times.frames = measure_frames(frames, times.steps_per_frame, scene, camera,
-                                  Budget(options.steps, options.seconds, least_frames));
+    times.frames =
+        measure_frames(frames, times.steps_per_frame, scene, camera,
+                       Budget(options.steps, options.seconds, least_frames), options.backend);
   }
   return times;
 }

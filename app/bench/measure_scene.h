@@ -8,6 +8,7 @@
 #include "app/bench/measure_frames.h"
 #include "app/record/contact_tally.h"
 #include "app/record/statistics.h"
+#include "render/context/backend.h"
 #include "scenes/loader/scene.h"
 #include "sim/step/stepper.h"
 
@@ -20,6 +21,7 @@ struct MeasureOptions {
   // that bodies which are to be in contact have come together.
   std::optional<double> warm_up;
   bool pictures = true;  // without, no GL context is made
+  std::optional<render::Backend> backend;
   int threads = 1;
 };
 

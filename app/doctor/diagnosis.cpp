@@ -25,22 +25,28 @@ namespace {
 namespace fs = std::filesystem;
 using State = Finding::State;
 
-std::string gl_remedy(render::GlFailure failure) {
+std::string gl_remedy(render::GlFailure failure, std::optional<render::Backend> backend) {
   if (failure == render::GlFailure::switched_off) return "unset PNEUMA_GL";
-  return "sudo apt-get install --reinstall libosmesa6, and unset MESA_* and GALLIUM_* variables";
+  const bool egl = backend == render::Backend::egl;
+  const char* packages = egl ? "libegl1 libgl1-mesa-dri" : "libosmesa6";
+  if (failure == render::GlFailure::library_missing) {
+    return fmt::format("sudo apt-get install {}", packages);
+  }
+  return fmt::format(
+      "sudo apt-get install --reinstall {}, and unset MESA_* and GALLIUM_* variables", packages);
 }
 
 /// A context, the shaders, and a picture, which the PNG check then writes.
-Finding check_gl(render::Image& picture) {
+Finding check_gl(render::Image& picture, std::optional<render::Backend> backend) {
   Finding finding{.subject = "OpenGL"};
   try {
-    render::Renderer renderer({.width = 64, .height = 48});
+    render::Renderer renderer({.width = 64, .height = 48, .backend = backend});
     renderer.draw(render::Frame{}, picture);
     finding.detail = renderer.description();
   } catch (const render::GlError& error) {
     finding.state = State::broken;
     finding.detail = error.what();
-    finding.remedy = gl_remedy(error.failure());
+    finding.remedy = gl_remedy(error.failure(), backend);
     finding.code = ExitCode::no_gl;
   }
   return finding;
@@ -211,9 +217,9 @@ Finding scenes_finding(const std::function<std::vector<CatalogueEntry>()>& catal
   return finding;
 }
 
-std::vector<Finding> diagnose() {
+std::vector<Finding> diagnose(std::optional<render::Backend> backend) {
   render::Image picture;
-  std::vector<Finding> findings = {check_gl(picture)};
+  std::vector<Finding> findings = {check_gl(picture, backend)};
   findings.push_back(check_png(std::move(picture)));
   for (auto* check :
        {check_scenes, check_ffmpeg, check_gnuplot, check_processor, check_build, check_disk}) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/host/exit_code.h"
 #include "app/world/scene_catalogue.h"
+#include "render/context/backend.h"
 
 namespace pneuma::app {
 
@@ -29,7 +31,7 @@ Finding scenes_finding(const std::function<std::vector<CatalogueEntry>()>& catal
 
 /// Looks at everything; makes and removes a file in the folder for temporary files and one where
 /// `render` writes.
-std::vector<Finding> diagnose();
+std::vector<Finding> diagnose(std::optional<render::Backend> backend = std::nullopt);
 
 /// The code of the first broken finding; `done` when there is none.
 ExitCode exit_code(const std::vector<Finding>& findings);

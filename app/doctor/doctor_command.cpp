@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <memory>
 
 #include "app/doctor/diagnosis.h"
 #include "app/terminal/command.h"
@@ -14,10 +15,12 @@ namespace pneuma::app {
 void add_doctor_command(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("doctor", "Look at what the program needs here, and how to mend it");
-  add_examples(*command, {"pneuma doctor"});
-  command->callback([&action] {
-    action = [] {
-      const std::vector<Finding> findings = diagnose();
+  const auto backend = std::make_shared<std::optional<render::Backend>>();
+  add_backend_option(*command, *backend);
+  add_examples(*command, {"pneuma doctor", "pneuma doctor --backend egl"});
+  command->callback([backend, &action] {
+    action = [backend] {
+      const std::vector<Finding> findings = diagnose(*backend);
       fmt::print("{}", diagnosis_text(findings));
       return exit_code(findings);
     };

@@ -81,6 +81,7 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       ->check(CLI::IsMember({"stop", "substep"}));
   command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");
   command->add_option("--video", request.video, "Also a video, by ffmpeg")->type_name("FILE");
+  add_backend_option(*command, request.backend);
   add_threads_option(*command, request.threads);
   add_quiet_option(*command, request.quiet);
   add_examples(

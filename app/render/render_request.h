@@ -10,6 +10,7 @@
 #include "app/terminal/frame_range.h"
 #include "app/terminal/grid_size.h"
 #include "app/world/simulation.h"
+#include "render/context/backend.h"
 
 namespace pneuma::app {
 
@@ -23,6 +24,7 @@ struct RenderRequest {
   OnDivergence on_divergence = OnDivergence::stop;
   std::optional<GridSize> sheet;
   std::string video;  // file; empty: none
+  std::optional<render::Backend> backend;
   int threads = 1;
   bool quiet = false;
   std::vector<std::string> command_line;

@@ -29,8 +29,10 @@ RunFolder folder_of(const scenes::Scene& scene, const std::string& out) {
           scene.name};
 }
 
-render::RenderOptions picture_options(const scenes::PictureScene& picture) {
+render::RenderOptions picture_options(const scenes::PictureScene& picture,
+                                      std::optional<render::Backend> backend) {
   render::RenderOptions options;
+  options.backend = backend;
   options.width = picture.width;
   options.height = picture.height;
   options.samples = picture.samples;
@@ -87,7 +89,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
                  const RunFolder& folder, Progress& progress) {
   const sim::World start = build_world(scene);
   warn_before_run(request.pictures, scene, start, progress);
-  render::Renderer renderer(picture_options(scene.picture));
+  render::Renderer renderer(picture_options(scene.picture, request.backend));
   RunLog log(
       folder, request.existing,
       {scene, start, frames, request.pictures, request.on_divergence, renderer.description()},

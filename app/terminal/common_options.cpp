@@ -25,6 +25,20 @@ void add_frames_option(CLI::App& command, std::string& frames) {
       ->type_name("N");
 }
 
+void add_backend_option(CLI::App& command, std::optional<render::Backend>& backend) {
+  const std::vector<std::string> names(render::backend_names.begin(), render::backend_names.end());
+  command
+      .add_option_function<std::string>(
+          "--backend",
+          [&backend](const std::string& name) {
+            backend = name == render::to_string(render::Backend::osmesa) ? render::Backend::osmesa
+                                                                         : render::Backend::egl;
+          },
+          "What makes the OpenGL context [osmesa where it is installed, else egl]")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names));
+}
+
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads of the simulation [1]")
       ->check(CLI::Range(1, 256));

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "render/context/backend.h"
 
 namespace CLI {
 class App;
@@ -19,6 +22,9 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 
 /// --frames, as typed: see frame_range.h.
 void add_frames_option(CLI::App& command, std::string& frames);
+
+/// --backend: osmesa or egl.
+void add_backend_option(CLI::App& command, std::optional<render::Backend>& backend);
 
 /// --threads of the simulation, 1 to 256.
 void add_threads_option(CLI::App& command, int& threads);

@@ -4,15 +4,19 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+
+#include "render/context/backend.h"
 
 namespace pneuma::render {
 
 /// What was missing when GL could not be had.
 enum class GlFailure {
   switched_off,       // the environment says PNEUMA_GL=none
-  context_refused,    // OSMesa made no context, or would not make it current
+  library_missing,    // neither OSMesa nor EGL is installed, or not the one asked for
+  context_refused,    // the library made no context, or would not make it current
   functions_missing,  // GLEW could not load GL's functions
   version_too_old,    // a context, but of an older GL than asked for
   pixels_wrong,       // a cleared pixel came back in another colour
@@ -33,6 +37,7 @@ class GlError : public std::runtime_error {
 struct ContextOptions {
   int major = 3;  // the min. version with a core profile
   int minor = 3;
+  std::optional<Backend> backend = std::nullopt;  // none: OSMesa where it is installed, else EGL
 };
 
 /// What a new context says of itself, and one pixel cleared to `probe_colour` and read back.
@@ -44,17 +49,19 @@ struct ContextReport {
   std::array<std::uint8_t, 4> pixel = {};
 };
 
+class BackendContext;
+
 /// No channel is 0 or 255, so that neither black nor white frames pass.
 inline constexpr std::array<std::uint8_t, 4> probe_colour = {51, 102, 153, 204};
 
 /// Throws GlError unless the report is of a context that draws and is new enough.
 void check_report(const ContextReport& report, const ContextOptions& options);
 
-/// A GL core profile context of its own, drawn by the CPU (Mesa's llvmpipe through OSMesa), current
-/// on the thread that made it. It has no useful default framebuffer: draw into framebuffer objects.
+/// A GL core profile context of its own, drawn by the CPU (Mesa's llvmpipe), current on the thread
+/// that made it. It has no useful default framebuffer: draw into framebuffer objects.
 ///
-/// Throws GlError. PNEUMA_GL=none in the environment pretends that GL is missing, for trying out
-/// what a program does then.
+/// All contexts of a process are of one backend. Throws GlError. PNEUMA_GL=none in the environment
+/// pretends that GL is missing, for trying out what a program does then.
 class Context {
  public:
   explicit Context(const ContextOptions& options = {});
@@ -66,10 +73,11 @@ class Context {
   void make_current();
 
   const ContextReport& report() const { return report_; }
+  Backend backend() const { return backend_; }
 
  private:
-  struct Handle;
-  std::unique_ptr<Handle> handle_;
+  std::unique_ptr<BackendContext> context_;
+  Backend backend_ = Backend::osmesa;
   ContextReport report_;
 };
 

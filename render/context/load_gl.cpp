@@ -5,6 +5,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "render/context/backend_library.h"
 #include "render/context/gl.h"
 
 // Debian's libGLEW is built for GLX and asks these three functions of libGL, which must not be
@@ -26,7 +27,7 @@ GlxFunction glXGetProcAddressARB(const GLubyte* name) {
   if (std::strcmp(wanted, "glXGetCurrentDisplay") == 0) {
     return reinterpret_cast<GlxFunction>(any_display);
   }
-  return pneuma::render::find_gl_function(wanted);
+  return pneuma::render::backend_library(std::nullopt).find_function(wanted);
 }
 
 int glXQueryVersion(void* /*display*/, int* major, int* minor) {
@@ -54,7 +55,7 @@ void load_functions() {
   if (status != GLEW_OK) {
     throw GlError(GlFailure::functions_missing,
                   fmt::format("GLEW could not load OpenGL's functions ({}); install libglew-dev "
-                              "and libosmesa6-dev of one Debian release and build again",
+                              "and libosmesa6 of one Debian release and build again",
                               reinterpret_cast<const char*>(glewGetErrorString(status))));
   }
 }
@@ -87,8 +88,8 @@ std::array<std::uint8_t, 4> clear_and_read_pixel() {
 std::string glew_version() { return reinterpret_cast<const char*>(glewGetString(GLEW_VERSION)); }
 
 ContextReport load_gl() {
-  // GLEW keeps the functions in globals. They are the same for every OSMesa context, so that once
-  // is enough, and contexts may be made on several threads.
+  // GLEW keeps the functions in globals. They are the same for every context of a backend, so that
+  // once is enough, and contexts may be made on several threads.
   static std::once_flag loaded;
   std::call_once(loaded, load_functions);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "render/context/shared_library.h"
 #include "tests/render/probe.h"
 #include "tests/render/shapes.h"
 
@@ -48,6 +49,31 @@ TEST(Context, CanBeSwitchedOff) {
   EXPECT_NO_THROW(draw_once(Frame{}, small_picture()));
 }
 
+TEST(Context, OfAnotherBackendThanTheFirstIsRefused) {
+  const Context context({.backend = Backend::egl});
+  EXPECT_EQ(context.backend(), Backend::egl);
+  EXPECT_EQ(context.report().pixel, probe_colour);
+  EXPECT_EQ(Context().backend(), Backend::egl) << "whichever, if none is asked for";
+  EXPECT_EQ(failure_of([] { Context other({.backend = Backend::osmesa}); }),
+            GlFailure::context_refused);
+}
+
+TEST(Context, OfEglAndAnImpossibleVersionIsRefused) {
+  EXPECT_EQ(failure_of([] { Context context({9, 9, Backend::egl}); }), GlFailure::context_refused);
+}
+
+TEST(SharedLibrary, ThatIsMissingIsAnErrorThatNamesThePackage) {
+  try {
+    const SharedLibrary library("libnowhere.so.1", "libnowhere1");
+    ADD_FAILURE() << "found";
+  } catch (const GlError& error) {
+    EXPECT_EQ(error.failure(), GlFailure::library_missing);
+    const std::string message = error.what();
+    EXPECT_NE(message.find("libnowhere.so.1: cannot open"), std::string::npos) << message;
+    EXPECT_NE(message.find("apt-get install libnowhere1`"), std::string::npos) << message;
+  }
+}
+
 TEST(Context, AVersionThatIsTooOldIsRefused) {
   ContextReport report = good_report();
   EXPECT_NO_THROW(check_report(report, {3, 3}));
@@ -66,7 +92,7 @@ TEST(Context, BlackPixelsAreRefused) {
 
 TEST(Context, OnlyOsmesaIsLoaded) {
   // libGL ahead of libOSMesa gives black frames without an error.
-  const Context context;
+  const Context context({.backend = Backend::osmesa});
   std::ifstream maps("/proc/self/maps");
   bool osmesa = false;
   for (std::string line; std::getline(maps, line);) {

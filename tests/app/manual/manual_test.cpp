@@ -22,8 +22,8 @@ CommandModel program() {
   return command_model(cli);
 }
 
-const CommandModel& command_named(const std::vector<const CommandModel*>& all,
-                                  const std::vector<std::string>& path) {
+CommandModel command_named(const std::vector<const CommandModel*>& all,
+                           const std::vector<std::string>& path) {
   return **std::ranges::find(all, path, [](const CommandModel* each) { return each->path; });
 }
 
@@ -31,7 +31,7 @@ TEST(CommandModel, HasNamesValuesChoicesAndExamples) {
   const CommandModel whole = program();
   const auto all = flattened(whole);
   EXPECT_EQ(all.front()->path, std::vector<std::string>());
-  const CommandModel& render = command_named(all, {"render"});
+  const CommandModel render = command_named(all, {"render"});
   const auto option = [&](const std::string& name) {
     return *std::ranges::find(render.options, name,
                               [](const OptionModel& each) { return each.names.back(); });
