@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "render/passes/shader_sources.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -76,5 +78,7 @@ void Discs::draw(const View& view, const std::vector<Point>& points) {
   if (!shining_through.empty()) quads_.draw(shining_through, GL_GEQUAL, 0.55f);
   quads_.draw(all, GL_LESS, 1.0f);
 }
+
+ShaderSources disc_shaders() { return {vertex_source, fragment_source}; }
 
 }  // namespace pneuma::render

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/passes/look.h"
+#include "render/passes/shader_sources.h"
 
 namespace pneuma::render {
 namespace {
@@ -88,7 +89,7 @@ void main() { gl_Position = view_projection * vec4(position, 0.0, 1.0); }
 constexpr const char* depth_fragment_source = "void main() {}\n";
 
 // How strongly the ground is seen, from 1 at the middle to 0 where it has faded into the distance.
-constexpr const char* nearness_source = R"(
+constexpr const char* ground_nearness = R"(
 float nearness(vec2 from_centre) {
   float near = max(1.0 - dot(from_centre, from_centre), 0.0);
   return near * near;
@@ -139,7 +140,7 @@ Vertices dark_ground(const ShadowMap& map, const GroundShadow& shadow, const Vec
 
 GroundPlane::GroundPlane()
     : colour_("ground", "", colour_vertex_source,
-              look_source() + nearness_source + colour_fragment_source),
+              look_source() + ground_nearness + colour_fragment_source),
       colour_view_projection_(colour_.uniform("view_projection")),
       colour_picture_height_(colour_.uniform("picture_height")),
       colour_spacing_(colour_.uniform("spacing")),
@@ -147,7 +148,7 @@ GroundPlane::GroundPlane()
       colour_radius_(colour_.uniform("radius")),
       colour_line_width_(colour_.uniform("line_width")),
       shadow_("shadow on the ground", "", shadow_vertex_source,
-              std::string(nearness_source) + shadow_fragment_source),
+              std::string(ground_nearness) + shadow_fragment_source),
       shadow_view_projection_(shadow_.uniform("view_projection")),
       shadow_world_to_map_(shadow_.uniform("world_to_map")),
       shadow_centre_(shadow_.uniform("centre")),
@@ -209,5 +210,11 @@ void GroundPlane::hide_below(const View& view) {
   draw_triangles(whole_ground(view));
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
+
+ShaderSources ground_shaders() { return {colour_vertex_source, colour_fragment_source}; }
+
+ShaderSources ground_shadow_shaders() { return {shadow_vertex_source, shadow_fragment_source}; }
+
+const char* nearness_source() { return ground_nearness; }
 
 }  // namespace pneuma::render

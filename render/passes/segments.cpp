@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "render/passes/shader_sources.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -93,5 +95,7 @@ void Segments::draw(const View& view, float opacity) {
   set_uniform(near_, view.near);
   quads_.draw(instances_, GL_LESS, opacity);
 }
+
+ShaderSources line_shaders() { return {vertex_source, fragment_source}; }
 
 }  // namespace pneuma::render

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/passes/look.h"
+#include "render/passes/shader_sources.h"
 
 namespace pneuma::render {
 namespace {
@@ -148,5 +149,7 @@ void Surfaces::draw_variant(const Variant& variant, bool smooth, const View& vie
   }
   glDisable(GL_CULL_FACE);
 }
+
+ShaderSources surface_shaders() { return {vertex_source, fragment_source}; }
 
 }  // namespace pneuma::render

@@ -1,0 +1,26 @@
+// The passes' shaders as text, for a renderer elsewhere that is to draw the same: GLSL without a
+// version line, in the part of the language that OpenGL 3.3 and WebGL 2 share, once `noperspective`
+// is defined away.
+#pragma once
+
+namespace pneuma::render {
+
+struct ShaderSources {
+  const char* vertex;
+  const char* fragment;
+};
+
+/// Each needs the text of look_source() before its fragment shader.
+ShaderSources surface_shaders();  // variants by SMOOTH and SHADOWED
+ShaderSources ground_shaders();   // also needs nearness_source()
+
+/// The ground's shadow from a picture of it; needs nearness_source().
+ShaderSources ground_shadow_shaders();
+
+/// `nearness(from_centre)`: how strongly the ground is seen.
+const char* nearness_source();
+
+ShaderSources disc_shaders();
+ShaderSources line_shaders();
+
+}  // namespace pneuma::render
