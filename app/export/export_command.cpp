@@ -17,27 +17,30 @@ void add_export_command(CLI::App& app, Action& action) {
     std::string frames;
     std::string format = "ply";
   };
-  static const std::map<std::string, MeshFormat> formats = [] {
-    std::map<std::string, MeshFormat> by_name;
-    for (const MeshFormat& format : mesh_formats) by_name.emplace(format.name, format);
+  static const std::map<std::string, ExportFormat> formats = [] {
+    std::map<std::string, ExportFormat> by_name;
+    for (const ExportFormat& format : export_formats()) by_name.emplace(format.name, format);
     return by_name;
   }();
-  CLI::App* command =
-      app.add_subcommand("export", "Write the bodies of each frame as mesh files, no pictures");
+  CLI::App* command = app.add_subcommand("export", "Write a run as files that other programs show");
   const auto typed = std::make_shared<Typed>();
   ExportRequest& request = typed->request;
 
   add_scene_option(*command, request.scene);
-  command->add_option("--format", typed->format, "ply (double precision), obj or glb [ply]")
+  command
+      ->add_option("--format", typed->format,
+                   "A mesh file per frame: ply (double precision), obj or glb; html: one page that "
+                   "plays the run in a browser [ply]")
       ->check(CLI::IsMember(formats))
       ->type_name("FORMAT");
   command->add_option("--out", request.out, "Folder for the files [out/NAME]")->type_name("DIR");
   add_override_option(*command, request.overrides);
   add_frames_option(*command, typed->frames);
-  command->add_flag("--overwrite", request.overwrite, "Replace the mesh files in the folder");
+  command->add_flag("--overwrite", request.overwrite, "Replace such files in the folder");
   add_threads_option(*command, request.threads);
   add_quiet_option(*command, request.quiet);
   add_examples(*command, {"pneuma export pressure_soft --format ply --out meshes",
+                          "pneuma export one_torus --format html",
                           "pneuma export my_scene.toml --format obj --frames 30 --overwrite"});
   command->callback([typed, &action] {
     action = [typed] {

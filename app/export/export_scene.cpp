@@ -5,10 +5,9 @@
 #include <filesystem>
 #include <regex>
 
-#include "app/export/exported_mesh.h"
 #include "app/host/clock.h"
+#include "app/host/errors.h"
 #include "app/host/interrupt.h"
-#include "app/host/version.h"
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
 #include "app/world/build_world.h"
@@ -22,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Mesh files of the same scene and format, which a new sequence would be mixed with.
-std::vector<fs::path> old_sequence(const fs::path& folder, const std::string& scene,
-                                   const MeshFormat& format) {
-  const std::regex numbered(fmt::format(R"(_[0-9]{{5,}}\.{})", format.name));
+/// Files of the same scene and format, which new ones would be mixed with.
+std::vector<fs::path> old_files(const fs::path& folder, const std::string& scene,
+                                const ExportFormat& format) {
+  const std::regex ending{std::string(format.files)};
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(scene) && std::regex_match(name.substr(scene.size()), numbered)) {
+    if (name.starts_with(scene) && std::regex_match(name.substr(scene.size()), ending)) {
       files.push_back(entry.path());
     }
   }
@@ -37,36 +36,28 @@ std::vector<fs::path> old_sequence(const fs::path& folder, const std::string& sc
 }
 
 void make_room(const fs::path& folder, const std::string& scene, const ExportRequest& request) {
-  const std::vector<fs::path> old = old_sequence(folder, scene, request.format);
+  const std::vector<fs::path> old = old_files(folder, scene, request.format);
   if (old.empty()) return;
   if (!request.overwrite) {
     throw base::IoError(fmt::format(
-        "{} holds {} mesh files of {}; replace them with --overwrite, or choose another "
-        "folder with --out",
-        folder.string(), old.size(), scene));
+        "{} holds {} {} file{} of {}; replace them with --overwrite, or choose another folder with "
+        "--out",
+        folder.string(), old.size(), request.format.name, old.size() == 1 ? "" : "s", scene));
   }
   for (const fs::path& file : old) fs::remove(file);
 }
 
-void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
-                  const ExportRequest& request) {
-  Progress progress(progress_style(request.quiet));
-  Simulation simulation(scene, build_world(scene), request.threads);
-  const MeshExporter exporter(scene, simulation.world());
+/// Hands the wanted frames to the sink.
+void run_frames(Simulation& simulation, const Frames& frames, FrameSink& sink, ProgressState& state,
+                Progress& progress) {
   const Clock::time_point start = Clock::now();
-  ProgressState state;
   state.last = frames.last;
   for (;; simulation.advance_frame()) {
     throw_if_interrupted();
     state.frame = simulation.frame();
     state.time = state.simulated = sim::time(simulation.world());
     if (state.frame >= frames.first) {
-      const std::string comment =
-          fmt::format("{} t = {:.6g} s, pneuma {}", scene.name, state.time, version().program);
-      const fs::path file =
-          folder / fmt::format("{}_{:05}.{}", scene.name, state.frame, request.format.name);
-      base::write_file_atomically(
-          file.string(), request.format.encode(exporter.meshes(simulation.world()), comment));
+      sink.add(simulation);
       ++state.drawn;
     }
     state.elapsed = seconds_since(start);
@@ -74,6 +65,24 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
     if (state.frame >= frames.last) break;
   }
   progress.say(summary_line(state));
+}
+
+fs::path write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
+                      const ExportRequest& request) {
+  Progress progress(progress_style(request.quiet));
+  const sim::World start = build_world(scene);
+  const auto sink = request.format.open(
+      {scene, start, frames.last - frames.first + 1, folder, request.threads, progress});
+  make_room(folder, scene.name, request);
+  Simulation simulation(scene, start, request.threads);
+  ProgressState state;
+  try {
+    run_frames(simulation, frames, *sink, state, progress);
+  } catch (const DivergenceError&) {
+    if (state.drawn > 0) sink->finish();
+    throw;
+  }
+  return sink->finish();
 }
 
 }  // namespace
@@ -84,9 +93,7 @@ ExitCode export_scene(const ExportRequest& request) {
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);
   RunFolder(folder, scene.name).make();
-  make_room(folder, scene.name, request);
-  write_frames(scene, frames, folder, request);
-  fmt::print("{}\n", folder.string());
+  fmt::print("{}\n", write_frames(scene, frames, folder, request).string());
   return ExitCode::done;
 }
 

@@ -1,10 +1,10 @@
-// `pneuma export`: the bodies of each frame as mesh files.
+// `pneuma export`: a run as files that other programs show.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "app/export/mesh_formats.h"
+#include "app/export/export_formats.h"
 #include "app/host/exit_code.h"
 #include "app/terminal/frame_range.h"
 
@@ -12,7 +12,7 @@ namespace pneuma::app {
 
 struct ExportRequest {
   std::string scene;  // a path or a name
-  MeshFormat format = mesh_formats[0];
+  ExportFormat format = export_formats()[0];
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
   FrameRange frames;
@@ -21,8 +21,9 @@ struct ExportRequest {
   bool quiet = false;
 };
 
-/// Writes NAME_00042.ply and so on; no pictures, no GL. Throws scenes::SceneError, UsageError,
-/// DivergenceError, Interrupted and base::IoError; what is on disk then is whole.
+/// Writes NAME_00042.ply and so on, or NAME.html; no pictures, no GL. Throws scenes::SceneError,
+/// UsageError, DivergenceError, Interrupted and base::IoError; what is on disk then is whole, after
+/// a divergence with all frames up to it.
 ExitCode export_scene(const ExportRequest& request);
 
 }  // namespace pneuma::app

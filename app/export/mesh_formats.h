@@ -2,16 +2,16 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "app/export/exported_mesh.h"
+#include "app/export/sink/bytes.h"
 
 namespace pneuma::app {
 
-using Bytes = std::vector<std::uint8_t>;
+/// Scenes are called after their files, which may be called anything: without control characters.
+std::string one_line(std::string text);
 
 /// A kind of mesh file, whose name is its ending. `comment` is one line.
 struct MeshFormat {

@@ -10,7 +10,7 @@
 #include "app/host/find_program.h"
 #include "app/host/interrupt.h"
 #include "app/host/run_command.h"
-#include "app/picture/place_camera.h"
+#include "app/picture/choose_camera.h"
 #include "app/render/contact_sheet.h"
 #include "app/render/draw_frames.h"
 #include "app/render/log/run_log.h"
@@ -37,18 +37,6 @@ render::RenderOptions picture_options(const scenes::PictureScene& picture,
   options.height = picture.height;
   options.samples = picture.samples;
   return options;
-}
-
-render::Camera choose_camera(const scenes::Scene& scene, const sim::World& start, int threads,
-                             Progress& progress) {
-  const auto on_frame = [&](const sim::World& world) {
-    throw_if_interrupted();
-    progress.show(fmt::format("looking ahead for the camera: t = {:.2f} s of {:g} s",
-                              sim::time(world), scene.duration));
-  };
-  const PlacedCamera placed = place_camera(scene, start, threads, on_frame);
-  if (!placed.notice.empty()) progress.say(fmt::format("{}: {}", scene.name, placed.notice));
-  return placed.camera;
 }
 
 /// Steps may be too long, and particles are asked for in vain where no two soft bodies can meet.

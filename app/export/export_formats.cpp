@@ -1,0 +1,74 @@
+#include "app/export/export_formats.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "app/export/mesh_formats.h"
+#include "app/export/replay/replay_data.h"
+#include "app/export/replay/replay_page.h"
+#include "app/host/version.h"
+#include "app/picture/choose_camera.h"
+#include "sim/base/file.h"
+
+namespace pneuma::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// NAME_00042.ply and so on, a file per frame.
+class MeshFiles : public FrameSink {
+ public:
+  MeshFiles(const ExportJob& job, MeshFormat format)
+      : exporter_(job.scene, job.start),
+        format_(format),
+        folder_(job.folder),
+        name_(job.scene.name) {}
+
+  void add(const Simulation& simulation) override {
+    const sim::World& world = simulation.world();
+    const std::string comment =
+        fmt::format("{} t = {:.6g} s, pneuma {}", name_, sim::time(world), version().program);
+    const fs::path file =
+        folder_ / fmt::format("{}_{:05}.{}", name_, simulation.frame(), format_.name);
+    base::write_file_atomically(file.string(), format_.encode(exporter_.meshes(world), comment));
+  }
+
+  fs::path finish() override { return folder_; }
+
+ private:
+  MeshExporter exporter_;
+  MeshFormat format_;
+  fs::path folder_;
+  std::string name_;
+};
+
+template <std::size_t format>
+std::unique_ptr<FrameSink> open_mesh_files(const ExportJob& job) {
+  return std::make_unique<MeshFiles>(job, mesh_formats[format]);
+}
+
+std::int64_t vertex_count(const sim::World& world) {
+  std::int64_t count = 8 * static_cast<std::int64_t>(world.rigid.size());
+  for (const sim::SoftBody& body : world.soft) count += body.positions.size();
+  return count;
+}
+
+std::unique_ptr<FrameSink> open_replay(const ExportJob& job) {
+  check_replay_size(vertex_count(job.start), job.frames);
+  const render::Camera camera = choose_camera(job.scene, job.start, job.threads, job.progress);
+  return std::make_unique<ReplaySink>(job.scene, job.start, camera,
+                                      job.folder / (job.scene.name + ".html"));
+}
+
+constexpr std::array<ExportFormat, 4> formats = {{{"ply", R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
+                                                  {"obj", R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
+                                                  {"glb", R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
+                                                  {"html", R"(\.html)", open_replay}}};
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() { return formats; }
+
+}  // namespace pneuma::app

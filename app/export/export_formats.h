@@ -1,0 +1,35 @@
+// What `pneuma export --format` takes, and where each puts the frames.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "app/export/sink/frame_sink.h"
+#include "app/terminal/progress.h"
+#include "scenes/loader/scene.h"
+
+namespace pneuma::app {
+
+/// What is to be exported, and where to.
+struct ExportJob {
+  const scenes::Scene& scene;
+  const sim::World& start;
+  std::int64_t frames;  // how many
+  std::filesystem::path folder;
+  int threads;
+  Progress& progress;
+};
+
+struct ExportFormat {
+  std::string_view name;
+  std::string_view files;  // of a scene: what follows its name, as a regular expression
+  /// Throws UsageError when they are too much for it.
+  std::unique_ptr<FrameSink> (*open)(const ExportJob& job);
+};
+
+std::span<const ExportFormat> export_formats();
+
+}  // namespace pneuma::app

@@ -1,0 +1,112 @@
+// The recording: unpacks the block of bytes and hands out the numbers of a frame.
+
+async function unpack(text) {
+  const packed = Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Response(stream).arrayBuffer();
+}
+
+// The inverse of differences() in quantise.cpp.
+function sumDifferences(planes, count, columns) {
+  const values = new Uint16Array(count);
+  for (let i = 0; i < count; ++i) {
+    const folded = planes[i] | planes[count + i] << 8;
+    const difference = folded & 1 ? -(folded + 1) / 2 : folded / 2;
+    let foretold = 0;
+    if (i >= columns) foretold = values[i - columns];
+    if (i >= 2 * columns) foretold = 2 * foretold - values[i - 2 * columns];
+    values[i] = foretold + difference;
+  }
+  return values;
+}
+
+class Recording {
+  constructor(header, buffer) {
+    this.header = header;
+    this.buffer = buffer;
+    this.frameCount = header.frames;
+    this.vertexCount = header.meshes.reduce((sum, mesh) => sum + mesh.vertices, 0);
+    this.quantised = this.stream("positions");
+    this.positions = new Float32Array(3 * this.vertexCount);
+    this.particles = this.readMarks("particles");
+    this.contacts = this.readMarks("contacts");
+    this.normals = this.stream("contacts_normals");
+    this.joinMeshes();
+  }
+
+  stream(name) {
+    const { kind, offset, count, columns } = this.header.streams[name];
+    switch (kind) {
+      case "u8": return new Uint8Array(this.buffer, offset, count);
+      case "u16": return new Uint16Array(this.buffer, offset, count);
+      case "u32": return new Uint32Array(this.buffer, offset, count);
+      case "f32": return new Float32Array(this.buffer, offset, count);
+      default: return sumDifferences(new Uint8Array(this.buffer, offset, 2 * count), count, columns);
+    }
+  }
+
+  readMarks(name) {
+    const counts = this.stream(name + "_counts");
+    const begins = new Uint32Array(counts.length + 1);
+    counts.forEach((count, frame) => { begins[frame + 1] = begins[frame] + count; });
+    return { begins, places: this.stream(name + "_places"), looks: this.stream(name + "_looks") };
+  }
+
+  // All meshes as one: smooth and flat triangles, edges, and the vertices' colours.
+  joinMeshes() {
+    const smooth = [], flat = [], edges = [];
+    this.colours = new Float32Array(3 * this.vertexCount);
+    let first = 0;
+    for (const mesh of this.header.meshes) {
+      const triangles = mesh.smooth ? smooth : flat;
+      for (const v of this.stream(mesh.shape + "_triangles")) triangles.push(first + v);
+      for (const v of this.stream(mesh.shape + "_edges")) edges.push(first + v);
+      this.colours.set(Float32Array.from(this.stream(mesh.shape + "_colours"), toLinear), 3 * first);
+      first += mesh.vertices;
+    }
+    this.smooth = Uint32Array.from(smooth);
+    this.flat = Uint32Array.from(flat);
+    this.edges = Uint32Array.from(edges);
+  }
+
+  frameNumber(frame) { return this.header.first_frame + frame; }
+  step(frame) { return this.frameNumber(frame) * this.header.steps_per_frame; }
+  time(frame) { return this.frameNumber(frame) / this.header.frames_per_second; }
+
+  // Into `result`, from three integers each.
+  place(quantised, begin, end, result) {
+    const { origin, step } = this.header.lattice;
+    for (let i = begin; i < end; ++i) result[i - begin] = origin[i % 3] + step * quantised[i];
+    return result;
+  }
+
+  // x, y, z of all vertices; the array is used again for the next frame.
+  positionsAt(frame) {
+    const count = 3 * this.vertexCount;
+    return this.place(this.quantised, frame * count, (frame + 1) * count, this.positions);
+  }
+
+  // Discs of a frame: [{position, colour, diameter}].
+  marksAt(marks, frame) {
+    const result = [];
+    for (let i = marks.begins[frame]; i < marks.begins[frame + 1]; ++i) {
+      const look = this.header.looks[marks.looks[i]];
+      result.push({ position: this.place(marks.places, 3 * i, 3 * i + 3, []), ...look });
+    }
+    return result;
+  }
+
+  // Normals of a frame's contacts: [{from, to, colour}].
+  normalsAt(frame) {
+    return this.marksAt(this.contacts, frame).map(({ position, colour }, i) => {
+      const n = 3 * (this.contacts.begins[frame] + i);
+      const to = position.map((x, axis) => x + (this.normals[n + axis] << 24 >> 24) / 127);
+      return { from: position, to, colour };
+    });
+  }
+}
+
+function toLinear(byte) {
+  const srgb = byte / 255;
+  return srgb <= 0.04045 ? srgb / 12.92 : ((srgb + 0.055) / 1.055) ** 2.4;
+}

@@ -1,0 +1,50 @@
+// A run as the replay page shows it: what the renderer would draw, and numbers to plot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/picture/build_frame.h"
+#include "app/world/simulation.h"
+#include "render/frame/frame.h"
+#include "scenes/loader/scene.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+
+struct RecordedFrame {
+  std::vector<render::Vec3f> positions;  // m, of the vertices of all meshes, one after the other
+  std::vector<render::Point> particles;  // as `--show particles` draws them
+  std::vector<render::Point> contacts;   // as `--show contacts` does
+  std::vector<render::Line> normals;     // of the contacts
+  sim::Energy energy;
+  double volume = 0.0;       // m^3, of all soft bodies
+  double penetration = 0.0;  // m
+};
+
+struct Recording {
+  std::string name;
+  std::string title;
+  std::int64_t first_frame = 0;
+  int frames_per_second = 0;
+  int steps_per_frame = 0;
+  float aspect = 1.0f;  // width over height of the scene's pictures
+  /// The first frame as the renderer is handed it, for all that stays the same: camera, light,
+  /// ground, shapes of the meshes.
+  render::Frame first;
+  std::vector<RecordedFrame> frames;
+};
+
+class Recorder {
+ public:
+  Recorder(const scenes::Scene& scene, const sim::World& world, const render::Camera& camera);
+
+  void add(const Simulation& simulation);
+  const Recording& recording() const { return recording_; }
+
+ private:
+  FrameBuilder builder_;
+  Recording recording_;
+};
+
+}  // namespace pneuma::app

@@ -1,0 +1,26 @@
+// A recording as the replay page carries it: a header, and one block of bytes.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/export/replay/recording.h"
+
+namespace pneuma::app {
+
+/// `header["streams"][NAME]` has the place and the kind of each series in `bytes`, which the page
+/// holds deflated: u8, u16, u32, f32 (little-endian) or `differences` (quantise.h) of u16 rows.
+/// `header["lattice"]` says how far from the simulation's a position may be.
+struct ReplayData {
+  nlohmann::ordered_json header;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Throws UsageError for a run that is too long for one page.
+void check_replay_size(std::int64_t vertices, std::int64_t frames);
+
+/// Of a recording that has one frame at least.
+ReplayData replay_data(const Recording& recording);
+
+}  // namespace pneuma::app

@@ -1,0 +1,21 @@
+// Where `pneuma export` puts the frames of a run, one by one.
+#pragma once
+
+#include <filesystem>
+
+#include "app/world/simulation.h"
+
+namespace pneuma::app {
+
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+
+  /// The simulation has come to a frame that is wanted.
+  virtual void add(const Simulation& simulation) = 0;
+
+  /// After the last frame, or the last one before a divergence. Returns what people are to open.
+  virtual std::filesystem::path finish() = 0;
+};
+
+}  // namespace pneuma::app

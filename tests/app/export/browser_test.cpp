@@ -1,0 +1,106 @@
+// The replay page in a real browser: it draws what the program's own renderer draws, and nothing
+// goes wrong.
+#include "app/host/find_program.h"
+#include "render/image/compare.h"
+#include "tests/app/render/rendered_run.h"
+
+namespace pneuma::app {
+namespace {
+
+/// Runs Debian's chromium without a window, drawing by software.
+class LongBrowser : public testing::Test {
+ protected:
+  void SetUp() override {
+    browser_ = find_program("chromium").value_or("");
+    if (browser_.empty()) GTEST_SKIP() << "chromium is not installed";
+  }
+
+  void export_page(const std::string& options) const {
+    const ProgramResult result = run_pneuma(fmt::format(
+        "export {} --set picture.width=640 --set picture.height=480 --format html --out '{}' 2>&1",
+        options, folder_.path().string()));
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+  }
+
+  /// What the browser shows; `said` is what the page wrote on its console.
+  render::Image shown(const std::string& page, const std::string& wishes, std::string& said) const {
+    const auto picture = folder_ / "shown.png";
+    const auto log = folder_ / "log";
+    const std::string command = fmt::format(
+        "'{}' --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
+        "--hide-scrollbars --window-size=800,700 --virtual-time-budget=20000 "
+        "--enable-logging=stderr --user-data-dir='{}' --screenshot='{}' 'file://{}#{}' 2>'{}'",
+        browser_, (folder_ / "profile").string(), picture.string(), (folder_ / page).string(),
+        wishes, log.string());
+    EXPECT_EQ(std::system(command.c_str()), 0) << read_text(log);
+    std::istringstream lines(read_text(log));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("CONSOLE") != std::string::npos) said += line + "\n";
+    }
+    return upper_left(render::read_png(picture.string()));
+  }
+
+  /// Of the window, which is larger than the picture in it.
+  static render::Image upper_left(const render::Image& window) {
+    render::Image part{640, 480, {}};
+    for (int y = 0; y < part.height; ++y) {
+      const auto row = window.pixels.begin() + std::ptrdiff_t{3} * y * window.width;
+      part.pixels.insert(part.pixels.end(), row, row + std::ptrdiff_t{3} * part.width);
+    }
+    return part;
+  }
+
+  render::Image rendered(const std::string& scene, int frame, const std::string& options) const {
+    const std::string name = fmt::format("pictures{}{}", frame, options.size());
+    const ProgramResult result = run_pneuma(fmt::format(
+        "render {} --frames {}-{} --size 640x480 --set picture.caption=false --out '{}' {} 2>&1",
+        scene, frame, frame, (folder_ / name).string(), options));
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return render::read_png((folder_ / name / fmt::format("{}_{:05}.png", scene, frame)).string());
+  }
+
+  TemporaryFolder folder_;
+  std::string browser_;
+};
+
+/// Edges, the grid and the soft rims of shadows fall a little differently; a body, a shadow or a
+/// disc that is missing or in another place changes more pixels than these.
+void expect_alike(const render::Image& browser, const render::Image& own) {
+  const render::ImageDifference difference = render::compare_images(browser, own, 24);
+  EXPECT_LE(difference.mean, 1.0);
+  EXPECT_LE(difference.fraction_beyond, 0.01);
+}
+
+TEST_F(LongBrowser, DrawsWhatTheRendererDraws) {
+  export_page(
+      "torus_three_spheres_four_cubes --set camera.eye=[0,-30,14] --set camera.target=[0,0,3]");
+  std::string said;
+  for (const int frame : {0, 75, 200}) {
+    const std::string camera = "--set camera.eye=[0,-30,14] --set camera.target=[0,0,3]";
+    expect_alike(shown("torus_three_spheres_four_cubes.html",
+                       fmt::format("frame={}&bare=640x480", frame), said),
+                 rendered("torus_three_spheres_four_cubes", frame, camera));
+  }
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(LongBrowser, DrawsParticlesAndContacts) {
+  export_page("two_spheres_contact --frames 31");
+  std::string said;
+  expect_alike(
+      shown("two_spheres_contact.html", "frame=30&show=particles,contacts&bare=640x480", said),
+      rendered("two_spheres_contact", 30, "--show particles,contacts"));
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(LongBrowser, ShowsThePlayer) {
+  export_page("one_sphere --frames 40");
+  std::string said;
+  const render::Image player = shown("one_sphere.html", "frame=30", said);
+  const render::Image bare = shown("one_sphere.html", "frame=30&bare=640x480", said);
+  EXPECT_GT(render::compare_images(player, bare, 24).fraction_beyond, 0.1) << "no controls";
+  EXPECT_EQ(said, "");
+}
+
+}  // namespace
+}  // namespace pneuma::app
