@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "app/export/animated_glb.h"
 #include "app/export/mesh_formats.h"
+#include "app/export/point_cache.h"
 #include "app/export/replay/replay_data.h"
 #include "app/export/replay/replay_page.h"
+#include "app/export/vtk_series.h"
+#include "app/host/errors.h"
 #include "app/host/version.h"
 #include "app/picture/choose_camera.h"
 #include "sim/base/file.h"
@@ -62,13 +67,32 @@ std::unique_ptr<FrameSink> open_replay(const ExportJob& job) {
                                       job.folder / (job.scene.name + ".html"));
 }
 
-constexpr std::array<ExportFormat, 4> formats = {{{"ply", R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
-                                                  {"obj", R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
-                                                  {"glb", R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
-                                                  {"html", R"(\.html)", open_replay}}};
+template <class Sink>
+std::unique_ptr<FrameSink> open_sink(const ExportJob& job) {
+  return std::make_unique<Sink>(job);
+}
+
+constexpr std::array<ExportFormat, 7> formats = {
+    {{"ply", false, R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
+     {"obj", false, R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
+     {"glb", false, R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
+     {"vtp", false, R"(_[0-9]{5,}\.vtp|\.pvd)", open_sink<VtkSeries>},
+     {"html", false, R"(\.html)", open_replay},
+     {"obj", true, R"(\.obj|\.pc2)", open_sink<PointCache>},
+     {"glb", true, R"(\.glb)", open_sink<AnimatedGlb>}}};
 
 }  // namespace
 
 std::span<const ExportFormat> export_formats() { return formats; }
+
+const ExportFormat& export_format(std::string_view name, bool animated) {
+  const auto* format = std::ranges::find_if(formats, [&](const ExportFormat& each) {
+    return each.name == name && each.animated == animated;
+  });
+  if (format != formats.end()) return *format;
+  throw UsageError(fmt::format(
+      "--animated: {} has no file for all frames; allowed are --format glb and --format obj{}",
+      name, name == "html" || name == "vtp" ? ", while this format plays without the option" : ""));
+}
 
 }  // namespace pneuma::app

@@ -25,11 +25,15 @@ struct ExportJob {
 
 struct ExportFormat {
   std::string_view name;
+  bool animated;           // what --animated chooses: all frames in one file, or in two
   std::string_view files;  // of a scene: what follows its name, as a regular expression
   /// Throws UsageError when they are too much for it.
   std::unique_ptr<FrameSink> (*open)(const ExportJob& job);
 };
 
 std::span<const ExportFormat> export_formats();
+
+/// Throws UsageError when there is no such format.
+const ExportFormat& export_format(std::string_view name, bool animated);
 
 }  // namespace pneuma::app

@@ -56,6 +56,12 @@ std::size_t GlbWriter::add_node(const std::string& name, std::size_t mesh) {
   return node;
 }
 
+void GlbWriter::place(std::size_t node, std::span<const float, 3> position,
+                      std::span<const float, 4> orientation) {
+  json_["nodes"][node]["translation"] = Json(position);
+  json_["nodes"][node]["rotation"] = Json(orientation);
+}
+
 std::size_t GlbWriter::add_series(std::span<const float> values, const char* shape) {
   const std::size_t start = binary_.size();
   for (const float value : values) put(binary_, value);

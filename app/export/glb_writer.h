@@ -28,6 +28,10 @@ class GlbWriter {
   /// Returns the number of the node.
   std::size_t add_node(const std::string& name, std::size_t mesh);
 
+  /// x, y, z in m, and a unit quaternion x, y, z, w.
+  void place(std::size_t node, std::span<const float, 3> position,
+             std::span<const float, 4> orientation);
+
   /// Values over time, or the times themselves. Returns the number of the accessor.
   std::size_t add_series(std::span<const float> values, const char* shape);
   /// Fractions of 1 as bytes: numbers 0 or 255.
