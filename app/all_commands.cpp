@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "app/host/version.h"
+#include "app/runs/runs_commands.h"
 #include "app/study/study_command.h"
 #include "app/terminal/common_options.h"
 
@@ -17,6 +18,8 @@ void add_all_commands(CLI::App& cli, Action& action, std::span<const std::string
   cli.require_subcommand(1);
   add_render_command(cli, action, command_line);
   add_export_command(cli, action);
+  add_plot_command(cli, action);
+  add_compare_command(cli, action);
   add_bench_command(cli, action);
   add_study_command(cli, action, command_line);
   add_check_command(cli, action);
