@@ -102,7 +102,8 @@ std::filesystem::path AnimatedGlb::finish() {
   GlbWriter writer(comment_);
   const bool moves = times_.size() > 1;
   const std::size_t times = moves ? writer.add_series(times_, "SCALAR") : 0;
-  const std::size_t weights = moves ? writer.add_fractions(morph_weights(times_.size())) : 0;
+  const bool morphs = moves && !soft_.empty();
+  const std::size_t weights = morphs ? writer.add_fractions(morph_weights(times_.size())) : 0;
   for (std::size_t b = 0; b < soft_.size(); ++b) {
     const SoftFrames& frames = soft_[b];
     const std::size_t mesh = writer.add_mesh(first_[b], frames.normals.front());

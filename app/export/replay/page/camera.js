@@ -84,10 +84,13 @@ class Camera {
     this.target = add(this.target, add(scale(x, -right * height), scale(y, -up * height)));
   }
 
-  // A picture narrower than the scene's own shows the same from left to right.
+  // A picture narrower than the scene's own shows the same from left to right: so many times more upwards.
+  widening(aspect) {
+    return Math.max(1, this.scenery.aspect / aspect);
+  }
+
   slope(aspect) {
-    const own = Math.tan(this.scenery.field_of_view * Math.PI / 360);
-    return own * Math.max(1, this.scenery.aspect / aspect);
+    return Math.tan(this.scenery.field_of_view * Math.PI / 360) * this.widening(aspect);
   }
 
   // `casters`: the box around all meshes.
@@ -109,6 +112,6 @@ class Camera {
     projection[14] = -2 * far * near / (far - near);
     const view = affine(axes, axes.map((axis) => -dot(axis, eye)));
     return { view, projection, viewProjection: multiply(projection, view), eye, target: this.target, near,
-      groundRadius, casters, width, height, pixelScale: height / 480 };
+      groundRadius, casters, width, height, pixelScale: height / (480 * this.widening(width / height)) };
   }
 }

@@ -141,7 +141,6 @@ class Player {
     element("caption").textContent = `${recording.header.title}\n${time}   step ${recording.step(frame)}`;
     element("time").textContent = `frame ${recording.frameNumber(frame)}` +
       (this.speed === 1 ? "" : `   x${this.speed}`);
-    document.body.dataset.drawn = recording.frameNumber(frame);
   }
 }
 
@@ -211,13 +210,13 @@ function showError(text) {
 function describeAccuracy({ lattice, program, frames_per_second: rate, frames }) {
   const share = lattice.extent > 0 ? lattice.max_error / lattice.extent : 0;
   return `${frames} frames, ${rate} a second, by ${program}. Positions are those of the simulation within ` +
-    `${numberText(1000 * lattice.max_error)} mm, ${numberText(share)} of the extent of ${numberText(lattice.extent)} m ` +
-    "along each axis; normals of contacts within 1/254.";
+    `${numberText(1000 * lattice.max_error)} mm, ${numberText(share)} of the extent of ` +
+    `${numberText(lattice.extent)} m, along each axis; normals of contacts within 1/254.`;
 }
 
 async function start() {
   try {
-    if (!window.DecompressionStream) throw new Error("This browser is too old to unpack the page (DecompressionStream).");
+    if (!window.DecompressionStream) throw new Error("This browser is too old: it has no DecompressionStream.");
     const header = JSON.parse(element("header").textContent);
     document.querySelector("#about h1").textContent = header.title;
     element("accuracy").textContent = describeAccuracy(header);
