@@ -49,9 +49,9 @@ class MeshFiles : public FrameSink {
   std::string name_;
 };
 
-template <std::size_t format>
+template <std::size_t Format>
 std::unique_ptr<FrameSink> open_mesh_files(const ExportJob& job) {
-  return std::make_unique<MeshFiles>(job, mesh_formats[format]);
+  return std::make_unique<MeshFiles>(job, mesh_formats[Format]);
 }
 
 std::int64_t vertex_count(const sim::World& world) {
