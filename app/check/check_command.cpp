@@ -45,6 +45,19 @@ ExitCode check_model_file(const CheckOptions& options) {
   return ExitCode::done;
 }
 
+/// Says it when bodies passed through each other, and what helps.
+ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
+  const CrossingStatistics& crossings = run.crossings;
+  if (crossings.frames == 0) return ExitCode::done;
+  const bool is_swept = scene.settings.contact == sim::ContactMethod::swept;
+  fmt::print(
+      stderr,
+      "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s{}\n",
+      scene.name, crossings.frames, run.frames, crossings.first_bodies, crossings.edges.time,
+      is_swept ? "" : "; --set simulation.contact=swept keeps them apart");
+  return ExitCode::check_failed;
+}
+
 ExitCode check(const CheckOptions& options) {
   if (options.keys) {
     fmt::print("{}", options.json ? keys_json().dump(2) + "\n" : scenes::scene_reference());
@@ -68,8 +81,9 @@ ExitCode check(const CheckOptions& options) {
   if (options.run) report.run = run_statistics(report.scene, options.threads);
 
   fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));
-  if (report.run && report.run->divergence) throw DivergenceError(*report.run->divergence);
-  return ExitCode::done;
+  if (!report.run) return ExitCode::done;
+  if (report.run->divergence) throw DivergenceError(*report.run->divergence);
+  return judge(report.scene, *report.run);
 }
 
 }  // namespace
@@ -86,8 +100,10 @@ void add_check_command(CLI::App& app, Action& action) {
                        assets::model_endings() + ")")
       ->type_name("SCENE|MODEL");
   add_override_option(*command, options->overrides);
-  command->add_flag("--run", options->run,
-                    "Also run it without pictures: penetration, energy, contacts, volumes");
+  command->add_flag(
+      "--run", options->run,
+      "Also run it without pictures: penetration, energy, contacts, volumes; exit code 7 if "
+      "bodies pass through each other");
   command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "JSON in place of text");
