@@ -21,7 +21,7 @@ void add_plot_command(CLI::App& app, Action& action) {
   command->add_option("--out", request->out, "Folder for the diagrams [RUN/plots]")
       ->type_name("DIR");
   command->add_flag("--csv", request->csv, "Print a table of all frames instead");
-  add_examples(*command, {"pneuma plot out/one_sphere", "pneuma plot out/one_sphere --csv"});
+  add_examples(*command, {"pneuma plot out/pressure_soft", "pneuma plot out/pressure_soft --csv"});
   command->callback([request, &action] { action = [request] { return plot_run(*request); }; });
 }
 
@@ -42,7 +42,7 @@ void add_compare_command(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command->add_flag("--expect-equal", request->expect_equal,
                     "Exit with 7 when a frame's state or picture differs or is missing");
-  add_examples(*command, {"pneuma compare out/before out/after",
+  add_examples(*command, {"pneuma compare out/pressure_soft stiff",
                           "pneuma compare out/a out/b --frame 60 --out difference.png"});
   command->callback(
       [request, &action] { action = [request] { return compare_run_folders(*request); }; });
