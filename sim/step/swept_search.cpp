@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace pneuma::sim {
@@ -20,6 +19,7 @@ void meet_halfway(SurfacePoint& first, SurfacePoint& second) {
 
 /// m. At less than this the direction between two points is rounding.
 constexpr double min_distance = 1e-9;
+constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -74,31 +74,33 @@ void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
   if (closest) m_.candidates.push_back({bodies, features, *closest});
 }
 
-/// Which candidates of another search are contacts already.
+/// Gives the contacts that there are to the candidates of another search.
 void SweptSearch::recall_contacts() {
-  using Key = std::tuple<int, int, Feature, Feature>;
-  const auto before = [](const Key& a, const Key& b) {
-    const auto numbers = [](const Key& key) {
-      const auto& [first, second, one, other] = key;
-      return std::tuple(first, second, one.kind, one.index, other.kind, other.index);
-    };
-    return numbers(a) < numbers(b);
-  };
-  const auto of_contact = [&](int i) {
-    const SweptContact& contact = m_.contacts[at(i)];
-    return Key(contact.first.body, contact.second.body, contact.first.feature,
-               contact.second.feature);
-  };
-  m_.sorted.resize(m_.contacts.size());
-  std::iota(m_.sorted.begin(), m_.sorted.end(), 0);
-  std::ranges::sort(m_.sorted, before, of_contact);
-  for (SweptCandidate& candidate : m_.candidates) {
-    const Key wanted(candidate.bodies.first, candidate.bodies.second, candidate.features.first,
-                     candidate.features.second);
-    const auto place = std::ranges::lower_bound(m_.sorted, wanted, before, of_contact);
-    const bool is_known = place != m_.sorted.end() && !before(wanted, of_contact(*place));
-    candidate.contact = is_known ? *place : -1;
+  for (int i = 0; i < static_cast<int>(m_.contacts.size()); ++i) {
+    candidate_of(m_.contacts[at(i)]).contact = i;
   }
+}
+
+/// Among those of the same bodies, which follow each other. One that the search left out is put
+/// back.
+SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
+  const BodyPair bodies{contact.first.body, contact.second.body};
+  const NearFeatures features{contact.first.feature, contact.second.feature};
+  const auto order = [](const BodyPair& pair) {
+    return std::tuple(pair.second == swept_ground, pair.first, pair.second);
+  };
+  auto place = std::ranges::lower_bound(m_.candidates, order(bodies), {},
+                                        [&](const SweptCandidate& c) { return order(c.bodies); });
+  while (place != m_.candidates.end() && place->bodies == bodies) {
+    if (place->features == features) return *place;
+    ++place;
+  }
+  SweptCandidate missing{bodies, features, {}};
+  if (bodies.second != swept_ground) {
+    missing.start = *closest_points(bodies_.surface(bodies.first), bodies_.surface(bodies.second),
+                                    features, Moment::start, any_distance);
+  }
+  return *m_.candidates.insert(place, missing);
 }
 
 bool SweptSearch::find_collisions() {
@@ -124,6 +126,7 @@ bool SweptSearch::find_collisions() {
 bool SweptSearch::meets(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
   const double distance = candidate.start.distance;
+  // What touches at the start is held from there.
   if (distance < min_distance) return false;
   const double least =
       std::min(kept_of_start * distance, kept_of_wanted * distance_wanted(first, second));
@@ -134,7 +137,7 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
   if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
     add(candidate, place_at(candidate, *fraction));
   } else if (candidate.contact < 0 && stands(candidate, candidate.start, Moment::start)) {
-    add(candidate, place(candidate, candidate.start));
+    add(candidate, place(candidate, candidate.start, Moment::start));
   }
   return true;
 }
@@ -144,8 +147,9 @@ bool SweptSearch::goes_into_ground(SweptCandidate& candidate) {
   if (candidate.contact >= 0) return false;
   const MovingSurface& surface = bodies_.surface(candidate.bodies.first);
   const double height = surface.end[candidate.features.first.index].z();
-  return height < -near_distance(candidate.bodies.first, swept_ground) &&
-         add_if_it_meets(candidate);
+  if (height >= -near_distance(candidate.bodies.first, swept_ground)) return false;
+  blocked_ = candidate.bodies;
+  return add_if_it_meets(candidate);
 }
 
 SweptContact SweptSearch::place_on_ground(const SweptCandidate& candidate, Moment moment) const {
@@ -162,14 +166,14 @@ SweptContact SweptSearch::place_on_ground(const SweptCandidate& candidate, Momen
           .is_near = point.z() < near_distance(body, swept_ground)};
 }
 
-SweptContact SweptSearch::place(const SweptCandidate& candidate,
-                                const ClosestPoints& closest) const {
+SweptContact SweptSearch::place(const SweptCandidate& candidate, const ClosestPoints& closest,
+                                Moment moment) const {
   const auto [first, second] = candidate.bodies;
   const auto& [of_first, of_second] = candidate.features;
   SweptContact contact = {
       .first = {first, of_first, closest.first_weights, closest.first_point},
       .second = {second, of_second, closest.second_weights, closest.second_point},
-      .normal = (closest.first_point - closest.second_point).normalized(),
+      .normal = normal_of(candidate, closest, moment),
       .distance = closest.distance,
       .wanted = distance_wanted(first, second),
       .is_near = closest.distance < near_distance(first, second)};
@@ -177,10 +181,24 @@ SweptContact SweptSearch::place(const SweptCandidate& candidate,
   return contact;
 }
 
+/// Between points that touch there is no direction: of boxes it is the one in which they are
+/// furthest apart, of others that of the features.
+Vec3 SweptSearch::normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
+                            Moment moment) const {
+  if (closest.distance >= min_distance) {
+    return (closest.first_point - closest.second_point).normalized();
+  }
+  const MovingSurface& a = bodies_.surface(candidate.bodies.first);
+  const MovingSurface& b = bodies_.surface(candidate.bodies.second);
+  const bool are_boxes =
+      bodies_.is_rigid(candidate.bodies.first) && bodies_.is_rigid(candidate.bodies.second);
+  return are_boxes ? direction_apart(a, b, moment)
+                   : touching_normal(a, b, candidate.features, moment);
+}
+
 bool SweptSearch::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
                          Moment moment) const {
-  return closest.distance >= min_distance &&
-         stands_for_its_parts(bodies_.surface(candidate.bodies.first),
+  return stands_for_its_parts(bodies_.surface(candidate.bodies.first),
                               bodies_.surface(candidate.bodies.second), candidate.features, closest,
                               moment);
 }
@@ -189,7 +207,8 @@ bool SweptSearch::stands(const SweptCandidate& candidate, const ClosestPoints& c
 SweptContact SweptSearch::place_at(const SweptCandidate& candidate, double fraction) const {
   const MovingSurface& a = bodies_.surface(candidate.bodies.first);
   const MovingSurface& b = bodies_.surface(candidate.bodies.second);
-  SweptContact contact = place(candidate, closest_points_at(a, b, candidate.features, fraction));
+  SweptContact contact =
+      place(candidate, closest_points_at(a, b, candidate.features, fraction), Moment::start);
   contact.first.point = bodies_.start_point(contact.first);
   contact.second.point = bodies_.start_point(contact.second);
   contact.distance = contact.normal.dot(contact.first.point - contact.second.point);
@@ -207,12 +226,11 @@ std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& cand
     if (contact.is_near || acted) return contact;
     return std::nullopt;
   }
-  const double reach =
-      acted ? std::numeric_limits<double>::infinity() : near_distance(first, second);
+  const double reach = acted ? any_distance : near_distance(first, second);
   const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
                                       candidate.features, Moment::end, reach);
-  if (!closest || !stands(candidate, *closest, Moment::end)) return std::nullopt;
-  return place(candidate, *closest);
+  if (!closest || !(acted || stands(candidate, *closest, Moment::end))) return std::nullopt;
+  return place(candidate, *closest, Moment::end);
 }
 
 /// The points of a contact that is placed as boxes will meet lie apart until then.
@@ -259,21 +277,30 @@ bool SweptSearch::is_rigid(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-/// The speed at which the sides meet: with an even acceleration over the step, after the fraction
-/// of it in which the distance is used up.
-double SweptSearch::speed_of_meeting(const SweptContact& contact) const {
-  const double moved = contact.normal.dot(displacement(contact));
-  const double before = contact.normal.dot(start_velocity(contact));
-  if (contact.is_near || moved >= 0.0) return std::max(0.0, -before);
-  const double after = 2.0 * moved / time_step(world_.settings) - before;
-  const double fraction = std::clamp((contact.distance - contact.wanted) / -moved, 0.0, 1.0);
-  return std::max(0.0, -(before + fraction * (after - before)));
+/// How the sides meet: with an even acceleration over the step, after the fraction of it in which
+/// the distance is used up. `kicked`: by impulses since the start.
+void SweptSearch::find_approach(SweptContact& contact, const Vec3& kicked) const {
+  const double mean = contact.normal.dot(displacement(contact)) / time_step(world_.settings);
+  const double before = contact.normal.dot(start_velocity(contact) + kicked);
+  if (contact.is_near || mean >= 0.0) {
+    contact.approach = std::max(0.0, -before);
+    return;
+  }
+  SweptContact moved = contact;
+  moved.first.point += bodies_.displacement(world_, start_, contact.first);
+  moved.second.point += bodies_.displacement(world_, start_, contact.second);
+  const double gained = contact.normal.dot(end_velocity(moved)) - before;
+  const double left = contact.distance - contact.wanted;
+  const double fraction = std::clamp(left / (-mean * time_step(world_.settings)), 0.0, 1.0);
+  contact.approach = std::max(0.0, -(mean + (fraction - 0.5) * gained));
+  contact.drift = mean - (before + 0.5 * gained);
 }
 
 bool SweptSearch::add_if_it_meets(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
-  const SweptContact contact = second == swept_ground ? place_on_ground(candidate, Moment::start)
-                                                      : place(candidate, candidate.start);
+  const SweptContact contact = second == swept_ground
+                                   ? place_on_ground(candidate, Moment::start)
+                                   : place(candidate, candidate.start, Moment::start);
   if (contact.distance + contact.normal.dot(displacement(contact)) > near_distance(first, second))
     return false;
   if (second != swept_ground && !stands(candidate, candidate.start, Moment::start)) return false;
@@ -282,11 +309,12 @@ bool SweptSearch::add_if_it_meets(SweptCandidate& candidate) {
 }
 
 void SweptSearch::add(SweptCandidate& candidate, SweptContact contact) {
+  contact.previous = candidate.contact;
   candidate.contact = static_cast<int>(m_.contacts.size());
-  contact.approach = speed_of_meeting(contact);
-  m_.contacts.push_back(contact);
   // What is still on its way does not rub.
   m_.impulses.push_back(impulse(contact, contact.is_near ? material(contact).friction : 0.0));
+  find_approach(contact, m_.impulses.back().change());
+  m_.contacts.push_back(contact);
 }
 
 }  // namespace pneuma::sim

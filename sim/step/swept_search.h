@@ -1,4 +1,4 @@
-// The contacts of a step in which nothing passes through anything: found among all features whose
+// The contacts of a step in which no body passes through another: found among all features whose
 // ways come near each other. Private to sim/step.
 #pragma once
 
@@ -20,6 +20,8 @@ struct SweptContact {
   double wanted = 0.0;         // m, the distance that the bodies keep
   bool is_near = false;        // at this distance, give or take half of it
   double approach = 0.0;       // m/s, at which the sides meet
+  double drift = 0.0;          // m/s, of the motion beyond the mean of the velocities at both ends
+  int previous = -1;           // the contact that the same features made before this one
 };
 
 /// Features of two bodies, or of one and the ground, that may meet in the step.
@@ -27,7 +29,7 @@ struct SweptCandidate {
   BodyPair bodies;
   NearFeatures features;
   ClosestPoints start;  // where they are nearest then; not of the ground
-  int contact = -1;     // the contact of the start that this is, if any
+  int contact = -1;     // the last contact of the start that this has made, if any
 };
 
 /// Before a step or a part of it: what is taken back if it fails.
@@ -47,7 +49,6 @@ struct SweptMemory {
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
   std::vector<NearFeatures> found;  // of two bodies
-  std::vector<int> sorted;          // contacts, while candidates are found again
   std::vector<SweptContact> contacts;
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
   std::vector<SweptContact> first_contacts;  // those of the start, once the end is solved for
@@ -90,13 +91,17 @@ class SweptSearch {
   double distance_wanted(int first, int second) const;
   double near_distance(int first, int second) const;
   const ContactMaterial& material(int body) const;
-  double speed_of_meeting(const SweptContact& contact) const;
+  void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
   void find_candidates();
   void find_near_ground();
   void offer(const BodyPair& bodies, const NearFeatures& features);
   void recall_contacts();
-  SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest) const;
+  SweptCandidate& candidate_of(const SweptContact& contact);
+  Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
+                 Moment moment) const;
+  SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
+                     Moment moment) const;
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;

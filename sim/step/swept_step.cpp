@@ -1,7 +1,9 @@
 #include "sim/step/swept_step.h"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "sim/step/find_divergence.h"
 #include "sim/step/stage_runner.h"
@@ -37,16 +39,21 @@ class SweptStep {
   std::optional<Divergence> advance(int halvings) {
     keep(m_.starts[at(halvings)]);
     const double work = m_.work;
+    const std::size_t contacts = w_.contacts.size();
+    const auto take_all_back = [&] {
+      take_back(m_.starts[at(halvings)]);
+      m_.work = work;
+      w_.contacts.resize(contacts);
+    };
     auto failure = try_step();
     if (!failure) return std::nullopt;
-    take_back(m_.starts[at(halvings)]);
-    m_.work = work;
+    take_all_back();
     if (failure->stage != Stage::resolve_contacts || halvings == max_halvings) return failure;
     world_.settings.steps_per_second *= 2;
     auto half = advance(halvings + 1);
     if (!half) half = advance(halvings + 1);
     world_.settings.steps_per_second /= 2;
-    if (half) take_back(m_.starts[at(halvings)]);
+    if (half) take_all_back();
     return half;
   }
 
@@ -71,15 +78,18 @@ class SweptStep {
       search_.start();
     });
     for (int round = 0; round < max_rounds; ++round) {
-      bool moves = true, collides = false;
+      bool collides = false;
       if (!m_.contacts.empty()) {
+        std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
           aim_at_distances();
           solve_all();
+          failed = bodies_.move_again(world_, start(), w_.integrate_soft);
         });
-        run_(Stage::integrate_soft,
-             [&] { moves = !bodies_.move_again(world_, start(), w_.integrate_soft).has_value(); });
-        if (!moves) break;
+        if (failed) {
+          failed->stage = Stage::resolve_contacts;  // whose impulses it could not bear
+          return failed;
+        }
       }
       run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
       if (!collides) {
@@ -101,6 +111,7 @@ class SweptStep {
   }
 
   void solve_all() {
+    if (m_.contacts.empty()) return;
     solve(m_.impulses, solver_tolerance * bodies_.thinnest_skin() / step(), solver_iterations);
   }
 
@@ -120,6 +131,7 @@ class SweptStep {
   /// m, along the normal in this step, at least: negative if there is room.
   static double may_move(const SweptContact& contact) {
     if (contact.distance > contact.wanted) return contact.wanted - contact.distance;
+    if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
     return made_up * std::max(0.0, closest_allowed * contact.wanted - contact.distance);
   }
 
@@ -144,27 +156,47 @@ class SweptStep {
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
 
+  /// What a pair of features has been given at the start.
+  struct Given {
+    bool is_known = false;
+    bool is_near = false;   // of the first contact that they made
+    double approach = 0.0;  // m/s, of that
+    double drift = 0.0;     // m/s, of that
+    double normal = 0.0;    // N s, of all
+    Vec3 friction = Vec3::Zero();
+  };
+
+  Given given_at_start(const SweptCandidate& candidate) const {
+    Given given;
+    for (int i = candidate.contact; i >= 0; i = m_.first_contacts[at(i)].previous) {
+      given.is_known = true;
+      given.is_near = m_.first_contacts[at(i)].is_near;
+      given.approach = m_.first_contacts[at(i)].approach;
+      given.drift = m_.first_contacts[at(i)].drift;
+      given.normal += m_.first_impulses[at(i)].normal_impulse();
+      given.friction += m_.first_impulses[at(i)].friction_impulse();
+    }
+    return given;
+  }
+
   /// What touches at the end does not approach, or bounces. An impulse of the start whose features
   /// did not meet is given back.
   void touch(const SweptCandidate& candidate) {
-    const int known = candidate.contact;
-    const bool acted = known >= 0 && m_.first_impulses[at(known)].normal_impulse() > 0.0;
+    const Given before = given_at_start(candidate);
+    const bool acted = before.normal > 0.0;
     const auto contact = search_.place_at_end(candidate, acted);
     if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
-    SweptImpulse impulse = search_.impulse(*contact, contact->is_near ? both.friction : 0.0);
+    const bool rubs = contact->is_near || (acted && before.is_near);
+    SweptImpulse impulse = search_.impulse(*contact, rubs ? both.friction : 0.0);
+    if (acted) impulse.start_from(before.normal, before.friction);
     double parting = 0.0;
-    if (acted) {
-      const SweptContact& before = m_.first_contacts[at(known)];
-      const SweptImpulse& given = m_.first_impulses[at(known)];
-      impulse.start_from(given.normal_impulse(), given.friction_impulse());
-      const double bounce = both.restitution * before.approach;
-      if (!contact->is_near) {
-        parting = -before.approach;
-        impulse.only_give_back();
-      } else if (!before.is_near && bounce >= min_bounce_speed) {
-        parting = bounce;
-      }
+    const double bounce = both.restitution * before.approach;
+    if (!contact->is_near) {
+      parting = -before.approach;
+      impulse.only_give_back();
+    } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
+      parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
     }
     const Vec3 velocity = search_.end_velocity(*contact);
     impulse.aim(parting - contact->normal.dot(velocity), velocity);
@@ -219,7 +251,6 @@ class SweptStep {
 
   /// The contacts that pressed, for those who ask the stepper.
   void report() {
-    w_.contacts.clear();
     const auto side = [&](const SurfacePoint& point) {
       if (point.body == swept_ground) return ContactSide{};
       if (bodies_.is_rigid(point.body)) {
@@ -237,7 +268,8 @@ class SweptStep {
     }
   }
 
-  const std::string& name(int body) const {
+  std::string name(int body) const {
+    if (body == swept_ground) return "the ground";
     return bodies_.is_rigid(body) ? world_.rigid[at(bodies_.box(body))].name
                                   : world_.soft[at(body)].name;
   }
@@ -260,6 +292,7 @@ class SweptStep {
 
 std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
   workspace.swept->work = 0.0;
+  workspace.contacts.clear();
   return SweptStep(world, workspace).advance(0);
 }
 

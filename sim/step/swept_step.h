@@ -8,8 +8,8 @@
 // act along lines between bodies, so that momentum is kept.
 //
 // The first impulses are computed for features that move along straight lines. Whether surfaces
-// cross on their ways is then looked at (collide_on_their_ways); if they do, the impulses are
-// computed once more with what was found, and if that does not help, the step is halved.
+// meet on their ways is then looked at (time_of_meeting); if they do, the impulses are computed
+// once more with what was found, up to four times, and if that does not help, the step is halved.
 #pragma once
 
 #include <optional>

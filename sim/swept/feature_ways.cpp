@@ -159,6 +159,21 @@ std::optional<ClosestPoints> closest_points(const MovingSurface& first, const Mo
                  reach);
 }
 
+Vec3 touching_normal(const MovingSurface& first, const MovingSurface& second,
+                     const NearFeatures& pair, Moment moment) {
+  const Corners a = corners_of(first.tree->topology(), pair.first, positions(first, moment));
+  const Corners b = corners_of(second.tree->topology(), pair.second, positions(second, moment));
+  const auto across = [](const Corners& t) {
+    return (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  };
+  if (pair.second.kind == FeatureKind::triangle) return across(b);
+  if (pair.first.kind == FeatureKind::triangle) return -across(a);
+  const Vec3 normal = (a[1] - a[0]).cross(b[1] - b[0]).normalized();
+  const Vec4d towards = (first.nodes.front().low + first.nodes.front().high) -
+                        (second.nodes.front().low + second.nodes.front().high);
+  return normal.dot(to_vec3(towards)) < 0.0 ? -normal : normal;
+}
+
 double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair) {
   return PairMotion(first, second, pair).greatest();

@@ -8,12 +8,15 @@
 
 namespace pneuma::sim {
 
-enum class Moment { start, end };
-
 /// The nearest points of a pair at the start or the end of the step, if they are less than `reach`
 /// (m) apart.
 std::optional<ClosestPoints> closest_points(const MovingSurface& first, const MovingSurface& second,
                                             const NearFeatures& pair, Moment moment, double reach);
+
+/// The direction from the second to the first of features that touch: the triangle's, or across
+/// both edges to the side on which the first surface is.
+Vec3 touching_normal(const MovingSurface& first, const MovingSurface& second,
+                     const NearFeatures& pair, Moment moment);
 
 /// m. By how much the distance of a pair can change on their ways at most.
 double greatest_change(const MovingSurface& first, const MovingSurface& second,

@@ -81,6 +81,56 @@ class PairSearch {
   std::vector<NearFeatures>& pairs_;
 };
 
+/// Of all ways along a direction, m.
+std::pair<double, double> extent(const VertexArray& from, const VertexArray& to, Vec4d direction) {
+  const VertexReader start(from), end(to);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int v = 0; v < from.size(); ++v) {
+    const double before = dot(direction, start[v]), after = dot(direction, end[v]);
+    low = std::min({low, before, after});
+    high = std::max({high, before, after});
+  }
+  return {low, high};
+}
+
+/// The plane between two boxes, across one of their faces, that keeps them furthest apart while
+/// they move.
+class WidestGap {
+ public:
+  WidestGap(const SurfaceTree& first, const VertexArray& first_from, const VertexArray& first_to,
+            const SurfaceTree& second, const VertexArray& second_from,
+            const VertexArray& second_to) {
+    const auto try_all = [&](const SurfaceTree& tree, const VertexArray& from) {
+      const VertexReader x(from);
+      for (const int t : tree.face_directions()) {
+        const auto& [a, b, c] = tree.topology().triangles()[at(t)];
+        const Vec4d across = cross(x[b] - x[a], x[c] - x[a]);
+        const Vec4d direction = across / std::sqrt(dot(across, across));
+        const auto [low, high] = extent(first_from, first_to, direction);
+        const auto [other_low, other_high] = extent(second_from, second_to, direction);
+        take_if_wider(direction, low, other_high);
+        take_if_wider(-direction, -high, -other_low);
+      }
+    };
+    try_all(first, first_from);
+    try_all(second, second_from);
+  }
+
+  double width = -std::numeric_limits<double>::infinity();  // m
+  Vec4d normal{};                                           // from the second to the first
+  double low_of_first = 0.0;                                // m, along the normal
+  double high_of_second = 0.0;
+
+ private:
+  void take_if_wider(Vec4d direction, double low, double high) {
+    if (!(low - high > width)) return;
+    width = low - high;
+    normal = direction;
+    low_of_first = low;
+    high_of_second = high;
+  }
+};
+
 /// Of two boxes: only what lies near the plane between them that keeps them furthest apart.
 class BoxPairSearch {
  public:
@@ -90,12 +140,12 @@ class BoxPairSearch {
 
   void find() {
     if (!overlap(first_.nodes.front(), second_.nodes.front())) return;
-    for (const int t : first_.tree->face_directions()) try_direction(first_, t);
-    for (const int t : second_.tree->face_directions()) try_direction(second_, t);
+    const WidestGap gap(*first_.tree, first_.start, first_.end, *second_.tree, second_.start,
+                        second_.end);
     const double margin = first_.margin + second_.margin;
-    if (widest_ > margin) return;
-    const Features of_first = beyond(first_, normal_, low_of_first_ + margin - widest_);
-    const Features of_second = beyond(second_, -normal_, margin - widest_ - high_of_second_);
+    if (gap.width > margin) return;
+    const Features of_first = beyond(first_, gap.normal, gap.high_of_second + margin);
+    const Features of_second = beyond(second_, -gap.normal, margin - gap.low_of_first);
     find_pairs(of_first, of_second);
   }
 
@@ -111,43 +161,12 @@ class BoxPairSearch {
     auto end() const { return items.begin() + count; }
   };
   struct Near {
-    int index;
+    int index = 0;
     WayBox box;
   };
   struct Features {
     List<Near> vertices, edges, triangles;
   };
-
-  /// Of all ways along a direction, m.
-  static std::pair<double, double> extent(const MovingSurface& surface, Vec4d direction) {
-    const VertexReader start(surface.start), end(surface.end);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (int v = 0; v < surface.start.size(); ++v) {
-      const double before = dot(direction, start[v]), after = dot(direction, end[v]);
-      low = std::min({low, before, after});
-      high = std::max({high, before, after});
-    }
-    return {low, high};
-  }
-
-  void try_direction(const MovingSurface& surface, int triangle) {
-    const auto& [a, b, c] = surface.tree->topology().triangles()[at(triangle)];
-    const VertexReader start(surface.start);
-    const Vec4d across = cross(start[b] - start[a], start[c] - start[a]);
-    const Vec4d direction = across / std::sqrt(dot(across, across));
-    const auto [low, high] = extent(first_, direction);
-    const auto [other_low, other_high] = extent(second_, direction);
-    take_if_wider(low - other_high, direction, low, other_high);
-    take_if_wider(other_low - high, -direction, -high, -other_low);
-  }
-
-  void take_if_wider(double gap, Vec4d normal, double low_of_first, double high_of_second) {
-    if (gap <= widest_) return;
-    widest_ = gap;
-    normal_ = normal;
-    low_of_first_ = low_of_first;
-    high_of_second_ = high_of_second;
-  }
 
   /// The features of which a part gets below `height` along a direction.
   static Features beyond(const MovingSurface& surface, Vec4d direction, double height) {
@@ -193,10 +212,6 @@ class BoxPairSearch {
   const MovingSurface& first_;
   const MovingSurface& second_;
   std::vector<NearFeatures>& pairs_;
-  double widest_ = -std::numeric_limits<double>::infinity();  // m
-  Vec4d normal_{};                                            // from the second to the first
-  double low_of_first_ = 0.0;                                 // m, along the normal
-  double high_of_second_ = 0.0;
 };
 
 }  // namespace
@@ -235,6 +250,12 @@ void find_near_features(const MovingSurface& first, const MovingSurface& second,
   } else {
     PairSearch(first, second, pairs).descend(0, 0);
   }
+}
+
+Vec3 direction_apart(const MovingSurface& first, const MovingSurface& second, Moment moment) {
+  const VertexArray& a = moment == Moment::start ? first.start : first.end;
+  const VertexArray& b = moment == Moment::start ? second.start : second.end;
+  return to_vec3(WidestGap(*first.tree, a, a, *second.tree, b, b).normal);
 }
 
 }  // namespace pneuma::sim

@@ -40,6 +40,8 @@ struct MovingSurface {
   double margin = 0.0;        // m, of the boxes
 };
 
+enum class Moment { start, end };
+
 /// Computes the boxes again, each larger by `margin` (m) on all sides.
 void refit(MovingSurface& surface, double margin);
 
@@ -56,5 +58,8 @@ struct NearFeatures {
 /// depends on the surfaces only. Both must have been refitted.
 void find_near_features(const MovingSurface& first, const MovingSurface& second,
                         std::vector<NearFeatures>& pairs);
+
+/// Of two boxes: from the second to the first, across the face that keeps them furthest apart.
+Vec3 direction_apart(const MovingSurface& first, const MovingSurface& second, Moment moment);
 
 }  // namespace pneuma::sim

@@ -137,7 +137,7 @@ double SweptImpulse::correct_friction() {
 
 double SweptImpulse::correct() {
   const double by_normal = correct_normal();
-  return friction_ > 0.0 ? std::max(by_normal, correct_friction()) : by_normal;
+  return std::max(by_normal, correct_friction());
 }
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }

@@ -10,7 +10,6 @@
 #include <array>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "sim/mesh/vec4d.h"
 #include "sim/mesh/vertex_array.h"

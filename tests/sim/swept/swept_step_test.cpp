@@ -79,8 +79,9 @@ TEST(Swept, APlateOnEdgeDoesNotCutABall) {
 TEST(Swept, AHeavyBoxPressesABallFlatAndDoesNotEnterIt) {
   World world = make_swept_world();
   world.soft.push_back(make_ball({0.0, 0.0, 3.0}));  // 20 kg
-  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.2, 0.1, 8.0}, 200.0));
+  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 8.0}, 200.0));
   expect_apart(world, 4.0);
+  EXPECT_GT(world.rigid[0].position.z(), 1.005) << "nothing is left between it and the ground";
 }
 
 TEST(Swept, BallsShotAtEachOtherBounceApart) {
@@ -96,6 +97,9 @@ TEST(Swept, BallsShotAtEachOtherBounceApart) {
         expect_apart(world, 1.0);
         const Vec3 apart = mean(world.soft[1].positions) - mean(world.soft[0].positions);
         EXPECT_GT(apart.norm(), 3.0) << "one is in the other";
+        if (aside == 0.0) {
+          EXPECT_GT(apart.y(), 0.0) << "they have changed places";
+        }
       }
     }
   }
@@ -110,6 +114,74 @@ TEST(Swept, FastCubesDoNotPassEachOther) {
     world.rigid[1].velocity = {0.0, 0.0, -50.0};
     expect_apart(world, 0.3);
     EXPECT_LT(world.rigid[0].position.z(), world.rigid[1].position.z()) << phase;
+  }
+}
+
+/// Cubes in a row, the first of which moves, without loss.
+World make_row(double gap) {
+  World world = make_free_swept_world();
+  for (int i = 0; i < 3; ++i) {
+    RigidBox cube = make_rigid(Vec3::Ones(), {0.0, 0.0, (1.0 + gap) * i});
+    cube.surface = {1.0, 0.0};
+    cube.rho_g = 0.0;
+    world.rigid.push_back(cube);
+  }
+  world.rigid[0].velocity = {0.0, 0.0, 5.0};
+  return world;
+}
+
+TEST(Swept, ARowOfCubesHandsOnItsEnergyFromEveryDistance) {
+  for (int i = 0; i < 20; ++i) {
+    World world = make_row(0.3 + 0.005 * i);
+    const double before = energy(world).kinetic;
+    expect_apart(world, 0.5);
+    EXPECT_NEAR(energy(world).kinetic, before, 1e-6 * before) << i;
+    EXPECT_NEAR(world.rigid[2].velocity.z(), 5.0, 1e-5) << i;
+  }
+}
+
+TEST(Swept, ACubeThatIsPushedIntoTheGroundGainsNoEnergy) {
+  for (const double gap : {0.02, 0.03, 0.05, 0.1}) {
+    World world = make_row(1.0);
+    world.settings.ground = ContactMaterial{1.0, 0.0};
+    world.rigid.pop_back();
+    world.rigid[0].position.z() = 0.5 + gap;
+    world.rigid[1].position.z() = 3.0;
+    world.rigid[0].velocity.setZero();
+    world.rigid[1].velocity = {0.0, 0.0, -6.0};
+    Stepper stepper(world);
+    const double before = energy(world).kinetic;
+    for (int k = 0; k < 30; ++k) {
+      ASSERT_FALSE(stepper.step(world));
+      EXPECT_LE(energy(world).kinetic, before * (1.0 + 1e-9)) << gap << " m, step " << k;
+    }
+  }
+}
+
+TEST(Swept, CubesDoTheSameBesideABallThatIsFarAway) {
+  World alone = make_row(0.4), beside = make_row(0.4);
+  beside.soft.push_back(make_ball({100.0, 0.0, 0.0}));
+  Stepper one(alone), other(beside);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_FALSE(one.step(alone));
+    ASSERT_FALSE(other.step(beside));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(alone.rigid[at(k)].position, beside.rigid[at(k)].position) << i;
+    }
+  }
+}
+
+TEST(Swept, CubesThatTouchAtTheStartStandOnEachOther) {
+  for (const double gap : {0.0, 1e-12}) {
+    World world = make_swept_world();
+    for (int i = 0; i < 4; ++i) {
+      world.rigid.push_back(make_rigid(Vec3::Ones(), {0.1 * i, 0.0, 0.5 + (1.0 + gap) * i}));
+    }
+    expect_apart(world, 2.0);
+    for (int i = 0; i < 4; ++i) {
+      EXPECT_NEAR(world.rigid[at(i)].position.z(), 0.5 + i, 0.03) << i;
+      EXPECT_NEAR(world.rigid[at(i)].position.x(), 0.1 * i, 0.03) << i;
+    }
   }
 }
 
