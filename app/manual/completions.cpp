@@ -8,9 +8,10 @@
 namespace pneuma::app {
 namespace {
 
-// Printed by the program itself, so that scenes that were added later are among them.
+// Printed by the program itself, so that scenes that were added later are among them; without
+// names that a shell would expand, as bash's compgen does with its words once more.
 constexpr const char* print_scenes =
-    R"~(pneuma list --json 2>/dev/null | sed -n 's/.*"scene": "\(.*\)".*/\1/p')~";
+    R"~(pneuma list --json 2>/dev/null | sed -n 's/.*"scene": "\([A-Za-z0-9_.-]*\)".*/\1/p')~";
 
 enum class Value { none, choice, folder, file, scene, other };
 

@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 #include "app/all_commands.h"
@@ -77,12 +78,12 @@ TEST(ManualPage, HasEveryCommandOptionAndExample) {
   }
 }
 
-/// What bash offers for the last of the words.
-std::string offered_by_bash(const std::string& words) {
-  const TemporaryFolder folder;
+/// What bash offers for the last of the words, in a folder of its own.
+std::string offered_by_bash(const std::string& words, const TemporaryFolder& folder = {}) {
   write_text(folder / "pneuma.bash", bash_completion(program()));
   const std::string script =
-      "source pneuma.bash; pneuma() { echo '\"scene\": \"a_scene\",'; }; " +
+      "source pneuma.bash; "
+      "pneuma() { printf '\"scene\": \"%s\",\\n' a_scene 'a_$(touch pwned).toml'; }; " +
       ("COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); ") +
       "_pneuma; echo \"${COMPREPLY[*]}\"";
   write_text(folder / "script", script);
@@ -99,6 +100,13 @@ TEST(BashCompletion, OffersCommandsOptionsChoicesAndScenes) {
   EXPECT_EQ(offered_by_bash("pneuma render --on-divergence s"), "stop substep");
   EXPECT_EQ(offered_by_bash("pneuma render a_"), "a_scene");
   EXPECT_EQ(offered_by_bash("pneuma render --frames 1"), "");
+}
+
+// Scenes are called after their files, which whoever made them named.
+TEST(BashCompletion, RunsNothingThatASceneIsCalled) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(offered_by_bash("pneuma render a_", folder), "a_scene");
+  EXPECT_FALSE(std::filesystem::exists(folder / "pwned"));
 }
 
 TEST(ZshCompletion, CallsAFunctionForEachCommand) {
