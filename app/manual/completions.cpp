@@ -211,9 +211,11 @@ _pneuma() {{
     case "$command" in
 {}    esac
   fi
+  # Only what may be a file: bash adds a slash to a command that is called like a folder.
+  [[ ${{offer[0]}} == -[df] ]] && compopt -o filenames 2>/dev/null
   mapfile -t COMPREPLY < <(compgen "${{offer[@]}}" -- "$word")
 }}
-complete -o filenames -F _pneuma pneuma
+complete -F _pneuma pneuma
 )",
                      commands, values, options, words);
 }

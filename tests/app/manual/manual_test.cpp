@@ -82,7 +82,7 @@ TEST(ManualPage, HasEveryCommandOptionAndExample) {
 std::string offered_by_bash(const std::string& words, const TemporaryFolder& folder = {}) {
   write_text(folder / "pneuma.bash", bash_completion(program()));
   const std::string script =
-      "source pneuma.bash; "
+      "source pneuma.bash; complete -p pneuma > complete; compopt() { echo \"$@\" > compopt; }; "
       "pneuma() { printf '\"scene\": \"%s\",\\n' a_scene 'a_$(touch pwned).toml'; }; " +
       ("COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); ") +
       "_pneuma; echo \"${COMPREPLY[*]}\"";
@@ -107,6 +107,20 @@ TEST(BashCompletion, RunsNothingThatASceneIsCalled) {
   const TemporaryFolder folder;
   EXPECT_EQ(offered_by_bash("pneuma render a_", folder), "a_scene");
   EXPECT_FALSE(std::filesystem::exists(folder / "pwned"));
+}
+
+// To what it takes for files, bash adds a slash where a folder is called so.
+TEST(BashCompletion, TakesOnlyFilesAndScenesForFiles) {
+  const auto takes_for_files = [](const std::string& words) {
+    const TemporaryFolder folder;
+    offered_by_bash(words, folder);
+    EXPECT_EQ(read_text(folder / "complete"), "complete -F _pneuma pneuma\n");
+    return std::filesystem::exists(folder / "compopt");
+  };
+  EXPECT_FALSE(takes_for_files("pneuma rend"));
+  EXPECT_FALSE(takes_for_files("pneuma render --on-divergence s"));
+  EXPECT_TRUE(takes_for_files("pneuma render a_"));
+  EXPECT_TRUE(takes_for_files("pneuma render --out a_"));
 }
 
 TEST(ZshCompletion, CallsAFunctionForEachCommand) {
