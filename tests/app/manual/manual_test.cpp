@@ -1,4 +1,6 @@
 // Manual page and completions, and that the README's commands are examples of --help.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <CLI/App.hpp>
@@ -7,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "app/all_commands.h"
 #include "app/manual/write_manual.h"
@@ -69,12 +72,35 @@ TEST(Help, HasTheReadmesCommandsForExamples) {
   }
 }
 
+/// As a manual page has it.
+std::string escaped(const std::string& text) {
+  return std::regex_replace(std::regex_replace(text, std::regex(R"(\\)"), R"(\e)"), std::regex("-"),
+                            R"(\-)");
+}
+
 TEST(ManualPage, HasEveryCommandOptionAndExample) {
   const CommandModel whole = program();
   const std::string page = manual_page(whole, "1.2");
-  for (const char* part : {".TH PNEUMA 1 \"\" \"pneuma 1.2\"", ".SS pneuma study error\n",
-                           ".TP\n\\fB\\-\\-out\\fR \\fIDIR\\fR\n", ".EX\npneuma list\n.EE\n"}) {
+  const auto expect = [&](const std::string& part) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
+  };
+  expect(".TH PNEUMA 1 \"\" \"pneuma 1.2\"");
+  const auto all = flattened(whole);
+  EXPECT_GT(all.size(), 15u);
+  for (const CommandModel* command : all) {
+    std::string name = "pneuma";
+    for (const std::string& word : command->path) name += " " + word;
+    expect(".SS " + name + "\n" + escaped(command->description) + ".\n");
+    for (const OptionModel& option : command->options) {
+      const std::string value =
+          option.value.empty() ? "" : " \\fI" + escaped(option.value) + "\\fR";
+      expect(fmt::format(".TP\n\\fB{}\\fR{}\n{}\n",
+                         escaped(fmt::format("{}", fmt::join(option.names, ", "))), value,
+                         escaped(option.description)));
+    }
+    for (const std::string& example : command->examples) {
+      expect(".EX\n" + escaped(example) + "\n.EE\n");
+    }
   }
 }
 
