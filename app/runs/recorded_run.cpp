@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -47,10 +48,24 @@ Json record_in(const fs::path& folder) {
   }
 }
 
+bool is_control_character(char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }
+
+/// Files are called after the scene, and a record may come from anybody.
+void check_scene_name(const fs::path& folder, const std::string& name) {
+  const bool names_a_file = !name.empty() && name != "." && name != ".." &&
+                            name.find('/') == std::string::npos &&
+                            std::ranges::none_of(name, is_control_character);
+  if (names_a_file) return;
+  throw base::IoError(fmt::format(
+      "the record in {}: run.scene is {}; allowed is a file's name without control characters; "
+      "render the run anew",
+      folder.string(), Json(name).dump(-1, ' ', true, Json::error_handler_t::replace)));
+}
+
 /// What every look at a run relies on.
 void check_record(const fs::path& folder, const Json& record) {
   try {
-    record.at("run").at("scene").get_ref<const std::string&>();
+    check_scene_name(folder, record.at("run").at("scene").get<std::string>());
     for (const Json& frame : record.at("frames")) {
       frame.at("frame").get<std::int64_t>();
       frame.at("time").get<double>();

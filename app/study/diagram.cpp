@@ -32,12 +32,19 @@ constexpr std::array looks = {
     Look{"#000000", 7, 6},   Look{"#777777", 5, 4},
 };
 
+/// A line break would end what gnuplot takes for a comment or a string: a command would follow.
+std::string on_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
 /// A string of gnuplot's in which nothing is special: one in single quotes, on one line.
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) {
+  for (const char c : on_one_line(text)) {
     if (c == '\'') result += '\'';
-    result += c == '\n' || c == '\r' ? ' ' : c;
+    result += c;
   }
   return result + "'";
 }
@@ -126,7 +133,8 @@ std::string plot_command(const Diagram& diagram) {
 
 std::string gnuplot_script(const Diagram& diagram, const std::string& name) {
   check(diagram);
-  std::string text = fmt::format("# Draws {0}.svg and {0}.png: gnuplot {0}.gp\n", name);
+  std::string text =
+      fmt::format("# Draws {0}.svg and {0}.png: gnuplot {0}.gp\n", on_one_line(name));
   for (std::size_t i = 0; i < diagram.series.size(); ++i) {
     if (has_points(diagram.series[i])) text += data_block(i, diagram.series[i]);
   }

@@ -127,6 +127,25 @@ TEST_F(RunsTest, AnUnfinishedRunCanBeLookedAt) {
   EXPECT_GE(read_run(out("a")).frames().size(), 1u);
 }
 
+// A record may come from anybody, and files are called after its scene.
+TEST_F(RunsTest, RefusesASceneThatIsNotAFilesName) {
+  render_as("a", "--frames 2");
+  nlohmann::json changed = record("a");
+  for (const char* name : {"", ".", "..", "../../escape", "s\nsystem 'touch pwned'\n#", "a\x7f"}) {
+    changed["run"]["scene"] = name;
+    write_text(out("a") / "run.json", changed.dump());
+    for (const char* options : {"", "--csv"}) {
+      const ProgramResult result = run_pneuma(fmt::format(
+          "plot '{}' --out '{}' {} 2>&1", out("a").string(), out("plots").string(), options));
+      EXPECT_EQ(result.exit_code, 6) << result.output;
+      EXPECT_NE(result.output.find("run.scene is " + changed["run"]["scene"].dump(-1, ' ', true)),
+                std::string::npos)
+          << result.output;
+    }
+  }
+  EXPECT_FALSE(fs::exists(out("plots")));
+}
+
 TEST_F(RunsTest, SaysWhatIsWrong) {
   const auto fails = [&](const std::string& arguments, int code, const std::string& words) {
     const ProgramResult result = run_pneuma(arguments + " 2>&1");

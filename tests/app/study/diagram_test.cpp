@@ -46,6 +46,14 @@ TEST(GnuplotScript, TakesTextAsItIs) {
   EXPECT_TRUE(contains(script, "set title 'it''s a_title' . \"\\n\" . '`reboot` \"x\" \\n'"));
 }
 
+TEST(GnuplotScript, HasNoCommandThatIsPartOfAName) {
+  for (const char* name : {"x\nsystem 'touch pwned'\n#", "x\rsystem 'touch pwned'\r#"}) {
+    const std::string script = gnuplot_script(falling_line(), name);
+    EXPECT_FALSE(contains(script, "\nsystem")) << script;
+    EXPECT_FALSE(contains(script, "\r")) << script;
+  }
+}
+
 TEST(GnuplotScript, BreaksALineWhereThereIsNoPoint) {
   Diagram diagram = falling_line();
   diagram.series[0].points[1].y = std::nan("");
