@@ -29,7 +29,9 @@ std::map<std::int64_t, const Json*> frames_by_number(const RecordedRun& run) {
   return frames;
 }
 
+/// Also when neither run has it.
 bool same_picture(const fs::path& first, const fs::path& second) {
+  if (!fs::exists(first) || !fs::exists(second)) return fs::exists(first) == fs::exists(second);
   return base::read_file(first.string()) == base::read_file(second.string());
 }
 
@@ -181,9 +183,8 @@ RunComparison compare_runs(const RecordedRun& first, const RecordedRun& second) 
     if (!comparison.state_differs && (*frame)["state_hash"] != (*found->second)["state_hash"]) {
       comparison.state_differs = number;
     }
-    const fs::path one = first.folder.frame(number), other = second.folder.frame(number);
-    if (!comparison.picture_differs && fs::exists(one) && fs::exists(other) &&
-        !same_picture(one, other)) {
+    if (!comparison.picture_differs &&
+        !same_picture(first.folder.frame(number), second.folder.frame(number))) {
       comparison.picture_differs = number;
     }
   }

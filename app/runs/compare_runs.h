@@ -32,7 +32,7 @@ struct RunComparison {
   std::int64_t only_first = 0;  // frames that the other run lacks
   std::int64_t only_second = 0;
   std::optional<std::int64_t> state_differs;    // the first frame with another state
-  std::optional<std::int64_t> picture_differs;  // with another picture, where both are there
+  std::optional<std::int64_t> picture_differs;  // with another picture, or one only
   /// Of the effective scenes, those that only one has: "A: body 1, k = 50".
   std::vector<std::string> settings;
 

@@ -121,6 +121,19 @@ TEST_F(RunsTest, FindsTheFirstFrameThatDiffers) {
   EXPECT_GE(page.width, 3 * 64);
 }
 
+TEST_F(RunsTest, APictureThatIsMissingIsADifference) {
+  render_as("a", "--frames 4");
+  render_as("b", "--frames 4");
+  fs::remove(out("b") / "fall_00002.png");
+  EXPECT_EQ(compare_runs(read_run(out("a")), read_run(out("b"))).picture_differs, 2);
+  EXPECT_EQ(compare_runs(read_run(out("b")), read_run(out("a"))).picture_differs, 2);
+  const ProgramResult result = compare("--expect-equal");
+  EXPECT_EQ(result.exit_code, 7);
+  EXPECT_NE(result.output.find("fall_00002.png is not there"), std::string::npos) << result.output;
+  fs::remove(out("a") / "fall_00002.png");
+  EXPECT_TRUE(compare_runs(read_run(out("a")), read_run(out("b"))).equal());
+}
+
 TEST_F(RunsTest, AnUnfinishedRunCanBeLookedAt) {
   EXPECT_EQ(render_into("a", "--set ball.k=5000 --set ball.k_max=1e9").exit_code, 5);
   ASSERT_FALSE(fs::exists(out("a") / "run.json"));
