@@ -46,7 +46,7 @@ std::string without_comment(const std::string& line) {
 /// numbered.
 std::vector<std::string> settings_of(const Json& record) {
   std::vector<std::string> settings;
-  std::istringstream text(record.value("scene_toml", ""));
+  std::istringstream text(record["scene_toml"].get<std::string>());
   std::string section;
   int bodies = 0;
   for (std::string line; std::getline(text, line);) {

@@ -66,6 +66,7 @@ void check_scene_name(const fs::path& folder, const std::string& name) {
 void check_record(const fs::path& folder, const Json& record) {
   try {
     check_scene_name(folder, record.at("run").at("scene").get<std::string>());
+    record.at("scene_toml").get_ref<const std::string&>();
     for (const Json& frame : record.at("frames")) {
       frame.at("frame").get<std::int64_t>();
       frame.at("time").get<double>();

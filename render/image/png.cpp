@@ -102,6 +102,13 @@ Image decode_png(std::span<const std::uint8_t> bytes) {
   return image;
 }
 
-Image read_png(const std::string& path) { return decode_png(base::read_file(path)); }
+Image read_png(const std::string& path) {
+  const std::vector<std::uint8_t> bytes = base::read_file(path);
+  try {
+    return decode_png(bytes);
+  } catch (const std::invalid_argument& error) {
+    throw base::IoError(fmt::format("{} is damaged: {}; make it anew", path, error.what()));
+  }
+}
 
 }  // namespace pneuma::render

@@ -18,7 +18,7 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 /// not a PNG file.
 Image decode_png(std::span<const std::uint8_t> bytes);
 
-/// Throws base::IoError (sim/base/file.h) when the file cannot be read.
+/// Throws base::IoError (sim/base/file.h) when the file cannot be read or is not a PNG file.
 Image read_png(const std::string& path);
 
 }  // namespace pneuma::render

@@ -134,6 +134,25 @@ TEST_F(RunsTest, APictureThatIsMissingIsADifference) {
   EXPECT_TRUE(compare_runs(read_run(out("a")), read_run(out("b"))).equal());
 }
 
+TEST_F(RunsTest, NamesWhatIsDamaged) {
+  render_as("a", "--frames 2");
+  render_as("b", "--frames 2");
+  const auto fails_naming = [&](const std::string& path) {
+    const ProgramResult result = compare("");
+    EXPECT_EQ(result.exit_code, 6) << result.output;
+    EXPECT_NE(result.output.find(path), std::string::npos) << result.output;
+  };
+  const std::string picture = (out("b") / "fall_00001.png").string();
+  write_text(picture, "not a picture");
+  fails_naming(picture + " is damaged");
+  for (const nlohmann::json& scene : {nlohmann::json(5), nlohmann::json()}) {
+    nlohmann::json changed = record("b");
+    changed["scene_toml"] = scene;
+    write_text(out("b") / "run.json", changed.dump());
+    fails_naming("the record in " + out("b").string());
+  }
+}
+
 TEST_F(RunsTest, AnUnfinishedRunCanBeLookedAt) {
   EXPECT_EQ(render_into("a", "--set ball.k=5000 --set ball.k_max=1e9").exit_code, 5);
   ASSERT_FALSE(fs::exists(out("a") / "run.json"));
