@@ -1,4 +1,8 @@
 // An OpenGL context without a window.
+//
+// The library pneuma::render defines the functions of GL 1.1 itself (gl_1_1.cpp, glClear say) and
+// three of GLX (load_gl.cpp), which call the GL that it opens at run time: a program that links it
+// must not link libGL as well, which has functions of the same names.
 #pragma once
 
 #include <array>
