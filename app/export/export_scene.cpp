@@ -44,6 +44,7 @@ void make_room(const fs::path& folder, const std::string& scene, const ExportReq
         "--out",
         folder.string(), old.size(), request.format.name, old.size() == 1 ? "" : "s", scene));
   }
+  if (request.format.written_last) return;  // over the old ones, which are there until then
   for (const fs::path& file : old) fs::remove(file);
 }
 
@@ -67,8 +68,10 @@ void run_frames(Simulation& simulation, const Frames& frames, FrameSink& sink, P
   progress.say(summary_line(state));
 }
 
-fs::path write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
-                      const ExportRequest& request) {
+void print_path(const fs::path& path) { fmt::print("{}\n", path.string()); }
+
+void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
+                  const ExportRequest& request) {
   Progress progress(progress_style(request.quiet));
   const sim::World start = build_world(scene);
   const auto sink = request.format.open(
@@ -76,13 +79,19 @@ fs::path write_frames(const scenes::Scene& scene, const Frames& frames, const fs
   make_room(folder, scene.name, request);
   Simulation simulation(scene, start, request.threads);
   ProgressState state;
+  const auto keep_frames_so_far = [&] {
+    if (state.drawn > 0) print_path(sink->finish());
+  };
   try {
     run_frames(simulation, frames, *sink, state, progress);
   } catch (const DivergenceError&) {
-    if (state.drawn > 0) sink->finish();
+    keep_frames_so_far();
+    throw;
+  } catch (const Interrupted&) {
+    keep_frames_so_far();
     throw;
   }
-  return sink->finish();
+  print_path(sink->finish());
 }
 
 }  // namespace
@@ -93,7 +102,7 @@ ExitCode export_scene(const ExportRequest& request) {
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);
   RunFolder(folder, scene.name).make();
-  fmt::print("{}\n", write_frames(scene, frames, folder, request).string());
+  write_frames(scene, frames, folder, request);
   return ExitCode::done;
 }
 

@@ -23,7 +23,7 @@ struct ExportRequest {
 
 /// Writes NAME_00042.ply and so on, or NAME.html, NAME.glb; no pictures, no GL. Throws
 /// scenes::SceneError, UsageError, DivergenceError, Interrupted and base::IoError; what is on disk
-/// then is whole, after a divergence with all frames up to it.
+/// then is whole, after a divergence or an interruption with all frames up to it.
 ExitCode export_scene(const ExportRequest& request);
 
 }  // namespace pneuma::app

@@ -46,7 +46,7 @@ void PointCache::add(const Simulation& simulation) {
         "{}, pneuma {}. Blender: import with forward axis Y, up axis Z; add a Mesh Cache modifier "
         "with {}",
         name_, version().program, cache_.filename().string());
-    base::write_file_atomically(object_.string(), encode_obj({&whole, 1}, comment));
+    first_frame_ = encode_obj({&whole, 1}, comment);
   }
   ++frames_;
   for (const ExportedMesh& mesh : meshes) {
@@ -65,6 +65,7 @@ std::filesystem::path PointCache::finish() {
   put(file, 1.0f);  // frames from one sample to the next
   put(file, frames_);
   file.insert(file.end(), samples_.begin(), samples_.end());
+  base::write_file_atomically(object_.string(), first_frame_);
   base::write_file_atomically(cache_.string(), file);
   return object_;
 }

@@ -24,6 +24,7 @@ class PointCache : public FrameSink {
   std::filesystem::path object_;
   std::filesystem::path cache_;
   std::string name_;
+  Bytes first_frame_;  // as OBJ
   Bytes samples_;
   std::int32_t frames_ = 0;
   std::int32_t vertices_ = 0;

@@ -14,7 +14,8 @@ class FrameSink {
   /// The simulation has come to a frame that is wanted.
   virtual void add(const Simulation& simulation) = 0;
 
-  /// After the last frame, or the last one before a divergence. Returns what people are to open.
+  /// After the last frame, or the last one before a divergence or an interruption. Returns what
+  /// people are to open.
   virtual std::filesystem::path finish() = 0;
 };
 

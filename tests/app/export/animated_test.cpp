@@ -5,7 +5,9 @@
 #include <cstring>
 #include <regex>
 
+#include "app/export/export_formats.h"
 #include "app/export/exported_mesh.h"
+#include "app/host/errors.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
 #include "scenes/loader/load_scene.h"
