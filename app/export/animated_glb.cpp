@@ -22,13 +22,16 @@ void check_size(const ExportJob& job) {
   double vertices = 0.0;
   for (const sim::SoftBody& body : job.start.soft) vertices += body.positions.size();
   const auto frames = static_cast<double>(job.frames);
-  const double bytes = frames * (24.0 * vertices + frames);
+  const auto boxes = static_cast<double>(job.start.rigid.size());
+  // Positions and normals; a weight per morph target; positions and orientations of boxes.
+  const double weights = job.start.soft.empty() ? 0.0 : frames;
+  const double bytes = frames * (24.0 * vertices + weights + 28.0 * boxes);
   if (bytes <= max_bytes) return;
-  throw UsageError(
-      fmt::format("--animated: {} frames of {} vertices of soft bodies make a file of {:.1f} GB; "
-                  "allowed is {:.0f} GB. Choose fewer with --frames, or fewer a second with --set "
-                  "picture.frames_per_second=N",
-                  job.frames, vertices, 1e-9 * bytes, 1e-9 * max_bytes));
+  throw UsageError(fmt::format(
+      "--animated: {} frames of {} vertices of soft bodies and {} boxes make a file of "
+      "{:.1f} GB; allowed is {:.0f} GB. Choose fewer with --frames, or fewer a second with --set "
+      "picture.frames_per_second=N",
+      job.frames, vertices, boxes, 1e-9 * bytes, 1e-9 * max_bytes));
 }
 
 std::vector<Vector3f> normals_of(const sim::SoftBody& body) {

@@ -26,9 +26,6 @@ using render::Vec3f;
 
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
-/// The largest block that browsers are sure to unpack.
-constexpr std::int64_t max_bytes = std::int64_t{512} << 20;
-
 /// Series of numbers, one after the other, and where each of them is.
 class Streams {
  public:
@@ -231,15 +228,15 @@ Json scenery_json(const Recording& recording) {
 }  // namespace
 
 void check_replay_size(std::int64_t vertices, std::int64_t frames) {
-  const std::int64_t of_frame = 6 * vertices;
-  if (frames <= max_bytes / of_frame) return;
+  const std::int64_t max_frames = static_cast<std::int64_t>(max_replay_bytes) / (6 * vertices);
+  if (frames <= max_frames) return;
   throw UsageError(fmt::format(
       "--format html: {} frames of {} vertices are too much for one page; choose up to {} of them "
       "with --frames, or fewer a second with --set picture.frames_per_second=N",
-      frames, vertices, max_bytes / of_frame));
+      frames, vertices, max_frames));
 }
 
-ReplayData replay_data(const Recording& recording) {
+ReplayData replay_data(const Recording& recording, std::size_t allowed_bytes) {
   const Lattice lattice = lattice_of(recording);
   Streams streams;
   Looks looks;
@@ -268,6 +265,13 @@ ReplayData replay_data(const Recording& recording) {
   header["looks"] = looks.all();
   header["streams"] = std::move(streams.directory());
   data.bytes = std::move(streams.bytes());
+  if (data.bytes.size() > allowed_bytes) {
+    throw UsageError(fmt::format(
+        "--format html: {} frames with their contacts and particles have {} bytes; allowed on one "
+        "page are {}; choose fewer frames with --frames, or fewer a second with --set "
+        "picture.frames_per_second=N",
+        recording.frames.size(), data.bytes.size(), allowed_bytes));
+  }
   return data;
 }
 

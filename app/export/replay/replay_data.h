@@ -17,10 +17,14 @@ struct ReplayData {
   std::vector<std::uint8_t> bytes;
 };
 
+/// The largest block that browsers are sure to unpack.
+inline constexpr std::size_t max_replay_bytes = std::size_t{512} << 20;
+
 /// Throws UsageError for a run that is too long for one page.
 void check_replay_size(std::int64_t vertices, std::int64_t frames);
 
-/// Of a recording that has one frame at least.
-ReplayData replay_data(const Recording& recording);
+/// Of a recording that has one frame at least. Throws UsageError when contacts and particles, whose
+/// number nobody knows before, make more than `allowed_bytes` of it.
+ReplayData replay_data(const Recording& recording, std::size_t allowed_bytes = max_replay_bytes);
 
 }  // namespace pneuma::app

@@ -169,6 +169,23 @@ TEST_F(AnimatedTest, GlbOfASingleFrameDoesNotMove) {
   EXPECT_EQ(glb.gltf["nodes"][2]["translation"], (json{0.0, 3.0, 4.0}));
 }
 
+/// Of a file with so many frames; throws where it is too large.
+void open_glb(const std::string& text, std::int64_t frames) {
+  const scenes::Scene loaded = scenes::parse_scene(text, "fall.toml");
+  const sim::World start = build_world(loaded);
+  Progress progress(Progress::Style::silent);
+  export_format("glb", true).open({loaded, start, frames, "", 1, progress});
+}
+
+// Only soft bodies need a weight per pair of frames; a box needs 28 bytes per frame.
+TEST(AnimatedGlb, IsRefusedBeyondAGigabyte) {
+  const std::string box = "[[body]]\nkind = \"rigid\"\nposition = [0, 0, 4]\n";
+  EXPECT_NO_THROW(open_glb(box, 35'000'000));
+  EXPECT_THROW(open_glb(box, 36'000'000), UsageError);
+  EXPECT_NO_THROW(open_glb(falling_ball, 30'000));
+  EXPECT_THROW(open_glb(falling_ball, 32'000), UsageError);
+}
+
 TEST_F(AnimatedTest, PointCacheHasEveryFrame) {
   run_export("--format obj --animated");
   const std::string bytes = file("fall.pc2");

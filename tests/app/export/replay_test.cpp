@@ -3,7 +3,10 @@
 
 #include "app/export/exported_mesh.h"
 #include "app/export/replay/quantise.h"
+#include "app/export/replay/recording.h"
+#include "app/export/replay/replay_data.h"
 #include "app/export/sink/bytes.h"
+#include "app/host/errors.h"
 #include "app/world/build_world.h"
 #include "app/world/scene_catalogue.h"
 #include "app/world/simulation.h"
@@ -162,6 +165,16 @@ TEST_F(ReplayTest, RefusesARunThatIsTooLongForAPage) {
       "picture.frames_per_second=6000 --set duration=1000");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.output.find("--frames"), std::string::npos) << result.output;
+}
+
+TEST_F(ReplayTest, RefusesMoreContactsThanAPageHolds) {
+  const scenes::Scene loaded = scenes::load_scene(scene());
+  Simulation simulation(loaded, build_world(loaded), 1);
+  Recorder recorder(loaded, simulation.world(), {});
+  for (; simulation.frame() < 20; simulation.advance_frame()) recorder.add(simulation);
+  const std::size_t bytes = replay_data(recorder.recording()).bytes.size();
+  EXPECT_NO_THROW(replay_data(recorder.recording(), bytes));
+  EXPECT_THROW(replay_data(recorder.recording(), bytes - 1), UsageError);
 }
 
 TEST_F(ReplayTest, DoesNotReplaceAPageUnasked) {
