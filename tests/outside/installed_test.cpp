@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -16,60 +17,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The program would find what is missing in the sources, too.
+void expect_data_below(const fs::path& prefix) {
+  for (const char* file : {"assets/pear.ply", "assets/cat_2000.ply", "scenes/one_sphere.toml"}) {
+    EXPECT_TRUE(fs::is_regular_file(prefix / "share/pneuma" / file)) << prefix << ": " << file;
+  }
+}
+
+/// One installation for all tests of a process, which leave it as it is.
 class Installed : public testing::Test {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
+    installation_ = std::make_unique<TemporaryFolder>();
     const ProgramResult result =
-        run_command("cmake --install '" PNEUMA_BUILD_FOLDER "' --prefix '" + prefix_.string() +
+        run_command("cmake --install '" PNEUMA_BUILD_FOLDER "' --prefix '" + prefix().string() +
                     "' 2>&1 >/dev/null");
     ASSERT_EQ(result.exit_code, 0) << result.output;
   }
+  static void TearDownTestSuite() { installation_.reset(); }
+
+  static fs::path prefix() { return *installation_ / "prefix"; }
 
   /// From an empty folder, without anything that belongs to a user or to the system.
-  ProgramResult run(const std::string& arguments) const {
+  ProgramResult run(const fs::path& where, const std::string& arguments) const {
     fs::create_directories(elsewhere_);
     return run_command("cd '" + elsewhere_.string() +
                        "' && XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere '" +
-                       (prefix_ / "bin/pneuma").string() + "' " + arguments + " 2>&1");
+                       (where / "bin/pneuma").string() + "' " + arguments + " 2>&1");
   }
 
-  void expect_scenes_below_the_prefix() const {
-    const ProgramResult result = run("list --json");
+  void expect_scenes_below(const fs::path& where) const {
+    const ProgramResult result = run(where, "list --json");
     ASSERT_EQ(result.exit_code, 0) << result.output;
     const auto scenes = nlohmann::json::parse(result.output);
     EXPECT_GE(scenes.size(), 13u);
     for (const auto& scene : scenes) {
-      EXPECT_TRUE(scene["path"].get<std::string>().starts_with(prefix_.string())) << scene;
+      EXPECT_TRUE(scene["path"].get<std::string>().starts_with(where.string())) << scene;
     }
   }
 
   TemporaryFolder folder_;
-  fs::path prefix_ = folder_ / "prefix";
   fs::path elsewhere_ = folder_ / "elsewhere";
+
+ private:
+  static std::unique_ptr<TemporaryFolder> installation_;
 };
+std::unique_ptr<TemporaryFolder> Installed::installation_;
+
+using LongInstalled = Installed;
 
 TEST_F(Installed, FindsItsScenesAndModelsAlsoWhenMoved) {
-  expect_scenes_below_the_prefix();
+  expect_data_below(prefix());
+  expect_scenes_below(prefix());
   const fs::path moved = folder_ / "moved to/here";
   fs::create_directories(moved.parent_path());
-  fs::rename(prefix_, moved);
-  prefix_ = moved;
-  expect_scenes_below_the_prefix();
-  const ProgramResult rendered = run("render one_sphere --frames 1 --size 64x48");
+  fs::copy(prefix(), moved, fs::copy_options::recursive);
+  expect_scenes_below(moved);
+  const ProgramResult rendered = run(moved, "render one_sphere --frames 1 --size 64x48");
   EXPECT_EQ(rendered.exit_code, 0) << rendered.output;
   EXPECT_TRUE(fs::exists(elsewhere_ / "out/one_sphere/one_sphere_00000.png"));
-  const ProgramResult model = run("check pear.ply");
+  const ProgramResult model = run(moved, "check pear.ply");
   EXPECT_EQ(model.exit_code, 0) << model.output;
 }
 
-TEST_F(Installed, IsFoundByAProjectOutsideWhichDrawsAPicture) {
+TEST_F(LongInstalled, IsFoundByAProjectOutsideWhichDrawsAPicture) {
   fs::create_directories(elsewhere_);
   const std::string build = (folder_ / "build").string();
   const ProgramResult built =
       run_command("exec 2>&1; cmake -S '" PNEUMA_EXAMPLE_FOLDER "' -B '" + build +
                   "' -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER='" PNEUMA_CXX_COMPILER
                   "' -DCMAKE_PREFIX_PATH='" +
-                  prefix_.string() + "' && cmake --build '" + build + "'");
+                  prefix().string() + "' && cmake --build '" + build + "'");
   ASSERT_EQ(built.exit_code, 0) << built.output;
   const ProgramResult ran =
       run_command("cd '" + elsewhere_.string() + "' && '" + build + "/example' 2>&1");
@@ -86,7 +104,7 @@ TEST_F(Installed, IsFoundByAProjectOutsideWhichDrawsAPicture) {
 
 // A header that includes another one of ours that stays behind cannot be used.
 TEST_F(Installed, HasAllHeadersThatItsHeadersInclude) {
-  const fs::path headers = prefix_ / "include/pneuma";
+  const fs::path headers = prefix() / "include/pneuma";
   const auto includes = includes_of_tree(headers, {"sim", "render"});
   EXPECT_GT(includes.size(), 20u);
   for (const Include& include : includes) {
@@ -95,7 +113,7 @@ TEST_F(Installed, HasAllHeadersThatItsHeadersInclude) {
   }
 }
 
-TEST(DebianPackage, DependsOnWhatTheProgramLinksAndRunsWhereItIsUnpacked) {
+TEST(LongDebianPackage, DependsOnWhatTheProgramLinksAndRunsWhereItIsUnpacked) {
   const TemporaryFolder folder;
   const std::string here = "exec 2>&1; cd '" + folder.path().string() + "' && ";
   const ProgramResult made = run_command(here + "cpack --config '" PNEUMA_BUILD_FOLDER
@@ -108,6 +126,7 @@ TEST(DebianPackage, DependsOnWhatTheProgramLinksAndRunsWhereItIsUnpacked) {
   const ProgramResult ran = run_command(
       here + "dpkg-deb -x it.deb root && XDG_DATA_DIRS=/nowhere root/usr/bin/pneuma check model");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  expect_data_below(folder / "root/usr");
   for (const char* file : {"man/man1/pneuma.1", "bash-completion/completions/pneuma",
                            "zsh/vendor-completions/_pneuma", "doc/pneuma/copyright"}) {
     EXPECT_GT(fs::file_size(folder / "root/usr/share" / file), 500u) << file;
