@@ -20,7 +20,7 @@ __attribute__((constructor(101))) void check_processor() {
       "pneuma: this processor has no AVX2, FMA or BMI2, for which the program was compiled; build "
       "it "
       "with -DPNEUMA_ARCH=x86-64\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message, sizeof message - 1);
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
   _exit(static_cast<int>(pneuma::app::ExitCode::check_failed));
 }
 
