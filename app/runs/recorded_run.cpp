@@ -32,7 +32,7 @@ Json unfinished_record(const fs::path& folder) {
   const auto contents = read_journal(journals.front());
   if (!contents) {
     throw base::IoError(
-        fmt::format("{}: its first line is torn; render the run anew", journals.front().string()));
+        fmt::format("{}: its first line is torn; render the run again", journals.front().string()));
   }
   return whole_record(*contents);
 }
@@ -44,7 +44,7 @@ Json record_in(const fs::path& folder) {
     return Json::parse(base::read_text_file(file.string()));
   } catch (const Json::exception& error) {
     throw base::IoError(
-        fmt::format("{} cannot be read ({}); render the run anew", file.string(), error.what()));
+        fmt::format("{} cannot be read ({}); render the run again", file.string(), error.what()));
   }
 }
 
@@ -58,7 +58,7 @@ void check_scene_name(const fs::path& folder, const std::string& name) {
   if (names_a_file) return;
   throw base::IoError(fmt::format(
       "the record in {}: run.scene is {}; allowed is a file's name without control characters; "
-      "render the run anew",
+      "render the run again",
       folder.string(), Json(name).dump(-1, ' ', true, Json::error_handler_t::replace)));
 }
 
@@ -80,7 +80,7 @@ void check_record(const fs::path& folder, const Json& record) {
     if (record.at("frames").empty()) throw base::IoError(folder.string() + " has no frame yet");
   } catch (const Json::exception& error) {
     throw base::IoError(
-        fmt::format("the record in {} is not one of this program's ({}); render the run anew",
+        fmt::format("the record in {} is not one of this program's ({}); render the run again",
                     folder.string(), error.what()));
   }
 }

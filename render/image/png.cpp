@@ -107,7 +107,7 @@ Image read_png(const std::string& path) {
   try {
     return decode_png(bytes);
   } catch (const std::invalid_argument& error) {
-    throw base::IoError(fmt::format("{} is damaged: {}; make it anew", path, error.what()));
+    throw base::IoError(fmt::format("{} is damaged: {}; make it again", path, error.what()));
   }
 }
 

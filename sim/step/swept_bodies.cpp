@@ -83,20 +83,20 @@ void SweptBodies::set_end(const World& world) {
 }
 
 void SweptBodies::begin_at_start(const World& world, const MotionStart& start) {
-  for (VertexArray& changes : changes_) changes.rows().setZero();
-  box_changes_.clear();
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const RigidStart& at_start = start.rigid[i];
-    box_changes_.push_back(
-        make_box_change(world.rigid[i], at_start.position, at_start.orientation));
-  }
+  begin(world, [&](std::size_t i) { return start.rigid[i]; });
 }
 
 void SweptBodies::begin_at_end(const World& world) {
+  begin(world, [&](std::size_t i) { return motion_of(world.rigid[i]); });
+}
+
+template <class MotionOf>
+void SweptBodies::begin(const World& world, const MotionOf& motion) {
   for (VertexArray& changes : changes_) changes.rows().setZero();
   box_changes_.clear();
-  for (const RigidBox& box : world.rigid) {
-    box_changes_.push_back(make_box_change(box, box.position, box.orientation));
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const RigidStart box = motion(i);
+    box_changes_.push_back(make_box_change(world.rigid[i], box.position, box.orientation));
   }
 }
 

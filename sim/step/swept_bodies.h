@@ -74,6 +74,9 @@ class SweptBodies {
 
  private:
   std::span<const int> vertices(const SurfacePoint& point) const;
+  /// `motion(i)` of each box.
+  template <class MotionOf>
+  void begin(const World& world, const MotionOf& motion);
   /// `value` of each vertex of the point's feature.
   template <class Value>
   Vec3 interpolate(const SurfacePoint& point, const Value& value) const;

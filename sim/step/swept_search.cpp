@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 namespace pneuma::sim {
 namespace {
@@ -86,11 +85,11 @@ void SweptSearch::recall_contacts() {
 SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
   const BodyPair bodies{contact.first.body, contact.second.body};
   const NearFeatures features{contact.first.feature, contact.second.feature};
-  const auto order = [](const BodyPair& pair) {
-    return std::tuple(pair.second == swept_ground, pair.first, pair.second);
+  const auto order = [](const SweptCandidate& candidate) {
+    return in_order(candidate.bodies.first, candidate.bodies.second);
   };
-  auto place = std::ranges::lower_bound(m_.candidates, order(bodies), {},
-                                        [&](const SweptCandidate& c) { return order(c.bodies); });
+  auto place =
+      std::ranges::lower_bound(m_.candidates, in_order(bodies.first, bodies.second), {}, order);
   while (place != m_.candidates.end() && place->bodies == bodies) {
     if (place->features == features) return *place;
     ++place;
@@ -111,12 +110,8 @@ bool SweptSearch::find_collisions() {
   }
   bool collided = false;
   for (SweptCandidate& candidate : m_.candidates) {
-    const auto [first, second] = candidate.bodies;
-    if (second == swept_ground) {
-      collided = goes_into_ground(candidate) || collided;
-      continue;
-    }
-    collided = meets(candidate) || collided;
+    const bool on_ground = candidate.bodies.second == swept_ground;
+    collided = (on_ground ? goes_into_ground(candidate) : meets(candidate)) || collided;
   }
   return collided;
 }

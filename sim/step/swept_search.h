@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct SweptCandidate {
   ClosestPoints start;  // where they are nearest then; not of the ground
   int contact = -1;     // the last contact of the start that this has made, if any
 };
+
+/// Candidates and contacts are in this order of their bodies, the ground last.
+inline std::tuple<bool, int, int> in_order(int first, int second) {
+  return {second == swept_ground, first, second};
+}
 
 /// Before a step or a part of it: what is taken back if it fails.
 struct SweptStart {

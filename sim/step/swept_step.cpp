@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "sim/step/find_divergence.h"
@@ -207,7 +206,9 @@ class SweptStep {
   /// Gives the impulse that held a point of a box in the last step to the nearest contact of the
   /// same boxes (ERRATA row 59).
   void warm_start() {
-    const auto bodies = [](const SweptContact& contact) { return in_order(contact); };
+    const auto bodies = [](const SweptContact& contact) {
+      return in_order(contact.first.body, contact.second.body);
+    };
     for (const WarmStartImpulse& resting : world_.warm_start_impulses) {
       const RigidBox& first = world_.rigid[at(resting.first)];
       const Vec3 point = first.position + first.orientation * resting.point;
@@ -223,14 +224,6 @@ class SweptStep {
       }
       if (found) found->warm_start(resting.impulse);
     }
-  }
-
-  /// Contacts are found in this order: by their bodies, then with the ground.
-  static std::tuple<bool, int, int> in_order(int first, int second) {
-    return {second == swept_ground, first, second};
-  }
-  static std::tuple<bool, int, int> in_order(const SweptContact& contact) {
-    return in_order(contact.first.body, contact.second.body);
   }
 
   void remember() {

@@ -217,7 +217,7 @@ OpenedFolder continue_run(const RunFolder& folder, const Json& identity,
   }
   if (fs::exists(folder.frame(identity.at("first_frame").get<std::int64_t>()))) {
     refuse(folder, fmt::format("frames of {} but no record of their run", folder.name()),
-           "start anew with --overwrite, or choose another folder with --out");
+           "start again with --overwrite, or choose another folder with --out");
   }
   return {};
 }

@@ -39,7 +39,7 @@ struct Continuation {
 /// whole. Without a saved state, as of a finished run that is to have more frames, `world` is the
 /// start, from which the steps are done again but only new frames are drawn. Where no frame agrees
 /// the run begins again: its frames come out the same. Steps are counted
-/// anew where there are others to a frame than before.
+/// again where there are others to a frame than before.
 Continuation find_continuation(const RunFolder& folder, const JournalContents& journal,
                                const Json& identity, const sim::World& start,
                                std::int64_t first_frame, int steps_per_frame);

@@ -91,7 +91,7 @@ render::Camera camera_of(const Json& header) {
     return camera;
   } catch (const Json::exception& error) {
     throw base::IoError(
-        fmt::format("the journal's camera cannot be read ({}); start anew with "
+        fmt::format("the journal's camera cannot be read ({}); start again with "
                     "--overwrite",
                     error.what()));
   }

@@ -188,7 +188,7 @@ TEST_F(RunsTest, SaysWhatIsWrong) {
   fs::create_directory(out("empty"));
   fails("plot '" + out("empty").string() + "'", 6, "no run");
   write_text(out("empty") / "run.json", "{\"frames\": [{}]}");
-  fails("plot '" + out("empty").string() + "'", 6, "render the run anew");
+  fails("plot '" + out("empty").string() + "'", 6, "render the run again");
   write_text(out("empty") / "run.json", "{");
   fails("plot '" + out("empty").string() + "'", 6, "cannot be read");
   render_as("a", "--frames 3");
