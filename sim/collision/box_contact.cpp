@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/collision/separating_axis.h"
 
@@ -89,9 +90,10 @@ int support_corner(const OrientedBox& box, const Vec3& direction) {
   return (along.x() > 0.0 ? 1 : 0) + (along.y() > 0.0 ? 2 : 0) + (along.z() > 0.0 ? 4 : 0);
 }
 
-/// Cuts the incident face off at the reference face's sides; what remains below the reference face
-/// touches. All points are kept: a choice of the deepest four would change from step to step.
-void add_face_points(BoxContact& contact, const FacePair& faces) {
+/// Cuts the incident face off at the reference face's sides; what remains no higher than `reach`
+/// over the reference face touches. All points are kept: a choice of the deepest four would change
+/// from step to step.
+void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
   Polygon polygon;
   for (const Vec3& corner : incident_face(faces.incident, faces.outward)) {
     polygon.add(faces.to_face(corner));
@@ -105,7 +107,7 @@ void add_face_points(BoxContact& contact, const FacePair& faces) {
 
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];
-    if (corner.z() > 0.0) continue;
+    if (corner.z() > reach) continue;
     contact.all[at(contact.count++)] = {faces.to_world(corner), -corner.z()};
   }
   if (contact.count > 0) return;
@@ -146,10 +148,9 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
   contact.all[at(contact.count++)] = {middle, overlap.overlap};
 }
 
-}  // namespace
-
-std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second) {
-  const auto overlap = find_min_overlap(first, second);
+std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& second,
+                                double reach_of_boxes, double reach_of_points) {
+  const auto overlap = find_min_overlap(first, second, reach_of_boxes);
   if (!overlap) return {};
   BoxContact contact;
   contact.normal = overlap->normal;
@@ -157,11 +158,24 @@ std::optional<BoxContact> find_box_contact(const OrientedBox& first, const Orien
   if (overlap->kind == AxisKind::edges) {
     add_edge_point(contact, first, second, *overlap);
   } else if (overlap->kind == AxisKind::first_face) {
-    add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal});
+    add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal},
+                    reach_of_points);
   } else {
-    add_face_points(contact, {second, first, overlap->second_axis, overlap->normal});
+    add_face_points(contact, {second, first, overlap->second_axis, overlap->normal},
+                    reach_of_points);
   }
   return contact;
+}
+
+}  // namespace
+
+std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second) {
+  return touch(first, second, 0.0, 0.0);
+}
+
+std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
+                                                  const OrientedBox& second) {
+  return touch(first, second, reach, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace pneuma::sim

@@ -1,4 +1,4 @@
-// Where two overlapping boxes touch: the points that an impulse needs (ERRATA row 18).
+// Where two boxes touch: the points that an impulse needs (ERRATA row 18).
 #pragma once
 
 #include <array>
@@ -28,7 +28,11 @@ struct BoxContact {
   }
 };
 
-/// None when the boxes are apart.
+/// The points of boxes that overlap or touch; none when they are apart.
 std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second);
+
+/// Also of boxes that are up to `reach` (m) apart, and the points of theirs that are (depth < 0).
+std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
+                                                  const OrientedBox& second);
 
 }  // namespace pneuma::sim

@@ -23,7 +23,9 @@ constexpr double rounding_of_pose = 1e-13;
 
 Vec4d absolute(Vec4d row) { return -min(row, -row); }
 
-bool any_negative(Vec4d row) { return row[0] < 0.0 || row[1] < 0.0 || row[2] < 0.0; }
+bool any_below(double limit, Vec4d row) {
+  return row[0] < limit || row[1] < limit || row[2] < limit;
+}
 
 /// How the boxes lie, seen from each other: the axes of the second in the coordinates of the first
 /// and the other way round (Ericson, Real-Time Collision Detection, 4.4.1, after Gottschalk).
@@ -121,28 +123,31 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 //
 // Of the nine cross products few separate, and few beat the faces. Those that do neither are seen
 // at a glance, without a division; only what may decide is looked at for itself.
-std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second) {
+std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second,
+                                           double reach) {
   const RelativePose pose(first, second);
   const Vec4d along_first = pose.along_first(), along_second = pose.along_second();
-  if (any_negative(along_first) || any_negative(along_second)) return {};
+  if (any_below(-reach, along_first) || any_below(-reach, along_second)) return {};
 
   const double slack = 0.001 * std::min(first.half.minCoeff(), second.half.minCoeff());
-  const auto clearly_less_than = [slack](double overlap) { return 0.95 * overlap - slack; };
+  const auto clearly_less_than = [slack](double overlap) {
+    return (overlap < 0.0 ? 1.05 : 0.95) * overlap - slack;
+  };
   MinOverlap best = min_along_first(first, pose, along_first);
   const MinOverlap of_second = min_along_second(second, pose, along_second);
   if (of_second.overlap < clearly_less_than(best.overlap)) best = of_second;
 
-  // At 0 or more an axis does not separate, and from `limit` on it is not preferred either.
+  // At -reach or more an axis does not separate, and from `limit` on it is not preferred either.
   double limit = clearly_less_than(best.overlap);
   const double rounding = rounding_of_pose * (first.half.sum() + second.half.sum());
   for (int i = 0; i < 3; ++i) {
     const auto [overlaps, sines] = look_along_edges(pose, at(i));
-    const Vec4d surplus = overlaps - std::max(limit, 0.0) * sines - rounding;
-    if (!any_negative(surplus)) continue;
+    const Vec4d surplus = overlaps - std::max(limit, -reach) * sines - rounding;
+    if (!any_below(0.0, surplus)) continue;
     for (int j = 0; j < 3; ++j) {
       if (!(surplus[j] < 0.0) || sines[j] < sine_of_parallel) continue;
       const MinOverlap of_edges = overlap_of_edges(first, second, i, j);
-      if (of_edges.overlap < 0.0) return {};
+      if (of_edges.overlap < -reach) return {};
       if (of_edges.overlap < limit) {
         best = of_edges;
         limit = of_edges.overlap;

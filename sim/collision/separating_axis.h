@@ -15,13 +15,14 @@ struct MinOverlap {
   int first_axis = 0;          // of the first box: its face's normal, or its edge's direction
   int second_axis = 0;         // likewise of the second
   Vec3 normal = Vec3::Zero();  // unit; moving the first box along +normal takes it away
-  double overlap = 0.0;        // m; moving it by more than this separates them
+  double overlap = 0.0;        // m; moving it by more than this separates them; < 0: they are apart
 };
 
-/// None when an axis separates the boxes; boxes that touch overlap by 0. Of axes that are nearly as
-/// good a face of the first box is preferred to one of the second, and either to a pair of edges,
-/// so that rounding does not decide between them: `overlap` is at most
-/// (smallest + 0.001 * shortest half length) / 0.95 (ERRATA row 51).
-std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second);
+/// None when an axis separates the boxes by more than `reach` (m); boxes that touch overlap by 0.
+/// Of axes that are nearly as good a face of the first box is preferred to one of the second, and
+/// either to a pair of edges, so that rounding does not decide between them: of boxes that overlap
+/// `overlap` is at most (smallest + 0.001 * shortest half length) / 0.95 (ERRATA row 51).
+std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second,
+                                           double reach = 0.0);
 
 }  // namespace pneuma::sim

@@ -179,5 +179,44 @@ TEST(BoxContact, IsFiniteForConcentricAndThinBoxes) {
   }
 }
 
+/// Moved together along the normal by the overlap, they touch there.
+TEST(BoxContactWithin, IsTheContactOfTheBoxesMovedTogether) {
+  BoxRandom random(5);
+  int apart = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    auto [first, second] = sample_boxes(random, i % box_relations);
+    const double reach = 0.5 * std::min(first.half.minCoeff(), second.half.minCoeff());
+    const auto contact = find_box_contact_within(reach, first, second);
+    ASSERT_EQ(contact.has_value(), find_min_overlap(first, second, reach).has_value());
+    if (!contact) continue;
+    ASSERT_GE(contact->depth, -reach);
+    ASSERT_GE(contact->count, 1);
+    if (contact->depth >= 0.0) continue;
+    ++apart;
+    // No axis separates them by more than 5 % and some rounding beyond the one that was found.
+    const double most = -1.06 * contact->depth + 0.002 * first.half.minCoeff();
+    EXPECT_FALSE(find_min_overlap(first, second).has_value());
+    EXPECT_TRUE(find_min_overlap(first, second, most).has_value());
+    first.centre += (contact->depth - rounding) * contact->normal;
+    const double extent_gap = first.centre.dot(contact->normal) - extent(first, contact->normal) -
+                              second.centre.dot(contact->normal) - extent(second, contact->normal);
+    ASSERT_NEAR(extent_gap, 0.0, 10.0 * rounding);
+  }
+  EXPECT_GT(apart, 1000);
+}
+
+TEST(BoxContactWithin, ACubeOverAnotherHasItsFourCornersAtTheGap) {
+  OrientedBox below, above;
+  below.half = {1.0, 1.0, 1.0};
+  above.half = {0.5, 0.5, 0.5};
+  above.centre = {0.1, 0.2, 1.5 + 0.01};
+  const auto contact = find_box_contact_within(0.02, above, below);
+  ASSERT_TRUE(contact.has_value());
+  EXPECT_EQ(contact->normal, Vec3::UnitZ());
+  ASSERT_EQ(contact->count, 4);
+  for (const auto& [point, depth] : contact->points()) EXPECT_NEAR(depth, -0.01, 1e-12);
+  EXPECT_FALSE(find_box_contact_within(0.005, above, below).has_value());
+}
+
 }  // namespace
 }  // namespace pneuma::sim
