@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/mesh/primitives.h"
+#include "sim/rigid/rigid_motion.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
@@ -177,6 +178,27 @@ Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) co
   return interpolate(point, [&](int v) { return velocities[v]; });
 }
 
+void SweptBodies::take_as_shifts() {
+  shifts_ = box_changes_;
+  for (BoxChange& change : box_changes_) change.velocity = change.angular_velocity = Vec4d{};
+}
+
+double SweptBodies::work_of_shifts(const World& world) const {
+  double work = 0.0;
+  for (std::size_t i = 0; i < shifts_.size(); ++i) {
+    work -= world.rigid[i].mass * world.settings.gravity.dot(to_vec3(shifts_[i].velocity));
+  }
+  return work;
+}
+
+void SweptBodies::shift_boxes(World& world) const {
+  for (std::size_t i = 0; i < shifts_.size(); ++i) {
+    RigidBox& box = world.rigid[i];
+    box.position += to_vec3(shifts_[i].velocity);
+    box.orientation = turned(box.orientation, to_vec3(shifts_[i].angular_velocity));
+  }
+}
+
 std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
                                                   IntegrateSoftMemory& integrate_soft) {
   for (int i = 0; i < soft_count_; ++i) {
@@ -193,6 +215,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
     kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);
     if (auto failed = integrate_rigid_again(world, static_cast<int>(i), kicked)) return failed;
   }
+  shift_boxes(world);
   return std::nullopt;
 }
 

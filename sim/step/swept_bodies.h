@@ -66,6 +66,15 @@ class SweptBodies {
   Vec3 start_velocity(const MotionStart& start, const SurfacePoint& point) const;
   Vec3 end_velocity(const World& world, const SurfacePoint& point) const;
 
+  /// Takes the changes since begin_at_start as displacements, in m and rad, that the boxes are
+  /// given in this step besides their motion, and forgets them; without it there are none.
+  void take_as_shifts();
+  void forget_shifts() { shifts_.clear(); }
+  /// J, the work of the shifts against gravity.
+  double work_of_shifts(const World& world) const;
+  /// Gives the boxes their shifts.
+  void shift_boxes(World& world) const;
+
   /// Moves the bodies that impulses have changed once more, from their start with other velocities.
   std::optional<Divergence> move_again(World& world, const MotionStart& start,
                                        IntegrateSoftMemory& integrate_soft);
@@ -92,6 +101,7 @@ class SweptBodies {
   std::vector<std::unique_ptr<const MeshTopology>> boxes_;  // their triangles
   std::vector<VertexArray> changes_;                        // m/s, per soft body
   std::vector<BoxChange> box_changes_;
+  std::vector<BoxChange> shifts_;          // of the boxes, or empty
   std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
   SoftState kicked_;
   std::vector<BoundingSphere> spheres_;

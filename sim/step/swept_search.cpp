@@ -11,11 +11,6 @@ constexpr double near = 1.5;
 /// What features keep of their distance on their way: of that at the start, and of that wanted.
 constexpr double kept_of_start = 0.1;
 constexpr double kept_of_wanted = 0.5;
-/// Impulses on boxes act at one common point, so that no couple is left.
-void meet_halfway(SurfacePoint& first, SurfacePoint& second) {
-  first.point = second.point = 0.5 * (first.point + second.point);
-}
-
 /// m. At less than this the direction between two points is rounding.
 constexpr double min_distance = 1e-9;
 constexpr double any_distance = std::numeric_limits<double>::infinity();
@@ -36,7 +31,7 @@ void SweptSearch::start() {
   m_.contacts.clear();
   m_.impulses.clear();
   bodies_.set_end(world_);
-  find_candidates();
+  if (!bodies_.search_is_valid()) find_candidates();
   for (SweptCandidate& candidate : m_.candidates) add_if_it_meets(candidate);
 }
 
@@ -44,6 +39,7 @@ void SweptSearch::find_candidates() {
   m_.candidates.clear();
   bodies_.find_near_bodies(m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
+    if (offer_near_boxes(pair)) continue;
     m_.found.clear();
     find_near_features(bodies_.surface(pair.first), bodies_.surface(pair.second), m_.found);
     for (const NearFeatures& features : m_.found) offer(pair, features);
@@ -91,11 +87,18 @@ SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
   auto place =
       std::ranges::lower_bound(m_.candidates, in_order(bodies.first, bodies.second), {}, order);
   while (place != m_.candidates.end() && place->bodies == bodies) {
-    if (place->features == features) return *place;
+    if (place->features == features && place->is_of_near_boxes == contact.is_of_near_boxes) {
+      return *place;
+    }
     ++place;
   }
   SweptCandidate missing{bodies, features, {}};
-  if (bodies.second != swept_ground) {
+  if (contact.is_of_near_boxes) {
+    missing.is_of_near_boxes = true;
+    missing.normal = contact.normal;
+    missing.start.first_point = missing.start.second_point = contact.first.point;
+    missing.start.distance = contact.distance;
+  } else if (bodies.second != swept_ground) {
     missing.start = *closest_points(bodies_.surface(bodies.first), bodies_.surface(bodies.second),
                                     features, Moment::start, any_distance);
   }
@@ -103,6 +106,7 @@ SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
 }
 
 bool SweptSearch::find_collisions() {
+  blocked_.reset();
   bodies_.set_end(world_);
   if (!bodies_.search_is_valid()) {
     find_candidates();
@@ -121,6 +125,7 @@ bool SweptSearch::find_collisions() {
 bool SweptSearch::meets(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
   const double distance = candidate.start.distance;
+  if (candidate.is_of_near_boxes) return sinks_in(candidate);
   // What touches at the start is held from there.
   if (distance < min_distance) return false;
   const double least =
@@ -172,6 +177,7 @@ SweptContact SweptSearch::place(const SweptCandidate& candidate, const ClosestPo
       .distance = closest.distance,
       .wanted = distance_wanted(first, second),
       .is_near = closest.distance < near_distance(first, second)};
+  contact.is_of_near_boxes = candidate.is_of_near_boxes;
   if (is_rigid(contact)) meet_halfway(contact.first, contact.second);
   return contact;
 }
@@ -180,6 +186,7 @@ SweptContact SweptSearch::place(const SweptCandidate& candidate, const ClosestPo
 /// furthest apart, of others that of the features.
 Vec3 SweptSearch::normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                             Moment moment) const {
+  if (candidate.is_of_near_boxes) return candidate.normal;
   if (closest.distance >= min_distance) {
     return (closest.first_point - closest.second_point).normalized();
   }
@@ -193,6 +200,7 @@ Vec3 SweptSearch::normal_of(const SweptCandidate& candidate, const ClosestPoints
 
 bool SweptSearch::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
                          Moment moment) const {
+  if (candidate.is_of_near_boxes) return true;
   return stands_for_its_parts(bodies_.surface(candidate.bodies.first),
                               bodies_.surface(candidate.bodies.second), candidate.features, closest,
                               moment);
@@ -218,6 +226,11 @@ std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& cand
   const auto [first, second] = candidate.bodies;
   if (second == swept_ground) {
     const SweptContact contact = place_on_ground(candidate, Moment::end);
+    if (contact.is_near || acted) return contact;
+    return std::nullopt;
+  }
+  if (candidate.is_of_near_boxes) {
+    const SweptContact contact = move_to_end(candidate);
     if (contact.is_near || acted) return contact;
     return std::nullopt;
   }

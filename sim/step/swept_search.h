@@ -3,40 +3,13 @@
 #pragma once
 
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "sim/step/swept_bodies.h"
-#include "sim/swept/feature_ways.h"
+#include "sim/collision/oriented_box.h"
+#include "sim/step/swept_solver.h"
 
 namespace pneuma::sim {
-
-/// A contact of the step, between two features or a vertex and the ground.
-struct SweptContact {
-  SurfacePoint first;
-  SurfacePoint second;
-  Vec3 normal = Vec3::Zero();  // unit, from second to first
-  double distance = 0.0;       // m
-  double wanted = 0.0;         // m, the distance that the bodies keep
-  bool is_near = false;        // at this distance, give or take half of it
-  double approach = 0.0;       // m/s, at which the sides meet
-  double drift = 0.0;          // m/s, of the motion beyond the mean of the velocities at both ends
-  int previous = -1;           // the contact that the same features made before this one
-};
-
-/// Features of two bodies, or of one and the ground, that may meet in the step.
-struct SweptCandidate {
-  BodyPair bodies;
-  NearFeatures features;
-  ClosestPoints start;  // where they are nearest then; not of the ground
-  int contact = -1;     // the last contact of the start that this has made, if any
-};
-
-/// Candidates and contacts are in this order of their bodies, the ground last.
-inline std::tuple<bool, int, int> in_order(int first, int second) {
-  return {second == swept_ground, first, second};
-}
 
 /// Before a step or a part of it: what is taken back if it fails.
 struct SweptStart {
@@ -48,9 +21,13 @@ struct SweptStart {
 inline constexpr int max_halvings = 8;
 
 struct SweptMemory {
-  explicit SweptMemory(const World& world) : bodies(world), starts(max_halvings + 1) {}
+  explicit SweptMemory(const World& world)
+      : bodies(world),
+        solver(bodies.count(), static_cast<int>(world.soft.size())),
+        starts(max_halvings + 1) {}
 
   SweptBodies bodies;
+  SweptSolver solver;
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
@@ -69,13 +46,18 @@ class SweptSearch {
   SweptSearch(const World& world, const MotionStart& start, SweptMemory& memory)
       : world_(world), start_(start), m_(memory), bodies_(memory.bodies) {}
 
+  /// What may meet.
+  void find_candidates();
   /// The contacts that the free motion would use up.
   void start();
+  /// Fills the memory's contacts and impulses with those that keep boxes from being shifted into
+  /// each other or into the ground.
+  void find_contacts_of_boxes();
   /// Adds to the contacts what bodies would pass through on their ways as they came out. Whether
   /// there is any.
   bool find_collisions();
-  /// What was in the way last.
-  const BodyPair& blocked() const { return blocked_; }
+  /// Of these what must not be; boxes may lie in each other for a while.
+  const std::optional<BodyPair>& blocked() const { return blocked_; }
 
   /// Where the features of a candidate are nearest at the end, if they are in contact then or
   /// `acted` on each other at the start. None if another pair stands for it, or if nothing says
@@ -99,8 +81,10 @@ class SweptSearch {
   const ContactMaterial& material(int body) const;
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
-  void find_candidates();
   void find_near_ground();
+  bool offer_near_boxes(const BodyPair& bodies);
+  OrientedBox start_box(int body) const;
+  double greatest_relative_way(int first, int second) const;
   void offer(const BodyPair& bodies, const NearFeatures& features);
   void recall_contacts();
   SweptCandidate& candidate_of(const SweptContact& contact);
@@ -109,9 +93,11 @@ class SweptSearch {
   SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
                      Moment moment) const;
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
+  SweptContact move_to_end(const SweptCandidate& candidate) const;
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
   bool meets(SweptCandidate& candidate);
+  bool sinks_in(SweptCandidate& candidate);
   bool goes_into_ground(SweptCandidate& candidate);
   bool add_if_it_meets(SweptCandidate& candidate);
   void add(SweptCandidate& candidate, SweptContact contact);
@@ -120,7 +106,7 @@ class SweptSearch {
   const MotionStart& start_;
   SweptMemory& m_;
   SweptBodies& bodies_;
-  BodyPair blocked_;
+  std::optional<BodyPair> blocked_;
 };
 
 }  // namespace pneuma::sim

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/step/find_divergence.h"
+#include "sim/step/shift_boxes.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
 
@@ -13,13 +14,10 @@ namespace {
 
 /// How often impulses at the start are computed before the step is halved.
 constexpr int max_rounds = 4;
-constexpr int solver_iterations = 50;
 /// Of the thinnest skin, per step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
-/// What is nearer than half the distance wanted is moved apart, by this fraction of what is missing
-/// in each step: what moves slowly has no energy.
-constexpr double closest_allowed = 0.5;
-constexpr double made_up = 0.2;
+/// 1/s: boxes in contact close what they are further apart than they should be at this rate.
+constexpr double closing_rate = 0.3;
 
 /// Of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_contact = 0.05;
@@ -73,7 +71,10 @@ class SweptStep {
     if (auto failed = move_freely()) return failed;
     run_(Stage::find_contacts, [&] {
       bodies_.set_start(world_, start());
+      bodies_.set_end(world_);
+      search_.find_candidates();
       bodies_.begin_at_start(world_, start());
+      shift_near_boxes(world_, m_, search_);
       search_.start();
     });
     for (int round = 0; round < max_rounds; ++round) {
@@ -91,7 +92,8 @@ class SweptStep {
         }
       }
       run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
-      if (!collides) {
+      const bool was_last = round + 1 == max_rounds;
+      if (!collides || (was_last && !search_.blocked())) {
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
         return divergence;
@@ -111,7 +113,7 @@ class SweptStep {
 
   void solve_all() {
     if (m_.contacts.empty()) return;
-    solve(m_.impulses, solver_tolerance * bodies_.thinnest_skin() / step(), solver_iterations);
+    m_.solver.solve(m_.contacts, m_.impulses, solver_tolerance * bodies_.thinnest_skin() / step());
   }
 
   MotionStart& start() { return w_.motion_start; }
@@ -128,10 +130,11 @@ class SweptStep {
   }
 
   /// m, along the normal in this step, at least: negative if there is room.
-  static double may_move(const SweptContact& contact) {
+  double may_move(const SweptContact& contact) const {
     if (contact.distance > contact.wanted) return contact.wanted - contact.distance;
     if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
-    return made_up * std::max(0.0, closest_allowed * contact.wanted - contact.distance);
+    if (search_.is_rigid(contact)) return std::min(0.0, -contact.distance);
+    return made_up_per_step * std::max(0.0, missing_distance(contact));
   }
 
   std::optional<Divergence> finish() {
@@ -196,6 +199,9 @@ class SweptStep {
       impulse.only_give_back();
     } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
       parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
+    }
+    if (contact->is_near && search_.is_rigid(*contact) && parting == 0.0) {
+      parting = std::min(0.0, closing_rate * missing_distance(*contact));  // to stand flat
     }
     const Vec3 velocity = search_.end_velocity(*contact);
     impulse.aim(parting - contact->normal.dot(velocity), velocity);
@@ -268,8 +274,8 @@ class SweptStep {
   }
 
   Divergence blocked() const {
-    return {Stage::resolve_contacts, world_.steps + 1, name(search_.blocked().first),
-            "it cannot be kept from passing through " + name(search_.blocked().second) +
+    return {Stage::resolve_contacts, world_.steps + 1, name(search_.blocked()->first),
+            "it cannot be kept from passing through " + name(search_.blocked()->second) +
                 ", whatever the step"};
   }
 

@@ -106,6 +106,61 @@ void SweptImpulse::warm_start(const Vec3& impulse) {
   apply(pressing * normal_ + across);
 }
 
+/// lambda = clamp(lambda_0 + k (wanted - n.u)), and the potential of which it is the gradient:
+///   max over lambda of  lambda (wanted - n.u) - (lambda - lambda_0)^2 / (2 k).
+void SweptImpulse::respond_along_normal(Vec4d change, double penalty, Response& response) const {
+  const double stiffness = penalty * normal_mass_;
+  const double missing = parting_ - dot(normal_, change);
+  const double tried = normal_impulse_ + stiffness * missing;
+  const double normal = std::clamp(tried, 0.0, max_normal_);
+  const double more = normal - normal_impulse_;
+  response.given += normal * normal_;
+  response.potential += normal * missing - 0.5 * more * more / stiffness;
+  if (normal != tried) return;
+  const Vec3 n = to_vec3(normal_);
+  response.stiffness += stiffness * n * n.transpose();
+}
+
+/// Likewise across the normal, within the disc that the normal impulse allows as it is.
+void SweptImpulse::respond_with_friction(Vec4d change, double penalty, Response& response) const {
+  const double limit = friction_ * normal_impulse_;
+  if (limit == 0.0) return;
+  const double stiffness = penalty * min_tangent_mass_;
+  Vec4d slides = change + sliding_;
+  slides -= dot(slides, normal_) * normal_;
+  const Vec4d tried = friction_impulse_ - stiffness * slides;
+  const Vec4d friction = within(limit, tried);
+  const Vec4d more = friction - friction_impulse_;
+  response.given += friction;
+  response.potential -= dot(friction, slides) + 0.5 * dot(more, more) / stiffness;
+  const Vec3 n = to_vec3(normal_);
+  Mat3 grows = Mat3::Identity() - n * n.transpose();
+  const double size = std::sqrt(dot(tried, tried));
+  if (size > limit) {
+    const Vec3 along = to_vec3(tried) / size;
+    grows = limit / size * (grows - along * along.transpose());
+  }
+  response.stiffness += stiffness * grows;
+}
+
+SweptImpulse::Response SweptImpulse::respond(Vec4d change, double penalty) const {
+  Response response;
+  respond_along_normal(change, penalty, response);
+  respond_with_friction(change, penalty, response);
+  response.given -= start();
+  response.potential += dot(start(), change);
+  return response;
+}
+
+void SweptImpulse::replace_given(Vec4d given) {
+  const Vec4d all = given + start();
+  const double normal = dot(all, normal_);
+  const Vec4d friction = all - normal * normal_;
+  apply((normal - normal_impulse_) * normal_ + (friction - friction_impulse_));
+  normal_impulse_ = normal;
+  friction_impulse_ = friction;
+}
+
 void SweptImpulse::apply(Vec4d impulse) const {
   first_.apply(impulse);
   second_.apply(-impulse);
@@ -142,12 +197,15 @@ double SweptImpulse::correct() {
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }
 
-void solve(std::span<SweptImpulse> impulses, double tolerance, int max_iterations) {
+double correct_in_turn(std::span<SweptImpulse* const> impulses, double tolerance,
+                       int max_iterations) {
+  double greatest = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
-    double largest = 0.0;
-    for (SweptImpulse& impulse : impulses) largest = std::max(largest, impulse.correct());
-    if (largest <= tolerance) return;
+    greatest = 0.0;
+    for (SweptImpulse* impulse : impulses) greatest = std::max(greatest, impulse->correct());
+    if (greatest <= tolerance) break;
   }
+  return greatest;
 }
 
 }  // namespace pneuma::sim

@@ -47,6 +47,14 @@ class SweptSide {
   /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
   Mat3 mobility() const;
 
+  /// What an impulse moves: a box, or so many vertices (their changes); neither, if nothing moves
+  /// the side.
+  BoxChange* box() const { return box_; }
+  Vec4d arm() const { return arm_; }
+  std::span<double* const> vertices() const { return std::span(vertices_).first(at(count_)); }
+  double weight(std::size_t vertex) const { return weights_[vertex]; }
+  double vertex_mass() const { return 1.0 / inverse_vertex_mass_; }
+
  private:
   std::array<double*, 3> vertices_{};
   FeatureWeights weights_{};
@@ -72,6 +80,21 @@ class SweptImpulse {
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
 
+  const SweptSide& first() const { return first_; }
+  const SweptSide& second() const { return second_; }
+
+  /// A step of the augmented Lagrangian from the impulse as it is.
+  struct Response {
+    Vec4d given{};                  // N s on the first side, without what was started from
+    Mat3 stiffness = Mat3::Zero();  // by which it grows against the change, N s per m/s
+    double potential = 0.0;         // J, a convex function of the change; -given is its gradient
+  };
+  /// The impulse if all of them together changed the relative velocity by `change` (m/s): `penalty`
+  /// times what would close the gap to what is wanted if it acted alone, within its limits.
+  Response respond(Vec4d change, double penalty) const;
+  /// Lets it be `given` (N s) from now on, without what it was started from.
+  void replace_given(Vec4d given);
+
   /// One projected Gauss-Seidel correction. Returns by how much the relative velocity changed, m/s.
   double correct();
 
@@ -93,6 +116,9 @@ class SweptImpulse {
   double correct_normal();
   double correct_friction();
   Vec4d relative_change() const { return first_.change() - second_.change(); }
+  Vec4d start() const { return start_normal_ * normal_ + start_friction_; }
+  void respond_along_normal(Vec4d change, double penalty, Response& response) const;
+  void respond_with_friction(Vec4d change, double penalty, Response& response) const;
   void apply(Vec4d impulse) const;
 
   SweptSide first_;
@@ -112,7 +138,8 @@ class SweptImpulse {
 };
 
 /// Corrects all in turn until none changes a velocity by more than `tolerance` (m/s), at most
-/// `max_iterations` times.
-void solve(std::span<SweptImpulse> impulses, double tolerance, int max_iterations);
+/// `max_iterations` times. Returns the greatest change of the last iteration.
+double correct_in_turn(std::span<SweptImpulse* const> impulses, double tolerance,
+                       int max_iterations);
 
 }  // namespace pneuma::sim

@@ -1,0 +1,32 @@
+#include "sim/step/shift_boxes.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// m in a step, at most: boxes that start in each other do not jump.
+constexpr double max_shift = 0.05;
+/// Of the thinnest skin: less is not worth a shift.
+constexpr double min_shift = 0.02;
+/// Of the greatest shift: to this they are solved for.
+constexpr double shift_tolerance = 0.05;
+
+}  // namespace
+
+void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search) {
+  memory.bodies.forget_shifts();
+  search.find_contacts_of_boxes();
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    const double missing = missing_distance(memory.contacts[i]);
+    const double shift = std::min(made_up_per_step * missing, max_shift);
+    memory.impulses[i].aim(shift, Vec3::Zero());
+    greatest = std::max(greatest, shift);
+  }
+  if (greatest < min_shift * memory.bodies.thinnest_skin()) return;
+  memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
+  memory.bodies.take_as_shifts();
+  memory.bodies.shift_boxes(world);
+  memory.work += memory.bodies.work_of_shifts(world);
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,87 @@
+#include "sim/step/swept_solver.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pneuma::sim {
+namespace {
+
+/// Before Newton's method is tried, and where it cannot help: in a heap, and among soft bodies,
+/// whose loads are carried through the bodies and not from contact to contact.
+constexpr int few_iterations = 20;
+constexpr int max_iterations = 50;
+/// What is left makes a stack tremble.
+constexpr double tolerance_of_boxes = 0.01;
+/// Each call to Newton's method with so many times the penalty of the one before.
+constexpr double first_penalty = 1e3;
+constexpr double last_penalty = 1e9;
+constexpr double penalty_growth = 30.0;
+
+}  // namespace
+
+int SweptSolver::root(int body) {
+  while (parents_[at(body)] != body) {
+    parents_[at(body)] = parents_[at(parents_[at(body)])];
+    body = parents_[at(body)];
+  }
+  return body;
+}
+
+void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses) {
+  std::iota(parents_.begin(), parents_.end(), 0);
+  for (const SweptContact& contact : contacts) {
+    if (contact.second.body == swept_ground) continue;
+    const int one = root(contact.first.body), other = root(contact.second.body);
+    parents_[at(std::max(one, other))] = std::min(one, other);
+  }
+  islands_.assign(parents_.size(), -1);
+  begin_.assign(1, 0);
+  has_boxes_.clear();
+  for (const SweptContact& contact : contacts) {
+    int& island = islands_[at(root(contact.first.body))];
+    if (island < 0) {
+      island = static_cast<int>(begin_.size()) - 1;
+      begin_.push_back(0);
+      has_boxes_.push_back(0);
+    }
+    ++begin_[at(island) + 1];
+    const int second = contact.second.body;
+    if (is_box(contact.first.body) && (second == swept_ground || is_box(second))) {
+      has_boxes_[at(island)] = 1;
+    }
+  }
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  filled_.assign(begin_.begin(), begin_.end());
+  ordered_.resize(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const int island = islands_[at(root(contacts[i].first.body))];
+    ordered_[filled_[at(island)]++] = &impulses[i];
+  }
+}
+
+void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+                        double tolerance) {
+  divide(contacts, impulses);
+  for (std::size_t i = 0; i + 1 < begin_.size(); ++i) {
+    if (has_boxes_[i]) {
+      solve_with_boxes(island(i), tolerance);
+    } else {
+      correct_in_turn(island(i), tolerance, max_iterations);
+    }
+  }
+}
+
+void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
+  const double of_boxes = tolerance_of_boxes * tolerance;
+  if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;
+  for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
+    if (!newton_.improve(impulses, penalty)) {
+      correct_in_turn(impulses, tolerance, max_iterations - few_iterations);
+      return;
+    }
+    if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;
+  }
+}
+
+}  // namespace pneuma::sim

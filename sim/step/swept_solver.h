@@ -1,0 +1,46 @@
+// The impulses of a step in which no body passes through another: solved for island by island.
+// Private to sim/step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/step/swept_contact.h"
+#include "sim/swept/newton_solver.h"
+
+namespace pneuma::sim {
+
+class SweptSolver {
+ public:
+  /// `bodies`: how many there are, of which the first are soft.
+  SweptSolver(int bodies, int soft_bodies) : soft_bodies_(soft_bodies), parents_(at(bodies)) {}
+
+  /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`
+  /// (m/s), by Gauss-Seidel iterations; where a box is on a box or on the ground until none does by
+  /// more than a hundredth of it, also by Newton's method.
+  void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+             double tolerance);
+
+ private:
+  /// Contacts that share a body, and those that share one with these, are an island.
+  void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses);
+  int root(int body);
+  std::span<SweptImpulse* const> island(std::size_t i) const {
+    return std::span(ordered_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
+  }
+  void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
+
+  bool is_box(int body) const { return body >= soft_bodies_; }
+
+  int soft_bodies_ = 0;
+  std::vector<int> parents_;             // per body
+  std::vector<int> islands_;             // of each root, or -1
+  std::vector<std::uint8_t> has_boxes_;  // per island: one on another, or on the ground
+  std::vector<std::size_t> begin_;
+  std::vector<std::size_t> filled_;
+  std::vector<SweptImpulse*> ordered_;  // by island
+  NewtonSolver newton_;
+};
+
+}  // namespace pneuma::sim

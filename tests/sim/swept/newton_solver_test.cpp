@@ -1,0 +1,156 @@
+// The direct solver of contact impulses beside Gauss-Seidel iterations without end, and the sparse
+// factorisation beside Eigen's.
+#include "sim/swept/newton_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <deque>
+#include <random>
+
+#include "sim/rigid/inertia.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+TEST(EnvelopeCholesky, SolvesAsADenseFactorisation) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  EnvelopeCholesky sparse;
+  for (int size = 1; size < 40; ++size) {
+    std::vector<int> first(at(size));
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+    for (int i = 0; i < size; ++i) first[at(i)] = std::max(0, i - static_cast<int>(random() % 9));
+    sparse.reset(first);
+    for (int i = 0; i < size; ++i) {
+      for (int j = first[at(i)]; j < i; ++j) dense(i, j) = dense(j, i) = any(random);
+      dense(i, i) = 10.0 + any(random);
+      for (int j = first[at(i)]; j <= i; ++j) sparse.entry(i, j) = dense(i, j);
+    }
+    std::vector<double> x(at(size));
+    for (double& value : x) value = any(random);
+    const Eigen::VectorXd right = Eigen::VectorXd::Map(x.data(), size);
+    ASSERT_TRUE(sparse.factor());
+    sparse.solve(x);
+    EXPECT_LT((dense * Eigen::VectorXd::Map(x.data(), size) - right).norm(), 1e-13) << size;
+  }
+}
+
+TEST(EnvelopeCholesky, SaysWhenAMatrixIsNotPositive) {
+  EnvelopeCholesky matrix;
+  matrix.reset(std::vector{0, 0});
+  matrix.entry(0, 0) = 1.0;
+  matrix.entry(1, 0) = 2.0;
+  matrix.entry(1, 1) = 1.0;
+  EXPECT_FALSE(matrix.factor());
+}
+
+/// Cubes of 2 m on each other and on the ground, falling at 1 m/s: the impulses at their corners
+/// must stop them.
+class Stack {
+ public:
+  explicit Stack(const std::vector<double>& masses) {
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      const RigidBox box =
+          make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 1.0 + 2.0 * static_cast<double>(i)}, masses[i]);
+      changes_.push_back(make_box_change(box, box.position, box.orientation));
+    }
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+      for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+          const Vec3 point(x, y, 2.0 * static_cast<double>(i));
+          const SweptSide below = i > 0 ? SweptSide(changes_[i - 1], point) : SweptSide();
+          impulses_.emplace_back(SweptSide(changes_[i], point), below, Vec3::UnitZ(), 0.5);
+          impulses_.back().aim(i > 0 ? 0.0 : 1.0, Vec3::Zero());  // the cube below falls as fast
+        }
+      }
+    }
+    for (SweptImpulse& impulse : impulses_) pointers_.push_back(&impulse);
+  }
+
+  std::span<SweptImpulse* const> impulses() const { return pointers_; }
+  /// m/s and rad/s, by which a cube is not yet stopped.
+  double error() const {
+    double worst = 0.0;
+    for (const BoxChange& change : changes_) {
+      const Vec3 missing = Vec3::UnitZ() - to_vec3(change.velocity);
+      worst = std::max({worst, missing.norm(), to_vec3(change.angular_velocity).norm()});
+    }
+    return worst;
+  }
+
+ private:
+  std::deque<BoxChange> changes_;
+  std::deque<SweptImpulse> impulses_;
+  std::vector<SweptImpulse*> pointers_;
+};
+
+void improve_with_growing_penalty(Stack& stack) {
+  NewtonSolver solver;
+  for (double penalty = 1e3; penalty < 1e9; penalty *= 30.0) {
+    ASSERT_TRUE(solver.improve(stack.impulses(), penalty));
+  }
+}
+
+TEST(NewtonSolver, StopsAStackThatIterationsDoNotStop) {
+  Stack stack(std::vector(20, 1.0)), iterated(std::vector(20, 1.0));
+  improve_with_growing_penalty(stack);
+  EXPECT_LT(stack.error(), 1e-6);
+  correct_in_turn(iterated.impulses(), 0.0, 10'000);
+  EXPECT_GT(iterated.error(), 0.01);
+}
+
+TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
+  Stack stack(std::vector(3, 1.0)), iterated(std::vector(3, 1.0));
+  improve_with_growing_penalty(stack);
+  correct_in_turn(iterated.impulses(), 0.0, 10'000);
+  EXPECT_LT(stack.error(), 1e-8);
+  EXPECT_LT(iterated.error(), 1e-8);
+}
+
+TEST(NewtonSolver, StopsAThousandKilogramsOnCubesOfOne) {
+  std::vector<double> masses(10, 1.0);
+  masses.back() = 1000.0;
+  Stack stack(masses);
+  improve_with_growing_penalty(stack);
+  EXPECT_LT(stack.error(), 1e-5);
+  double carried = 0.0;
+  for (const SweptImpulse* impulse : stack.impulses().first(4)) carried += impulse->given().z();
+  EXPECT_NEAR(carried, 1009.0, 0.01);
+}
+
+TEST(NewtonSolver, LeavesAloneWhatIsTooLarge) {
+  Stack stack(std::vector(1000, 1.0));
+  NewtonSolver solver;
+  EXPECT_FALSE(solver.improve(stack.impulses(), 1e3));
+  for (const SweptImpulse* impulse : stack.impulses()) EXPECT_EQ(impulse->normal_impulse(), 0.0);
+}
+
+/// Of the step of one impulse: -given is the gradient of the potential, and the stiffness that of
+/// the impulse, by central differences, wherever clamped, sticking or sliding.
+TEST(NewtonSolver, ImpulsesRespondByTheGradientOfAPotential) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const RigidBox box = make_rigid({1.0, 2.0, 0.5}, Vec3::Zero(), 3.0);
+  for (int i = 0; i < 200; ++i) {
+    BoxChange change = make_box_change(box, box.position, box.orientation);
+    const Vec3 normal = Vec3(any(random), any(random), any(random)).normalized();
+    SweptImpulse impulse(SweptSide(change, {0.5, any(random), 0.25}), {}, normal, 0.5);
+    impulse.aim(any(random), {any(random), any(random), any(random)});
+    impulse.start_from(0.3 + 0.3 * any(random), Vec3::Zero());
+    const Vec3 at_change(any(random), any(random), any(random));
+    const auto response = impulse.respond(to_vec4d(at_change), 2.0);
+    constexpr double h = 1e-6;
+    for (int k = 0; k < 3; ++k) {
+      const auto up = impulse.respond(to_vec4d(at_change + h * Vec3::Unit(k)), 2.0);
+      const auto down = impulse.respond(to_vec4d(at_change - h * Vec3::Unit(k)), 2.0);
+      EXPECT_NEAR((up.potential - down.potential) / (2.0 * h), -response.given[k], 1e-6) << i;
+      const Vec3 slope = to_vec3(up.given - down.given) / (2.0 * h);
+      EXPECT_LT((slope + response.stiffness.col(k)).norm(), 1e-5) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim

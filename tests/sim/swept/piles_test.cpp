@@ -1,0 +1,110 @@
+// Boxes on boxes, with swept contacts: they stand, whatever their number and their masses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sim/inspect/inspect.h"
+#include "sim/inspect/overlap.h"
+#include "sim/mesh/rotation.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Cubes of 2 m that touch exactly.
+World make_tower(const std::vector<double>& masses) {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  for (const double mass : masses) {
+    const double height = 1.0 + 2.0 * static_cast<double>(world.rigid.size());
+    world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, height}, mass));
+    world.rigid.back().rho_g = 0.0;
+  }
+  return world;
+}
+
+struct Pile {
+  double deepest = 0.0;  // m, in each other or in the ground, in any step
+  double speed = 0.0;    // m/s, of the fastest box at the end
+};
+
+Pile run_pile(World& world, double seconds) {
+  Pile pile;
+  Stepper stepper(world);
+  const int steps = static_cast<int>(seconds * world.settings.steps_per_second);
+  for (int i = 0; i < steps; ++i) {
+    const auto divergence = stepper.step(world);
+    EXPECT_FALSE(divergence) << divergence->what;
+    if (divergence) return pile;
+    for (const Overlap& overlap : overlaps(world)) {
+      pile.deepest = std::max(pile.deepest, overlap.depth);
+    }
+  }
+  for (const RigidBox& box : world.rigid) pile.speed = std::max(pile.speed, box.velocity.norm());
+  return pile;
+}
+
+TEST(Piles, ATowerOfFortyStands) {
+  World world = make_tower(std::vector(40, 1.0));
+  const Pile pile = run_pile(world, 10.0);
+  EXPECT_LT(pile.deepest, 1e-3);
+  EXPECT_LT(pile.speed, 0.01);
+  // It leans by less than a hundredth of its height, and rises by half a skin per contact.
+  EXPECT_LT(world.rigid.back().position.head<2>().norm(), 0.01 * 80.0);
+  EXPECT_NEAR(world.rigid.back().position.z(), 79.0, 0.01 * 79.0);
+}
+
+TEST(Piles, HeavyBoxesDoNotSinkIntoLightOnes) {
+  for (const int high : {2, 5, 10}) {
+    for (const bool heavy_below : {false, true}) {
+      std::vector masses(at(high), 1.0);
+      (heavy_below ? masses.front() : masses.back()) = 1000.0;
+      World world = make_tower(masses);
+      const Pile pile = run_pile(world, 4.0);
+      EXPECT_LT(pile.deepest, 0.01 * 2.0) << high << ' ' << heavy_below;
+      EXPECT_LT(pile.speed, 0.01) << high << ' ' << heavy_below;
+      EXPECT_LT(world.rigid.back().position.head<2>().norm(), 0.02) << high << ' ' << heavy_below;
+    }
+  }
+}
+
+TEST(Piles, TumblingCubesComeToRestBesideEachOther) {
+  World world = make_tower({});
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 place(4.0 * (i % 2), 4.0 * (i / 2 % 2), 3.0 + 4.0 * (i / 4));
+    world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, place));
+    world.rigid.back().orientation =
+        rotation_of_degrees(180.0 * Vec3(any(random), any(random), any(random)));
+  }
+  const Pile pile = run_pile(world, 8.0);
+  EXPECT_LT(pile.deepest, 0.02);
+  EXPECT_LT(pile.speed, 0.05);
+}
+
+/// Their energy rises by no more than the weight that is lifted, which is booked.
+TEST(Piles, BoxesThatStartInEachOtherPartWithoutAJump) {
+  World world = make_tower({1.0, 1.0});
+  world.rigid[1].position.z() = 2.5;  // half a metre in the other
+  Stepper stepper(world);
+  double work = 0.0, fastest = 0.0;
+  const double before = energy(world).total();
+  for (int i = 0; i < 120; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    work += stepper.contact_work();
+    fastest = std::max(fastest, world.rigid[1].velocity.norm());
+  }
+  EXPECT_NEAR(world.rigid[1].position.z(), 3.0, 0.02);
+  EXPECT_LT(fastest, 0.01);
+  const double gained = energy(world).total() - before;
+  EXPECT_NEAR(gained, 9.81 * 0.5, 0.2);
+  // A step moves boxes by the velocity that they had, and then gives them that of gravity: at rest
+  // impulses take it away again, m (g h)^2 / 2 a box and step that no fall has cost.
+  const double of_gravity = 120 * 2 * 0.5 * std::pow(9.81 / 60.0, 2);
+  EXPECT_NEAR(gained, work + of_gravity, 0.01);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
