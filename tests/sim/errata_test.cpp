@@ -1,5 +1,6 @@
 // sim/ERRATA.md against the code: comments say "ERRATA row N", and a reader must find that row.
-// Rows are numbered without a gap, and the files that the page names exist.
+// Rows are numbered without a gap and give a reason, the files that the page names exist, and so do
+// the symbols that it names in them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -92,6 +93,53 @@ std::vector<Citation> citations_of_project() {
   return citations;
 }
 
+/// A symbol that a row's *Where* places in a file.
+struct Place {
+  std::string symbol;
+  std::string file;
+};
+
+/// Of "`first` and `A::second` in `sim/a.h` and in `sim/b.cpp`; `sim/c.h`": what stands before " in
+/// `FILE`" is named in that file, and in each that follows by " and in ".
+std::vector<Place> places_of(const std::string& where) {
+  static const std::regex quoted("`([^`]+)`");
+  static const std::regex is_file(R"((?:assets|render|scenes|sim|tests)/[\w./]+)");
+  static const std::regex in(R"([^`]*\sin\s+)");
+  static const std::regex and_in(R"(\s+and\s+in\s+)");
+  std::vector<Place> places;
+  std::vector<std::string> symbols;
+  bool after_file = false;
+  for (std::sregex_iterator match(where.begin(), where.end(), quoted), end; match != end; ++match) {
+    const std::string between = match->prefix();
+    const std::string word = (*match)[1];
+    const bool file = std::regex_match(word, is_file);
+    if (after_file && !(file && std::regex_match(between, and_in))) symbols.clear();
+    if (!file) symbols.push_back(word);
+    if (file && std::regex_match(between, in)) {
+      for (const std::string& symbol : symbols) places.push_back({symbol, word});
+    }
+    after_file = file;
+  }
+  return places;
+}
+
+/// The text from "- **Name:**" to the next such entry, row or table of a page, for each of them.
+std::vector<std::string> entries_of(const std::string& page, const std::string& name) {
+  const std::string mark = "- **" + name + ":**";
+  std::vector<std::string> entries;
+  for (auto at = page.find(mark); at != std::string::npos; at = page.find(mark, at + 1)) {
+    entries.push_back(page.substr(at, std::min(page.find("\n- ", at), page.find("\n\n", at)) - at));
+  }
+  return entries;
+}
+
+/// Whether a file has a symbol's last name as a whole word.
+bool names(const std::string& text, const std::string& symbol) {
+  const auto scope = symbol.rfind("::");
+  const std::string name = scope == std::string::npos ? symbol : symbol.substr(scope + 2);
+  return std::regex_search(text, std::regex("\\b" + name + "\\b"));
+}
+
 std::vector<int> cited_rows(const std::string& text) {
   std::vector<int> rows;
   for (const Citation& citation : citations_of("", text)) rows.push_back(citation.row);
@@ -128,6 +176,43 @@ TEST(Errata, EveryCitedRowExists) {
         << citation.file.lexically_relative(project_folder).string() << ":" << citation.line
         << " cites ERRATA row " << citation.row << "; sim/ERRATA.md has rows 1 to " << rows;
   }
+}
+
+TEST(Errata, EveryRowHasAReasonAndAPlace) {
+  const std::string page = read_text(project_folder / "sim/ERRATA.md");
+  const std::size_t rows = rows_of(page).size();
+  std::size_t start = page.find("\n## 1. ");
+  for (std::size_t row = 1; row <= rows; ++row) {
+    const std::size_t end = page.find("\n## ", start + 1);
+    const std::string text = page.substr(start, end - start);
+    for (const char* entry : {"Paper", "Here", "Why", "Where"}) {
+      EXPECT_EQ(entries_of(text, entry).size(), 1U) << entry << " of row " << row;
+    }
+    start = end;
+  }
+}
+
+TEST(Errata, PlacesAreReadFromALineOfWhere) {
+  const auto places = places_of(
+      "`a`, `B::c` and `d` in `sim/a.h` and in\n  `sim/b.cpp`; `e` in `sim/c.h`; `sim/d.h`, with "
+      "`f`.");
+  std::string found;
+  for (const auto& [symbol, file] : places) found += symbol + " " + file + ", ";
+  EXPECT_EQ(found,
+            "a sim/a.h, B::c sim/a.h, d sim/a.h, a sim/b.cpp, B::c sim/b.cpp, d sim/b.cpp, "
+            "e sim/c.h, ");
+}
+
+TEST(Errata, SymbolsStandInTheFilesThatItNames) {
+  std::size_t places = 0;
+  for (const std::string& where :
+       entries_of(read_text(project_folder / "sim/ERRATA.md"), "Where")) {
+    for (const auto& [symbol, file] : places_of(where)) {
+      EXPECT_TRUE(names(read_text(project_folder / file), symbol)) << symbol << " in " << file;
+      ++places;
+    }
+  }
+  EXPECT_GT(places, 80U);
 }
 
 TEST(Errata, FilesThatItNamesExist) {
