@@ -20,7 +20,7 @@ enum class Stage {
   resolve_contacts,
   depenetrate,
 };
-inline constexpr int stage_count = 7;
+inline constexpr int stage_count = static_cast<int>(Stage::depenetrate) + 1;  // the last
 std::string_view to_string(Stage stage);
 
 /// The kinds of contact that find_contacts looks for.
