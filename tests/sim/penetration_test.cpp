@@ -1,6 +1,6 @@
+// The deepest point against all pairs of bodies; depths that are known: inspect/overlap_test.cpp.
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 
 #include "sim/collision/point_in_body.h"
@@ -10,86 +10,6 @@
 
 namespace pneuma::sim {
 namespace {
-
-/// Overlaps of known depth, without a ground unless a test wants one.
-World empty_world() {
-  World world;
-  world.settings.ground.reset();
-  return world;
-}
-
-/// A cube of soft skin with flat faces, 3 m wide: 3 x 3 squares a face.
-SoftBody soft_cube(const Vec3& offset) { return make_body(make_box({3.0, 3.0, 3.0}, 3), offset); }
-
-constexpr double rounding = 1e-14;  // of places of a few metres
-
-TEST(Penetration, NothingOverlapsNothing) {
-  World world;
-  EXPECT_EQ(max_penetration(world), 0.0);
-  world = empty_world();
-  world.soft.push_back(soft_cube(Vec3::Zero()));
-  world.soft.push_back(soft_cube({3.1, 0.0, 0.0}));
-  world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 2.1, 0.0}));
-  world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 3.2, 0.0}));
-  EXPECT_EQ(max_penetration(world), 0.0);
-}
-
-TEST(Penetration, IntoTheGround) {
-  World world;
-  world.soft.push_back(soft_cube({0.0, 0.0, 1.2}));
-  EXPECT_NEAR(max_penetration(world), 0.3, rounding);
-  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {10.0, 0.0, 1.0}));
-  world.rigid[0].orientation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitX()));
-  EXPECT_NEAR(max_penetration(world), std::numbers::sqrt2 - 1.0, rounding) << "on its edge";
-  world.settings.ground.reset();
-  EXPECT_EQ(max_penetration(world), 0.0);
-}
-
-TEST(Penetration, OfTwoSoftBodiesIsTheDeepestVertexsWhicheverIsInside) {
-  for (const bool swapped : {false, true}) {
-    // Shifted across as well, so that no vertex lies on a face: 0.25 m deep, to the face x = 1.5.
-    World world = empty_world();
-    world.soft.push_back(soft_cube(Vec3::Zero()));
-    world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {1.75, 0.2, 0.1}));
-    if (swapped) std::swap(world.soft[0], world.soft[1]);
-    EXPECT_NEAR(max_penetration(world), 0.25, rounding);
-  }
-}
-
-TEST(Penetration, OfABoxInASoftBodyIsItsCorners) {
-  World world = empty_world();
-  world.soft.push_back(soft_cube(Vec3::Zero()));
-  world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 1.8}));
-  EXPECT_NEAR(max_penetration(world), 0.2, rounding);
-}
-
-TEST(Penetration, OfASoftBodyInABoxIsItsVertices) {
-  World world = empty_world();
-  world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {0.2, 0.1, 2.4}));
-  world.rigid.push_back(make_rigid({4.0, 4.0, 4.0}, Vec3::Zero()));
-  EXPECT_NEAR(max_penetration(world), 0.1, rounding);
-}
-
-TEST(Penetration, OfTwoBoxesIsTheShortestWayApart) {
-  World world = empty_world();
-  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, Vec3::Zero()));
-  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {1.9, 1.0, -0.5}));
-  EXPECT_NEAR(max_penetration(world), 0.1, rounding);
-  // An edge ahead, turned by 45 degrees: it reaches 1.414 from its centre.
-  world.rigid[1].position = {2.3, 0.0, 0.0};
-  world.rigid[1].orientation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitZ()));
-  EXPECT_NEAR(max_penetration(world), 1.0 + std::numbers::sqrt2 - 2.3, rounding);
-}
-
-TEST(Penetration, IsTheGreatestOfAll) {
-  World world;
-  world.soft.push_back(soft_cube({0.0, 0.0, 1.45}));                     // 0.05 in the ground
-  world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 3.25}));  // 0.2 in the soft cube
-  world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.2, 4.15}));  // 0.1 in the box below
-  EXPECT_NEAR(max_penetration(world), 0.2, rounding);
-}
 
 /// Vertices, middles of edges, middles of triangles.
 std::vector<Vec3> points_of(const SurfaceView& surface) {
@@ -117,7 +37,8 @@ std::vector<Vec3> points_of_box(const OrientedBox& box) {
 
 TEST(Penetration, OfAHundredCubesOnATorusIsThatOfAllPairs) {
   // Every pair looked at, by the plain definition: no spheres about the bodies, no bounds.
-  World world = empty_world();
+  World world;
+  world.settings.ground.reset();
   world.soft.push_back(make_body(make_torus(6.0, 2.0, 16, 16), {0.0, 0.0, 2.0}));
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <random>
+#include <string>
 
 #include "sim/collision/oriented_box.h"
 #include "sim/collision/point_in_body.h"
@@ -33,72 +35,91 @@ SoftBody soft_cube(const Vec3& offset) { return make_body(make_box({3.0, 3.0, 3.
 
 constexpr double rounding = 1e-14;  // of places of a few metres
 
-TEST(Overlaps, NothingOverlapsNothing) {
+/// What two measures agree on, penetration and overlap: depths where one body is in the other by
+/// its vertices or corners alone.
+struct Measure {
+  std::string name;
+  double (*depth)(const World&);
+};
+
+void PrintTo(const Measure& measure, std::ostream* out) { *out << measure.name; }
+
+class KnownDepth : public testing::TestWithParam<Measure> {
+ protected:
+  static double depth(const World& world) { return GetParam().depth(world); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Measures, KnownDepth,
+                         testing::Values(Measure{"penetration", max_penetration},
+                                         Measure{"overlap", deepest_overlap}),
+                         [](const auto& measure) { return measure.param.name; });
+
+TEST_P(KnownDepth, NothingOverlapsNothing) {
   World world;
-  EXPECT_EQ(deepest_overlap(world), 0.0);
+  EXPECT_EQ(depth(world), 0.0);
   world = empty_world();
   world.soft.push_back(soft_cube(Vec3::Zero()));
   world.soft.push_back(soft_cube({3.1, 0.0, 0.0}));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 2.1, 0.0}));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 3.2, 0.0}));
-  EXPECT_EQ(deepest_overlap(world), 0.0);
+  EXPECT_EQ(depth(world), 0.0);
 }
 
-TEST(Overlaps, IntoTheGround) {
+TEST_P(KnownDepth, IntoTheGround) {
   World world;
   world.soft.push_back(soft_cube({0.0, 0.0, 1.2}));
-  EXPECT_NEAR(deepest_overlap(world), 0.3, rounding);
+  EXPECT_NEAR(depth(world), 0.3, rounding);
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {10.0, 0.0, 1.0}));
   world.rigid[0].orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitX()));
-  EXPECT_NEAR(deepest_overlap(world), std::numbers::sqrt2 - 1.0, rounding) << "on its edge";
+  EXPECT_NEAR(depth(world), std::numbers::sqrt2 - 1.0, rounding) << "on its edge";
   world.settings.ground.reset();
-  EXPECT_EQ(deepest_overlap(world), 0.0);
+  EXPECT_EQ(depth(world), 0.0);
 }
 
-TEST(Overlaps, OfTwoSoftBodiesIsTheDeepestVertexsWhicheverIsInside) {
+TEST_P(KnownDepth, OfTwoSoftBodiesIsTheDeepestVertexsWhicheverIsInside) {
   for (const bool swapped : {false, true}) {
     // Shifted across as well, so that no vertex lies on a face: 0.25 m deep, to the face x = 1.5.
     World world = empty_world();
     world.soft.push_back(soft_cube(Vec3::Zero()));
     world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {1.75, 0.2, 0.1}));
     if (swapped) std::swap(world.soft[0], world.soft[1]);
-    EXPECT_NEAR(deepest_overlap(world), 0.25, rounding);
+    EXPECT_NEAR(depth(world), 0.25, rounding);
   }
 }
 
-TEST(Overlaps, OfABoxInASoftBodyIsItsCorners) {
+TEST_P(KnownDepth, OfABoxInASoftBodyIsItsCorners) {
   World world = empty_world();
   world.soft.push_back(soft_cube(Vec3::Zero()));
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 1.8}));
-  EXPECT_NEAR(deepest_overlap(world), 0.2, rounding);
+  EXPECT_NEAR(depth(world), 0.2, rounding);
 }
 
-TEST(Overlaps, OfASoftBodyInABoxIsItsVertices) {
+TEST_P(KnownDepth, OfASoftBodyInABoxIsItsVertices) {
   World world = empty_world();
   world.soft.push_back(make_body(make_box({1.0, 1.0, 1.0}, 1), {0.2, 0.1, 2.4}));
   world.rigid.push_back(make_rigid({4.0, 4.0, 4.0}, Vec3::Zero()));
-  EXPECT_NEAR(deepest_overlap(world), 0.1, rounding);
+  EXPECT_NEAR(depth(world), 0.1, rounding);
 }
 
-TEST(Overlaps, OfTwoBoxesIsTheShortestWayApart) {
+TEST_P(KnownDepth, OfTwoBoxesIsTheShortestWayApart) {
   World world = empty_world();
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, Vec3::Zero()));
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {1.9, 1.0, -0.5}));
-  EXPECT_NEAR(deepest_overlap(world), 0.1, rounding);
+  EXPECT_NEAR(depth(world), 0.1, rounding);
   // An edge ahead, turned by 45 degrees: it reaches 1.414 from its centre.
   world.rigid[1].position = {2.3, 0.0, 0.0};
   world.rigid[1].orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vec3::UnitZ()));
-  EXPECT_NEAR(deepest_overlap(world), 1.0 + std::numbers::sqrt2 - 2.3, rounding);
+  EXPECT_NEAR(depth(world), 1.0 + std::numbers::sqrt2 - 2.3, rounding);
 }
 
-TEST(Overlaps, IsTheGreatestOfAll) {
+TEST_P(KnownDepth, IsTheGreatestOfAll) {
   World world;
   world.soft.push_back(soft_cube({0.0, 0.0, 1.45}));                     // 0.05 in the ground
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.2, 0.1, 3.25}));  // 0.2 in the soft cube
   world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.2, 4.15}));  // 0.1 in the box below
-  EXPECT_NEAR(deepest_overlap(world), 0.2, rounding);
+  EXPECT_NEAR(depth(world), 0.2, rounding);
 }
 
 TEST(Overlaps, OfCoincidentBallsIsTheirDiameterAndShrinksAsTheyPart) {
