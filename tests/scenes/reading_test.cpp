@@ -1,7 +1,14 @@
 // What a valid scene file sets, compared with a scene put together by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "scenes/loader/load_scene.h"
+#include "scenes/loader/sections.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -19,8 +26,8 @@ TEST(Reading, ABareBodyGivesTheStructsDefaults) {
   EXPECT_EQ(difference(scene, expected), "");
 }
 
-TEST(Reading, EveryKeyOutsideOfBodiesSetsItsMember) {
-  const Scene scene = parse_scene(R"(
+/// Each key has another value than its default.
+constexpr std::string_view every_key = R"(
 title = "A title"
 figure = "figure 6.4"
 paper_fps = 51.5
@@ -31,6 +38,8 @@ steps_per_second = 240
 integrator = "velocity_verlet"
 gravity = [1.0, 2.0, -3.0]
 skin_thickness = 0.25
+soft_search = "exact"
+contact = "swept"
 relaxation_time = 0.125
 contact_iterations = 4
 seed = 9223372036854775807
@@ -65,10 +74,14 @@ vertices_per_body = 1001
 vertices = 1002
 frames = 1003
 memory_gib = 0.5
+picture_side = 4096
+model_file_mib = 32.5
+scene_file_mib = 0.25
 
 [[body]]
-)",
-                                  "all.toml");
+)";
+
+Scene every_member() {
   Scene expected;
   expected.name = "all";
   expected.title = "A title";
@@ -80,7 +93,9 @@ memory_gib = 0.5
       .integrator = sim::Integrator::velocity_verlet,
       .gravity = {1.0, 2.0, -3.0},
       .ground = sim::ContactMaterial{.restitution = 0.75, .friction = 0.125},
+      .contact = sim::ContactMethod::swept,
       .skin_thickness = 0.25,
+      .soft_search = sim::SoftSearch::exact,
       .particles = {.per_vertex = 0.5, .attraction = 3.0, .max_sweeps = 11, .settled_below = 7},
       .relaxation_time = 0.125,
       .contact_iterations = 4,
@@ -95,15 +110,25 @@ memory_gib = 0.5
                       .shadows = false,
                       .caption = false,
                       .grid = false};
-  expected.limits = {
-      .bodies = 31, .vertices_per_body = 1001, .vertices = 1002, .frames = 1003, .memory_gib = 0.5};
+  expected.limits = {.bodies = 31,
+                     .vertices_per_body = 1001,
+                     .vertices = 1002,
+                     .frames = 1003,
+                     .memory_gib = 0.5,
+                     .picture_side = 4096,
+                     .model_file_mib = 32.5,
+                     .scene_file_mib = 0.25};
   expected.bodies.resize(1);
   expected.bodies[0].name = "body1";
-  EXPECT_EQ(difference(scene, expected), "");
+  return expected;
 }
 
-TEST(Reading, EveryKeyOfASoftBodySetsItsMember) {
-  const Scene scene = parse_scene(R"(
+TEST(Reading, EveryKeyOutsideOfBodiesSetsItsMember) {
+  const Scene scene = parse_scene(every_key, "all.toml");
+  EXPECT_EQ(difference(scene, every_member()), "");
+}
+
+constexpr std::string_view soft_body = R"(
 [[body]]
 name = "wheel"
 kind = "soft"
@@ -133,8 +158,9 @@ jitter = 0.5
 tumble = true
 colours = ["#0123aB", "#456789"]
 colour_axis = [0.0, 1.0, 0.5]
-)",
-                                  "soft.toml");
+)";
+
+Scene soft_body_scene() {
   BodyScene expected;
   expected.name = "wheel";
   expected.shape = Shape::torus;
@@ -165,7 +191,41 @@ colour_axis = [0.0, 1.0, 0.5]
   Scene whole;
   whole.name = "soft";
   whole.bodies = {expected};
-  EXPECT_EQ(difference(scene, whole), "");
+  return whole;
+}
+
+TEST(Reading, EveryKeyOfASoftBodySetsItsMember) {
+  const Scene scene = parse_scene(soft_body, "soft.toml");
+  EXPECT_EQ(difference(scene, soft_body_scene()), "");
+}
+
+/// The names of the keys that apply to a section and have the same value as in one of the defaults.
+std::vector<std::string> keys_at_default(const Section& section, const Section& of_defaults) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < section.keys.size(); ++i) {
+    const Key& key = section.keys[i];
+    if (!key.applies || value_text(key.slot) != value_text(of_defaults.keys[i].slot)) continue;
+    names.push_back(std::string(section.table).append(".").append(key.name));
+  }
+  return names;
+}
+
+// So that a new key is also tested above. The keys named here exclude others, which are set there;
+// KeysOfTheOtherShapesSetTheirMembers sets them.
+TEST(Reading, NoKeyIsLeftOutAbove) {
+  Scene scene = parse_scene(every_key, "all.toml"), defaults;
+  const std::vector<Section> sections = fixed_sections(scene);
+  const std::vector<Section> of_defaults = fixed_sections(defaults);
+  std::vector<std::string> missed;
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    std::ranges::copy(keys_at_default(sections[i], of_defaults[i]), std::back_inserter(missed));
+  }
+  EXPECT_EQ(missed, std::vector<std::string>({"ground.present", "camera.eye", "camera.target"}));
+
+  Scene soft = parse_scene(soft_body, "soft.toml");
+  BodyScene body;
+  EXPECT_EQ(keys_at_default(body_section(soft.bodies[0]), body_section(body)),
+            std::vector<std::string>({"body.kind"}));
 }
 
 TEST(Reading, KeysOfTheOtherShapesSetTheirMembers) {
