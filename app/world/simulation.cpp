@@ -13,10 +13,19 @@ namespace {
 /// pictures are made of single-precision numbers, which are whole metres apart there.
 constexpr double farthest = 1e8;
 
-/// Empty for a box, and for an implicit integrator, whose steps are never too long.
-std::string cause_and_remedy(const sim::World& world, const std::string& body_name) {
+/// Whether the step has been tried again in ever smaller parts by itself: what swept contacts
+/// cannot resolve, no step can.
+bool shorter_steps_failed(const sim::World& world, const sim::Divergence& divergence) {
+  return world.settings.contact == sim::ContactMethod::swept &&
+         divergence.stage == sim::Stage::resolve_contacts;
+}
+
+/// Empty for a box, for an implicit integrator, whose steps are never too long, and where shorter
+/// steps have failed.
+std::string cause_and_remedy(const sim::World& world, const sim::Divergence& divergence) {
+  if (shorter_steps_failed(world, divergence)) return "";
   for (const sim::SoftBody& body : world.soft) {
-    if (body.name != body_name || sim::is_implicit(world.settings.integrator)) continue;
+    if (body.name != divergence.body || sim::is_implicit(world.settings.integrator)) continue;
     const StepAdvice advice = step_advice(world, body);
     const std::string cause =
         advice.too_long()
@@ -41,7 +50,7 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
   return DivergenceError(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}", scene_name,
                                      divergence.step, time, sim::to_string(divergence.stage),
                                      divergence.body, divergence.what,
-                                     cause_and_remedy(world, divergence.body)));
+                                     cause_and_remedy(world, divergence)));
 }
 
 Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
