@@ -1,4 +1,4 @@
-// World -> Frame: the only code that sees both the simulation and the renderer.
+// World -> Frame: what the renderer is to draw of a state of the simulation.
 #pragma once
 
 #include <memory>

@@ -15,8 +15,8 @@ struct OtherName {
 
 std::span<const OtherName> other_names();
 
-/// "; write simulation.steps_per_second, which is 1 / dt", or nothing when the name is not among
-/// them.
+/// "; write simulation.steps_per_second (the inverse of the time step)", or nothing when the name
+/// is not among them.
 std::string meant_key(std::string_view name);
 
 }  // namespace pneuma::scenes

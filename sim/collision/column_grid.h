@@ -1,4 +1,4 @@
-// Vec3x4 along z over the bounds of a surface, seen from above: a square of them.
+// Columns along z over the bounds of a surface, seen from above: a square of them.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
-// The second search for contacts of two soft bodies: exhaustive, over a spatial subdivision, in
-// stead of the collision particles (the paper's section 7 names it as what to try next;
+// The second search for contacts of two soft bodies: exhaustive, over a spatial subdivision,
+// instead of the collision particles (the paper's section 7 names it as what to try next;
 // ERRATA row 45).
 //
 // What is tested and what follows from a contact is as with particles: the six feature tests of

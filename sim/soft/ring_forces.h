@@ -25,9 +25,9 @@ class RingForces {
   VertexArray rows_;
 };
 
-/// Fills `forces` from the coefficients of spring_coefficients(). Each is used from either end of
-/// its edge, so that spring forces cancel to the last bit but sums. The gradient is that of
-/// volume_gradient() (pressure_force.h), to rounding. Returns the volume in m^3.
+/// Fills `forces` from the coefficients of spring_coefficients(). Both ends of an edge use the same
+/// one: the two forces of a spring cancel exactly, and only their sums are rounded. The gradient is
+/// that of volume_gradient() (pressure_force.h), to rounding. Returns the volume in m^3.
 double gather_rings(const ForceTables& tables, const VertexArray& positions,
                     std::span<const double> coefficients, RingForces& forces);
 

@@ -29,7 +29,7 @@ struct StepWorkspace {
   FindContactsMemory find_contacts;
   ResolveContactsMemory resolve_contacts;
   DepenetrateMemory depenetrate;
-  std::optional<SweptMemory> swept;  // of a world whose contacts are
+  std::optional<SweptMemory> swept;  // if the world has swept contacts
 };
 
 }  // namespace pneuma::sim

@@ -194,7 +194,7 @@ class ColouredScatter : public Layout {
   VertexArray gradient_, force_;
 };
 
-/// Vec3x4 x, y, z: the loops over edges and rings gather single numbers, and the compiler
+/// Columns x, y, z: the loops over edges and rings gather single numbers, and the compiler
 /// vectorises what it can.
 class ColumnsWithGathers : public Layout {
  public:
