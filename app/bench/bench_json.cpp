@@ -17,16 +17,6 @@ json ratio_json(double fps, const std::optional<double>& paper_fps) {
   return paper_fps ? json(fps / *paper_fps) : json(nullptr);
 }
 
-json mean_contacts_json(const ContactTally& contacts) {
-  return {{"mean", contacts.mean(contacts.all)},
-          {"max", contacts.all.most},
-          {"mean_between_bodies", contacts.mean_between_bodies()},
-          {"share_of_steps_with_bodies_touching", contacts.touching_share()},
-          {"mean_by_kind", json_by_contact_kind([&](sim::ContactKind kind) {
-             return contacts.mean(contacts.of(kind));
-           })}};
-}
-
 json stages_json(const SceneTimes& scene) {
   return json_by_stage([&](sim::Stage stage) {
     const double share = scene.stage_shares[static_cast<std::size_t>(stage)];
@@ -50,7 +40,7 @@ json scene_json(const SceneTimes& scene) {
                  {"simulation_fps", spread_json(simulation)},
                  {"simulation_over_paper", ratio_json(simulation.median, scene.paper_fps)},
                  {"picture", nullptr},
-                 {"contacts_per_step", mean_contacts_json(scene.contacts)},
+                 {"contacts_per_step", contacts_per_step_json(scene.contacts)},
                  {"stage_shares", stages_json(scene)},
                  {"processor_share", scene.processor_share}};
   if (scene.frames) {

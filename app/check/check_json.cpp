@@ -32,16 +32,6 @@ json size_json(const WorldSize& size) {
           {"state_bytes", size.state_bytes}};
 }
 
-json contacts_json(const ContactTally& contacts) {
-  const auto count_json = [&](const ContactTally::Count& count) -> json {
-    return {{"mean", contacts.mean(count)}, {"max", count.most}};
-  };
-  json result =
-      json_by_contact_kind([&](sim::ContactKind kind) { return count_json(contacts.of(kind)); });
-  result["all"] = count_json(contacts.all);
-  return result;
-}
-
 json steps_json(const std::vector<StepAdvice>& steps) {
   json result = json::array();
   for (const StepAdvice& advice : steps) {
@@ -93,7 +83,7 @@ json run_statistics_json(const RunStatistics& run) {
         {"greatest_rise_at_s", run.energy_rise.time},
         {"all_rises", run.energy_rises},
         {"span", run.energy_span}}},
-      {"contacts_per_step", contacts_json(run.contacts)},
+      {"contacts_per_step", contacts_per_step_json(run.contacts)},
       {"volumes_m3", std::move(volumes)},
       {"free", run.free},
       {"momentum",

@@ -63,8 +63,7 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
                                  bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
   text += named_line(
       "run", fmt::format("{:g} s: {} steps, {} pictures", scene.duration,
-                         grouped(scenes::frame_count(scene) * (scene.settings.steps_per_second /
-                                                               scene.picture.frames_per_second)),
+                         grouped(scenes::frame_count(scene) * scenes::steps_per_frame(scene)),
                          grouped(scenes::frame_count(scene) + 1)));
   return text;
 }

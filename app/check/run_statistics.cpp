@@ -135,7 +135,7 @@ class Observer {
 RunStatistics run_statistics(const scenes::Scene& scene, int threads) {
   sim::World world = build_world(scene);
   sim::Stepper stepper(world, {.threads = threads, .plan = {}});
-  const int steps_per_frame = scene.settings.steps_per_second / scene.picture.frames_per_second;
+  const int steps_per_frame = scenes::steps_per_frame(scene);
   const std::int64_t all_steps = scenes::frame_count(scene) * steps_per_frame;
   Observer observer(world, all_steps);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "app/record/world_json.h"
+
 namespace pneuma::app {
 namespace {
 
@@ -56,5 +58,16 @@ double ContactTally::mean_between_bodies() const {
 }
 
 double ContactTally::touching_share() const { return ratio(touching_steps, steps); }
+
+nlohmann::json contacts_per_step_json(const ContactTally& contacts) {
+  const auto count_json = [&](const ContactTally::Count& count) -> nlohmann::json {
+    return {{"mean", contacts.mean(count)}, {"max", count.most}};
+  };
+  auto json = json_by_contact_kind([&](ContactKind kind) { return count_json(contacts.of(kind)); });
+  json["all"] = count_json(contacts.all);
+  json["mean_between_bodies"] = contacts.mean_between_bodies();
+  json["share_of_steps_with_bodies_touching"] = contacts.touching_share();
+  return json;
+}
 
 }  // namespace pneuma::app

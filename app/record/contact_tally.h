@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "sim/collision/contact.h"
@@ -38,5 +39,8 @@ struct ContactTally {
 
   const Count& of(sim::ContactKind kind) const { return by_kind[static_cast<std::size_t>(kind)]; }
 };
+
+/// Mean and maximum per step, of each kind and of all.
+nlohmann::json contacts_per_step_json(const ContactTally& contacts);
 
 }  // namespace pneuma::app

@@ -4,10 +4,6 @@
 #include <fmt/format.h>
 
 #include <ctime>
-#include <nlohmann/json.hpp>
-
-#include "app/host/machine.h"
-#include "app/host/version.h"
 
 namespace pneuma::app {
 
@@ -16,15 +12,7 @@ std::string utc_date() {
 }
 
 nlohmann::json provenance_json() {
-  const Machine here = machine();
-  const Version built = version();
-  return {{"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}},
-          {"program",
-           {{"version", built.program},
-            {"commit", built.commit},
-            {"compiler", built.compiler},
-            {"build_type", built.build_type},
-            {"flags", built.flags}}}};
+  return {{"machine", machine_json()}, {"program", program_json()}};
 }
 
 std::string provenance_text(const std::string& date) {

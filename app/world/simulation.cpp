@@ -58,7 +58,7 @@ Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads
     : scene_name_(scene.name),
       threads_(threads),
       on_divergence_(on_divergence),
-      steps_per_frame_(scene.settings.steps_per_second / scene.picture.frames_per_second),
+      steps_per_frame_(scenes::steps_per_frame(scene)),
       world_(std::move(world)),
       stepper_(world_, {.threads = threads, .profile = true, .plan = {}}) {}
 

@@ -39,6 +39,10 @@ std::int64_t frame_count(const Scene& scene) {
   return std::llround(scene.duration * scene.picture.frames_per_second);
 }
 
+int steps_per_frame(const Scene& scene) {
+  return scene.settings.steps_per_second / scene.picture.frames_per_second;
+}
+
 double estimated_memory_gib(std::int64_t vertices, std::int64_t copies) {
   // A closed mesh has about three edges and two triangles per vertex. Its topology, with feature
   // neighbours, is shared by the copies; state, integrator scratch and render buffers are not.

@@ -139,6 +139,9 @@ std::int64_t copy_count(const BodyScene& body);
 /// Frames of the whole run, without the one at time zero.
 std::int64_t frame_count(const Scene& scene);
 
+/// Steps from one frame to the next: a whole number in every valid scene.
+int steps_per_frame(const Scene& scene);
+
 /// A rough estimate, from the sizes of meshes, state and picture: within a factor of two or so.
 /// Without models.
 double estimated_memory_gib(const Scene& scene);

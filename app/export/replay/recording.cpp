@@ -12,7 +12,7 @@ Recorder::Recorder(const scenes::Scene& scene, const sim::World& world,
   recording_.name = scene.name;
   recording_.title = scene.title.empty() ? scene.name : scene.title;
   recording_.frames_per_second = scene.picture.frames_per_second;
-  recording_.steps_per_frame = scene.settings.steps_per_second / scene.picture.frames_per_second;
+  recording_.steps_per_frame = scenes::steps_per_frame(scene);
   recording_.aspect =
       static_cast<float>(scene.picture.width) / static_cast<float>(scene.picture.height);
 }

@@ -19,8 +19,7 @@ RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity&
   const auto& old = opened.unfinished;
   const Json header = old ? old->header : run_header(identity, run.scene, choose_camera());
   camera_ = camera_of(header);
-  const int steps_per_frame =
-      run.scene.settings.steps_per_second / run.scene.picture.frames_per_second;
+  const int steps_per_frame = scenes::steps_per_frame(run.scene);
   Continuation from =
       old ? find_continuation(folder, *old, identity, run.start, run.frames.first, steps_per_frame)
           : Continuation{run.frames.first, run.start, 0, ""};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/host/command_line.h"
-#include "app/host/machine.h"
 #include "app/host/version.h"
 #include "app/record/contact_tally.h"
 #include "app/record/provenance.h"
@@ -32,12 +31,11 @@ Json contacts_json(std::span<const sim::Contact> contacts) {
   return json;
 }
 
-Json program_json() {
-  const Version built = version();
-  Json libraries = Json::object();
-  for (const auto& [name, number] : library_versions()) libraries[name] = number;
-  return {{"version", built.program},       {"commit", built.commit}, {"compiler", built.compiler},
-          {"build_type", built.build_type}, {"flags", built.flags},   {"libraries", libraries}};
+Json program_with_libraries() {
+  Json program = program_json<Json>();
+  program["libraries"] = Json::object();
+  for (const auto& [name, number] : library_versions()) program["libraries"][name] = number;
+  return program;
 }
 
 }  // namespace
@@ -76,7 +74,7 @@ Json run_header(const Json& identity, const scenes::Scene& scene, const render::
             {"target", vector_json<Json>(camera.target)},
             {"field_of_view", camera.field_of_view}}},
           {"scene_toml", scenes::print_scene(scene)},
-          {"program", program_json()}};
+          {"program", program_with_libraries()}};
 }
 
 render::Camera camera_of(const Json& header) {
@@ -118,13 +116,12 @@ Json present_header(const JournalContents& journal) {
 }
 
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
-  const Machine here = machine();
   return {{"launch",
            {{"date", utc_date()},
             {"command_line", shell_line(command_line)},
             {"first_frame", from},
             {"threads", threads},
-            {"machine", {{"cpu", here.cpu}, {"cores", here.cores}, {"os", here.os}}}}}};
+            {"machine", machine_json<Json>()}}}};
 }
 
 FrameState FrameRecorder::state(const Simulation& simulation) {

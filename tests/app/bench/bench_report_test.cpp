@@ -151,8 +151,8 @@ TEST(BenchJson, SaysTheSameForMachines) {
   EXPECT_NEAR(scene["simulation_fps"]["median"], 10'000.0, 1e-9 * 10'000.0);
   EXPECT_NEAR(scene["simulation_over_paper"], 200.0, 1e-9 * 200.0);
   EXPECT_NEAR(scene["picture"]["over_paper"], 4.0, 1e-9 * 4.0);
-  EXPECT_EQ(scene["contacts_per_step"]["max"], 3);
-  EXPECT_EQ(scene["contacts_per_step"]["mean_by_kind"]["soft_soft"], 1.5);
+  EXPECT_EQ(scene["contacts_per_step"]["all"]["max"], 3);
+  EXPECT_EQ(scene["contacts_per_step"]["soft_soft"]["mean"], 1.5);
   EXPECT_EQ(json["date"], "2026-01-02T03:04:05Z");
   EXPECT_TRUE(json["machine"]["cpu"].is_string());
   EXPECT_TRUE(json["program"]["build_type"].is_string());

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "app/record/world_json.h"
 #include "app/world/build_world.h"
 #include "app/world/find_scene.h"
 #include "scenes/loader/integrator_names.h"
@@ -138,7 +139,7 @@ void write_golden_states(const std::vector<GoldenSection>& sections, std::ostrea
     for (const std::string& system : section.systems) out << system_word << system << '\n';
     for (const GoldenState& s : section.states) {
       out << fmt::format("{:30} {:16} {:4} {} {:13.8g} {:11.7g} {:.3g}\n", s.scene, s.integrator,
-                         s.steps, hash_text(s.hash), s.energy, s.volume, s.penetration);
+                         s.steps, hex(s.hash), s.energy, s.volume, s.penetration);
     }
   }
 }
@@ -162,7 +163,5 @@ void record_states(const std::string& system, const std::vector<GoldenState>& st
   }
   sections.push_back({{system}, states});
 }
-
-std::string hash_text(std::uint64_t hash) { return fmt::format("0x{:016x}", hash); }
 
 }  // namespace pneuma::app

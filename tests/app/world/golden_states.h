@@ -52,7 +52,4 @@ const GoldenSection* section_of(const std::vector<GoldenSection>& sections,
 void record_states(const std::string& system, const std::vector<GoldenState>& states,
                    std::vector<GoldenSection>& sections);
 
-/// "0x0123456789abcdef".
-std::string hash_text(std::uint64_t hash);
-
 }  // namespace pneuma::app

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "app/record/world_json.h"
 #include "sim/base/file.h"
 #include "tests/app/world/golden_states.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 void print(const char* which, const GoldenState& state) {
   fmt::print("  {:3} {:4} steps {} {:16.8g} J {:13.7g} m^3 {:10.3g} m\n", which, state.steps,
-             hash_text(state.hash), state.energy, state.volume, state.penetration);
+             hex(state.hash), state.energy, state.volume, state.penetration);
 }
 
 /// Returns whether it changed.

@@ -59,7 +59,7 @@ TEST_F(RunLogOfABall, GoesOnAfterTheLastFrameWithItsOwnCamera) {
   RunLog log = open(ExistingRun::resume, 7.0f);
   EXPECT_EQ(log.next_frame(), 2);
   EXPECT_EQ(log.camera().eye.x(), 3.0f);
-  EXPECT_EQ(log.world().steps, scene_.settings.steps_per_second / scene_.picture.frames_per_second);
+  EXPECT_EQ(log.world().steps, scenes::steps_per_frame(scene_));
 }
 
 TEST_F(RunLogOfABall, BecomesARecordWhenItIsClosed) {
