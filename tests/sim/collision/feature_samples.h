@@ -111,15 +111,40 @@ class FeatureSampler {
 
   static constexpr int relations = 11;
 
-  /// A pair of features of so many corners, in one of the relations below.
+  /// A pair of features of so many corners, in one of the relations of relate().
   FeaturePair sample(std::size_t first_size, std::size_t second_size, int relation) {
     Points a = points(first_size, 1.0);
     Points b = points(second_size, 1.0);
+    const double reach = relate(a, b, relation);
+    double scale = 0.0;
+    for (const Points* points : {&a, &b}) {
+      for (const Vec3& p : *points) scale = std::max(scale, p.cwiseAbs().maxCoeff());
+    }
+    const double sine = std::min(sine_of_sliver(a), sine_of_sliver(b));
+    // Distances are differences of coordinates, so they carry a few units in the last place of the
+    // largest one: 2^-53 times about 50 operations. The normal of a sliver magnifies them; one
+    // thinner than 1e-8 counts as its edges.
+    const double tolerance = scale * std::min(5e-15 / sine, 2e-8);
+    return {a, b, reach, tolerance};
+  }
+
+  double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
+
+  /// In the cube from -1 to 1.
+  Vec3 point() {
+    const double x = 2.0 * unit() - 1.0;
+    const double y = 2.0 * unit() - 1.0;
+    return {x, y, 2.0 * unit() - 1.0};
+  }
+
+ private:
+  /// Brings the features into a relation and returns the reach to test them with.
+  double relate(Points& a, Points& b, int relation) {
     double reach = 1.0;
     switch (relation) {
       case 0:  // anywhere, of the paper's proportions: edges of 1 to 3 units, reach 1
-        a = points(first_size, 1.5);
-        b = points(second_size, 1.5);
+        a = points(a.size(), 1.5);
+        b = points(b.size(), 1.5);
         move(b, 3.0 * point());
         break;
       case 1:  // anywhere, reach small beside the features
@@ -147,17 +172,9 @@ class FeatureSampler {
         for (Vec3& p : b) p = grid_point();
         reach = std::sqrt(unit() * 4.0);
         break;
-      case 7: {  // far from the origin, at any size
-        const double size = std::pow(10.0, -3.0 + 6.0 * unit());
-        for (Points* points : {&a, &b}) {
-          for (Vec3& p : *points) p *= size;
-        }
-        const Vec3 origin = std::pow(10.0, 6.0 * unit()) * size * point();
-        move(a, origin);
-        move(b, origin + size * point());
-        reach = size;
+      case 7:  // far from the origin, at any size
+        reach = place_far_away(a, b);
         break;
-      }
       case 8:  // slivers: collapsed but for 1e-16 to 1e-2
         for (Points* points : {&a, &b}) {
           if (unit() < 0.7) collapse(*points);
@@ -171,44 +188,40 @@ class FeatureSampler {
         move(b, inside(a) - inside(b));
         reach = unit() < 0.5 ? 1.0 : 1e-6;
         break;
-      case 10: {  // slivers right above or through each other
-        for (Points* points : {&a, &b}) {
-          for (std::size_t i = 2; i < points->size(); ++i) {
-            (*points)[i] = (*points)[0] + unit() * ((*points)[1] - (*points)[0]) +
-                           std::pow(10.0, -12.0 + 12.0 * unit()) * point();
-          }
-        }
-        const Vec3 normal = (b.back() - b.front()).cross(b[b.size() / 2] - b.front());
-        const double gap = unit() < 0.5 ? 0.0 : std::pow(10.0, -3.0 * unit());
-        const double length = normal.norm();
-        move(b, inside(a) - inside(b) + gap / std::max(length, 1e-30) * normal);
+      case 10:  // slivers right above or through each other
+        lay_slivers_together(a, b);
         break;
-      }
       default:
         break;
     }
-    double scale = 0.0;
-    for (const Points* points : {&a, &b}) {
-      for (const Vec3& p : *points) scale = std::max(scale, p.cwiseAbs().maxCoeff());
+    return reach;
+  }
+
+  /// Returns their size.
+  double place_far_away(Points& a, Points& b) {
+    const double size = std::pow(10.0, -3.0 + 6.0 * unit());
+    for (Points* points : {&a, &b}) {
+      for (Vec3& p : *points) p *= size;
     }
-    const double sine = std::min(sine_of_sliver(a), sine_of_sliver(b));
-    // Distances are differences of coordinates, so they carry a few units in the last place of the
-    // largest one: 2^-53 times about 50 operations. The normal of a sliver magnifies them; one
-    // thinner than 1e-8 counts as its edges.
-    const double tolerance = scale * std::min(5e-15 / sine, 2e-8);
-    return {a, b, reach, tolerance};
+    const Vec3 origin = std::pow(10.0, 6.0 * unit()) * size * point();
+    move(a, origin);
+    move(b, origin + size * point());
+    return size;
   }
 
-  double unit() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
-
-  /// In the cube from -1 to 1.
-  Vec3 point() {
-    const double x = 2.0 * unit() - 1.0;
-    const double y = 2.0 * unit() - 1.0;
-    return {x, y, 2.0 * unit() - 1.0};
+  void lay_slivers_together(Points& a, Points& b) {
+    for (Points* points : {&a, &b}) {
+      for (std::size_t i = 2; i < points->size(); ++i) {
+        (*points)[i] = (*points)[0] + unit() * ((*points)[1] - (*points)[0]) +
+                       std::pow(10.0, -12.0 + 12.0 * unit()) * point();
+      }
+    }
+    const Vec3 normal = (b.back() - b.front()).cross(b[b.size() / 2] - b.front());
+    const double gap = unit() < 0.5 ? 0.0 : std::pow(10.0, -3.0 * unit());
+    const double length = normal.norm();
+    move(b, inside(a) - inside(b) + gap / std::max(length, 1e-30) * normal);
   }
 
- private:
   Points points(std::size_t count, double size) {
     Points result(count);
     for (Vec3& p : result) p = size * point();
