@@ -17,7 +17,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Of the longer of its two times: steps are looked at from `finest` to `longest` in turn, then
 /// halved. No integrator here becomes stable again beyond its limit. A motion damped so that it
-/// just does not swing decays at half the rate `decay`: rk4 bears 2 x 2.79.
+/// just does not swing decays at half the rate `decay`: rk4 is stable up to 2 x 2.79.
 constexpr double finest = 0.01;
 constexpr double longest = 8.0;
 constexpr int halvings = 30;

@@ -26,7 +26,7 @@ struct Rule {
 };
 
 const std::vector<Rule> rules = {
-    // The floor: files, hashes, text, exact predicates. Everything may stand on it.
+    // Files, hashes, text, exact predicates, which everything may include.
     {"sim/base", {}},
     // Plain data of meshes, then of the world, without the code that steps it.
     {"sim/mesh", {"sim/base"}},
@@ -137,8 +137,8 @@ TEST(IncludeRules, NoFoldersIncludeEachOtherInACycle) {
   EXPECT_EQ(cycle, "");
 }
 
-// A folder is not a drawer. Scene files are left out: there is one for each scene, and no reader
-// goes through them to find his way.
+// In a folder of more a file is not found at a glance. Scene files are left out: there is one for
+// each scene, and no reader goes through them to find his way.
 TEST(Folders, HaveAtMostFortyFilesOfTheirOwn) {
   std::map<std::string, int> files;
   for (const char* top : {"sim", "render", "scenes", "assets", "app", "tests", "scripts"}) {

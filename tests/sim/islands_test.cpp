@@ -1,4 +1,4 @@
-// Which contacts hang together, against a search through all pairs of them; vertices alone on the
+// Islands of contacts, against a search through all pairs of them; vertices alone on the
 // ground, against the impulses of all other contacts.
 #include <gtest/gtest.h>
 

@@ -87,7 +87,7 @@ TEST(OverlappingPair, IsClearWhereTheLineBetweenTheCentresLeavesBoth) {
   }
 }
 
-// Parting.
+// Moving a pair apart.
 
 World two_spheres(const Vec3& between) {
   World world = isolated();
@@ -124,7 +124,7 @@ Vec3 centre_of_mass(const World& world) {
 
 constexpr double rounding = 1e-12;  // of sums over 116 vertices, relative
 
-TEST(Parting, MovesPlacesWithoutEnergyOrMomentum) {
+TEST(DepenetratePairs, MovesPlacesWithoutEnergyOrMomentum) {
   for (const bool ground : {false, true}) {
     World world = two_spheres({1.0, 0.5, -0.3});
     for (SoftBody& body : world.soft) body.velocities.rows().setZero();
@@ -148,7 +148,7 @@ TEST(Parting, MovesPlacesWithoutEnergyOrMomentum) {
   }
 }
 
-TEST(Parting, StopsTheApproachLikeClay) {
+TEST(DepenetratePairs, StopsTheApproachLikeClay) {
   World world = two_spheres({1.0, 0.5, -0.3});
   const World before = world;
   part(world, 0.0);  // velocities only
@@ -169,7 +169,7 @@ TEST(Parting, StopsTheApproachLikeClay) {
               rounding * energy(before).kinetic);
 }
 
-TEST(Parting, LeavesBodiesThatPartAloneTheirVelocities) {
+TEST(DepenetratePairs, LeavesBodiesThatPartAloneTheirVelocities) {
   World world = two_spheres({-1.0, 0.5, -0.3});
   const World before = world;
   part(world, 0.1);
@@ -197,7 +197,7 @@ TEST(Depenetrate, PartsTwoBodiesInOnePlaceWithinASecond) {
   EXPECT_GT((mean(world.soft[0].positions) - mean(world.soft[1].positions)).norm(), 6.0);
 }
 
-TEST(Depenetrate, TakesAsLongAsItTakesAtARadiusPerSeparationTime) {
+TEST(Depenetrate, TakesAsLongAsItTakesAtARadiusPerRelaxationTime) {
   // Each goes half of two radii and a skin, at a radius in 0.1 s, less the last part: some 0.12 s.
   // The radius of the bounding sphere, and the gas, make it a little more.
   World world = in_one_place(2, 3.5);

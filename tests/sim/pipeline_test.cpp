@@ -234,7 +234,7 @@ TEST(Resting, ImpulsesOfAStackCarryTheWeightAboveThem) {
   }
   for (int i = 0; i < 10; ++i) {
     const double weight = (10 - i) * 9.81 / 60.0;
-    // Drag takes a hundredth of what gravity gave in the step; sweeps end at 1e-6.
+    // Drag takes a hundredth of what gravity gave in the step; iterations end at 1e-6.
     EXPECT_NEAR(carried[at(i)] / weight, 0.99, 1e-3) << i;
   }
 }

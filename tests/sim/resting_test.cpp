@@ -42,7 +42,7 @@ TEST_P(Stack, OfTenCubesStands) {
     }
     overlap = std::max(overlap, max_penetration(world));
   }
-  // The first steps start from no impulses, and ten sweeps do not carry the weight of ten cubes
+  // The first steps start from no impulses, and ten iterations do not carry the weight of ten cubes
   // from the ground up: the stack sags by 2 cm, by 4.5 cm after a fall of 10 cm in all, and leans
   // by up to 8 mm a cube before it is held.
   EXPECT_LT(sideways, 0.1);
@@ -121,7 +121,7 @@ TEST(RigidRest, ACubeReboundsWithTheRestitution) {
     world.rigid[0].surface.restitution = 0.0;
     const double impact = step_until_contact(world, 0).velocity.z();
     EXPECT_LT(impact, -5.0);
-    // The four corners are corrected in turns, for ten sweeps: 2e-4 of the impulse are left.
+    // The four corners are corrected in turns, in ten iterations: 2e-4 of the impulse are left.
     EXPECT_NEAR(world.rigid[0].velocity.z(), -epsilon * impact, 2e-3);
   }
 }

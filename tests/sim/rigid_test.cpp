@@ -170,9 +170,9 @@ TEST(RigidCollision, HeadOnFollowsTheClosedForm) {
   // Momentum is kept and the speed of parting is epsilon times that of approach:
   // v0' = (m0 u0 + m1 u1 + m1 epsilon (u1 - u0)) / (m0 + m1), and likewise for v1'.
   // The four points of the faces are corrected in turns: until the corrections are 1e-6 of the
-  // impulse, or for the default ten sweeps.
+  // impulse, or for the default ten iterations.
   struct Accuracy {
-    int sweeps;
+    int iterations;
     double tolerance;
   };
   for (const Accuracy accuracy :
@@ -182,7 +182,7 @@ TEST(RigidCollision, HeadOnFollowsTheClosedForm) {
         World world = make_free_boxes({make_rigid({1.0, 1.0, 1.0}, {-1.0, 0.0, 0.0}),
                                        make_rigid({1.0, 1.0, 1.0}, {1.0, 0.0, 0.0}, m1)},
                                       epsilon);
-        world.settings.contact_iterations = accuracy.sweeps;
+        world.settings.contact_iterations = accuracy.iterations;
         const double u0 = 3.0, u1 = -1.0;
         world.rigid[0].velocity.x() = u0;
         world.rigid[1].velocity.x() = u1;

@@ -31,7 +31,7 @@ std::string cube(double mass, const std::string& position) {
 }
 
 void add_materials(std::vector<ExtremeCase>& cases) {
-  // rk4 bears k up to about 10^3 N/m at 1/60 s, and springs below 0.6 k_max (400 N/m).
+  // rk4 is stable up to k of about 10^3 N/m at 1/60 s, and springs below 0.6 k_max (400 N/m).
   for (const auto& [k, outcomes] : {std::pair{"0.0", stays_valid},
                                     {"1.0", stays_valid},
                                     {"100.0", stays_valid},
@@ -62,7 +62,8 @@ void add_materials(std::vector<ExtremeCase>& cases) {
                      .explicit_outcomes = outcomes});
   }
   cases.push_back({.name = "rho_g = 0", .scene = sphere("n = 1.0\nrho_g = 0.0")});
-  // Drag at the rate -60 ln(0.001) = 414 1/s, of which rk4 bears 2.79 in a step: 167 1/s at 1/60 s.
+  // Drag at the rate -60 ln(0.001) = 414 1/s, of which rk4 is stable up to 2.79 in a step: 167 1/s
+  // at 1/60 s.
   cases.push_back({.name = "rho_g = 0.999",
                    .scene = sphere("n = 1.0\nrho_g = 0.999"),
                    .explicit_outcomes = diverged});

@@ -89,7 +89,7 @@ void add_stability_study(CLI::App& study, Action& action,
   const auto typed = std::make_shared<StabilityArguments>();
   typed->scenes = {"one_sphere"};
   CLI::App* command = study.add_subcommand(
-      "stability", "The longest step that each integrator bears, found and predicted");
+      "stability", "The longest stable step of each integrator, found and predicted");
   command
       ->add_option("scene", typed->scenes,
                    "Scene files or names, of whose first soft body [one_sphere]")

@@ -117,7 +117,7 @@ class Study {
     }
   }
 
-  bool bears(Integrator integrator, double k) {
+  bool is_stable(Integrator integrator, double k) {
     say_(fmt::format("{}, k = {:g} at 1/{} s", integrator_name(integrator), k, usual_rate));
     return try_step(stiff_world(k), integrator, usual_rate, study_.options.trial).verdict ==
            Verdict::stable;
@@ -126,12 +126,12 @@ class Study {
   void find_stiffness_limit(Integrator integrator) {
     auto [least, greatest] = std::ranges::minmax(study_.options.k);
     StiffnessLimit limit{integrator};
-    if (bears(integrator, greatest)) {
+    if (is_stable(integrator, greatest)) {
       limit = {integrator, greatest, true};
-    } else if (bears(integrator, least)) {
+    } else if (is_stable(integrator, least)) {
       while (greatest > k_precision * least) {
         const double middle = std::sqrt(least * greatest);
-        (bears(integrator, middle) ? least : greatest) = middle;
+        (is_stable(integrator, middle) ? least : greatest) = middle;
       }
       limit.k = least;
     }

@@ -1,5 +1,5 @@
-// `pneuma study stability`: the longest step that each integrator bears, found by trying, beside
-// the one that theory predicts (sim/soft/stability_limit.h).
+// `pneuma study stability`: the longest stable step of each integrator, found by trying, beside the
+// one that theory predicts (sim/soft/stability_limit.h).
 //
 // One soft body of a scene, alone and at rest under its springs and gas, is given a little motion.
 // One thing at a time is varied: the spring constant, the gas, the vertices' mass, the fineness of
@@ -36,7 +36,7 @@ struct StabilityPoint {
   bool unlimited() const { return stable_rate == fewest_steps_per_second; }
 };
 
-/// The max. k that an integrator bears at 1/60 s, to 5 %.
+/// The max. k at which an integrator is stable at 1/60 s, to 5 %.
 struct StiffnessLimit {
   sim::Integrator integrator;
   double k = 0.0;          // N/m; 0 when not even the min. one tried

@@ -21,7 +21,7 @@ struct StepCost {
 
 /// Of a free body, which its gas blows up and lets swing for a second from there on, in steps of
 /// 1/60 s: the paper's sphere and torus, and spheres of 2,562 and 10,242 vertices; `few`: the first
-/// two. Finer bodies are as heavy as a whole, of softer springs, so that rk4 bears the step.
+/// two. Finer bodies are as heavy as a whole, of softer springs, so that rk4 is stable.
 std::vector<StepCost> measure_step_costs(bool few,
                                          const std::function<void(const std::string&)>& say);
 
