@@ -27,6 +27,10 @@ BoundingSphere bounding_sphere(const OrientedBox& box, double margin) {
   return {box.centre, box.half.norm() + margin};
 }
 
+BoundingSphere printed_bounding_sphere(const Bounds& bounds) {
+  return {bounds.centre(), 0.5 * (bounds.high - bounds.low).norm()};
+}
+
 bool overlap(const BoundingSphere& a, const BoundingSphere& b) {
   const double reach = a.radius + b.radius;
   return (a.centre - b.centre).squaredNorm() <= reach * reach;

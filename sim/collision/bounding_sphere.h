@@ -24,6 +24,9 @@ BoundingSphere bounding_sphere(const VertexArray& positions, double margin);
 BoundingSphere bounding_sphere(const VertexArray& positions, const Bounds& bounds, double margin);
 BoundingSphere bounding_sphere(const OrientedBox& box, double margin);
 
+/// As printed: about the centre of the bounding box, out to its corners.
+BoundingSphere printed_bounding_sphere(const Bounds& bounds);
+
 bool overlap(const BoundingSphere& a, const BoundingSphere& b);
 /// Whether they share a point, if only of their sides.
 bool overlap(const Bounds& a, const Bounds& b);

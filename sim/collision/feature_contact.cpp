@@ -33,7 +33,8 @@ std::optional<Proximity> test_ordered(const SurfaceView& low, Feature low_featur
   return test_triangle_triangle(triangle_corners(low, l), triangle_corners(high, h), reach);
 }
 
-/// The part of a feature as a feature of the mesh.
+}  // namespace
+
 Feature part_of(const MeshTopology& topology, Feature feature, FeaturePart part) {
   if (part.kind == feature.kind) return feature;
   const auto i = at(part.index);
@@ -42,8 +43,6 @@ Feature part_of(const MeshTopology& topology, Feature feature, FeaturePart part)
   }
   return {FeatureKind::edge, topology.triangle_edges()[at(feature.index)][i]};
 }
-
-}  // namespace
 
 Vec3 contact_normal(const SurfaceView& first, const SurfaceView& second,
                     const FeatureContact& contact) {

@@ -14,6 +14,11 @@ ContactSide vertex_side(int soft, int vertex) {
 
 ContactSide box_side(int rigid) { return {SideKind::rigid, rigid, {}}; }
 
+/// m by which what is inside is to be moved out.
+double depth_of(const Settings& settings, double depth) {
+  return is_as_printed(settings) ? settings.skin_thickness : depth;
+}
+
 /// Vertices of the soft body inside the box, in ascending order.
 void find_vertices_in_box(const World& world, const PlacedBox& placed, int soft, int rigid,
                           const VertexColumns& columns, std::vector<Contact>& contacts) {
@@ -24,8 +29,8 @@ void find_vertices_in_box(const World& world, const PlacedBox& placed, int soft,
     const Vec3 vertex = positions[v];
     if ((vertex - placed.box.centre).squaredNorm() > squared_radius) return;
     if (const auto exit = find_box_exit(placed.box, vertex)) {
-      contacts.push_back(
-          {vertex_side(soft, v), box_side(rigid), vertex, exit->normal, exit->depth});
+      contacts.push_back({vertex_side(soft, v), box_side(rigid), vertex, exit->normal,
+                          depth_of(world.settings, exit->depth)});
     }
   });
   std::sort(contacts.begin() + found, contacts.end(), [](const Contact& a, const Contact& b) {
@@ -43,7 +48,7 @@ void find_corners_in_surface(const World& world, const PlacedBox& placed, int so
                           {SideKind::soft, soft, {FeatureKind::triangle, exit->triangle}},
                           corner,
                           exit->normal,
-                          exit->depth});
+                          depth_of(world.settings, exit->depth)});
     }
   }
 }
@@ -114,6 +119,30 @@ void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
     contacts.push_back({box_side(first), box_side(second), point.point, contact->normal,
                         depth - resting.overlap, std::max(0.0, -depth)});
   }
+}
+
+void find_printed_rigid_ground(std::span<const PlacedBox> boxes, int rigid,
+                               std::vector<Contact>& contacts) {
+  Vec3 sum = Vec3::Zero();
+  double lowest = 0.0;
+  int below = 0;
+  for (const Vec3& corner : corners(boxes[at(rigid)].box)) {
+    if (!(corner.z() < 0.0)) continue;
+    sum += corner;
+    lowest = std::min(lowest, corner.z());
+    ++below;
+  }
+  if (below > 0) contacts.push_back({box_side(rigid), {}, sum / below, Vec3::UnitZ(), -lowest});
+}
+
+void find_printed_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
+                              std::vector<Contact>& contacts) {
+  const auto contact = find_box_contact(boxes[at(first)].box, boxes[at(second)].box);
+  if (!contact) return;
+  Vec3 sum = Vec3::Zero();
+  for (const BoxContactPoint& point : contact->points()) sum += point.point;
+  contacts.push_back(
+      {box_side(first), box_side(second), sum / contact->count, contact->normal, contact->depth});
 }
 
 }  // namespace pneuma::sim

@@ -55,7 +55,8 @@ void find_soft_ground(const World& world, int soft, std::vector<Contact>& contac
 void find_rigid_ground(std::span<const PlacedBox> boxes, int rigid, std::vector<Contact>& contacts);
 
 /// Vertices of the soft body inside the box, then corners of the box inside the soft body. Each is
-/// to come out through the nearest face or triangle (ERRATA rows 22, 49, 50). `columns` filled from
+/// to come out through the nearest face or triangle (ERRATA rows 22, 49, 50); as printed, to move
+/// that way by the skin thickness. `columns` filled from
 /// the soft body's surface.
 void find_soft_rigid(const World& world, std::span<const PlacedBox> boxes, int soft, int rigid,
                      const SurfaceColumns& columns, std::vector<Contact>& contacts);
@@ -63,5 +64,12 @@ void find_soft_rigid(const World& world, std::span<const PlacedBox> boxes, int s
 /// The points in which two boxes touch along their axis of minimal penetration.
 void find_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
                       std::vector<Contact>& contacts);
+
+// The same between boxes and the ground as printed: a pair of bodies collides once, at the middle
+// of its points, as deeply as the deepest, without a margin (ERRATA rows 18, 34, 63 and 68).
+void find_printed_rigid_ground(std::span<const PlacedBox> boxes, int rigid,
+                               std::vector<Contact>& contacts);
+void find_printed_rigid_rigid(std::span<const PlacedBox> boxes, int first, int second,
+                              std::vector<Contact>& contacts);
 
 }  // namespace pneuma::sim

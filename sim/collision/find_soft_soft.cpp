@@ -18,16 +18,27 @@ BoundingSphere bounding_sphere(const SurfaceView& surface, int feature_id, doubl
   return {to_vec3(centre), std::sqrt(squared) + margin};
 }
 
+bool is_vertex_triangle(const FeatureContact& contact) {
+  return contact.first.kind != contact.second.kind && contact.first.kind != FeatureKind::edge &&
+         contact.second.kind != FeatureKind::edge;
+}
+
+/// Of a vertex over a triangle along the normal; below 0 behind it.
+double height_over_triangle(const FeatureContact& contact) {
+  return (contact.first_point - contact.second_point).dot(contact.normal);
+}
+
 /// How much a vertex and a triangle are to be moved apart so that the skin thickness lies between
 /// them; the distance counts along the normal, so that a vertex behind the triangle is brought
 /// back.
 double separation_depth(const FeatureContact& contact, double skin_thickness) {
-  const bool vertex_triangle = contact.first.kind != contact.second.kind &&
-                               contact.first.kind != FeatureKind::edge &&
-                               contact.second.kind != FeatureKind::edge;
-  if (!vertex_triangle) return 0.0;
-  const double height = (contact.first_point - contact.second_point).dot(contact.normal);
-  return skin_thickness - height;
+  return is_vertex_triangle(contact) ? skin_thickness - height_over_triangle(contact) : 0.0;
+}
+
+/// As printed: a vertex that intersects, that is lies behind the triangle, is moved by the skin
+/// thickness (ERRATA rows 60 and 68).
+double printed_depth(const FeatureContact& contact, double skin_thickness) {
+  return is_vertex_triangle(contact) && height_over_triangle(contact) < 0.0 ? skin_thickness : 0.0;
 }
 
 std::uint64_t number_of(const SurfaceView& first, const SurfaceView& second,
@@ -61,17 +72,19 @@ void find_soft_soft(const World& world, const ParticlePair& pair, SoftSoftScratc
 
   std::vector<std::uint64_t>& known = scratch.known;
   known.clear();
+  const bool as_printed = is_as_printed(world.settings);
+  const auto find = as_printed ? find_printed_contact : find_touching_parts;
   for (const int first_feature : pair.first_features) {
     const auto test = [&](std::size_t i) {
-      auto found =
-          find_touching_parts(first, first.topology.feature(first_feature), second,
-                              second.topology.feature(pair.second_features[i]), 2.0 * skin);
+      auto found = find(first, first.topology.feature(first_feature), second,
+                        second.topology.feature(pair.second_features[i]), 2.0 * skin);
       if (!found) return;
       const std::uint64_t number = number_of(first, second, *found);
       if (std::find(known.begin(), known.end(), number) != known.end()) return;
       known.push_back(number);
-      found->normal = contact_normal(first, second, *found);
+      if (!as_printed) found->normal = contact_normal(first, second, *found);
       contacts.push_back(soft_soft_contact(pair.first, pair.second, *found, skin));
+      if (as_printed) contacts.back().depth = printed_depth(*found, skin);
     };
     const BoundingSphere sphere = bounding_sphere(first, first_feature, skin);
     for (std::size_t i = 0; i < scratch.second.size(); i += 4) {

@@ -54,4 +54,12 @@ void move_freely(RigidBox& box, const Vec3& gravity, double step) {
   box.angular_velocity *= kept;
 }
 
+void move_as_printed(RigidBox& box, const Vec3& gravity, double step) {
+  box.velocity += step * gravity;
+  box.position += step * box.velocity;
+  box.orientation = turned(box.orientation, box.angular_velocity * step);
+  box.velocity *= 1.0 - box.rho_g;
+  box.angular_velocity *= 1.0 - box.rho_g;
+}
+
 }  // namespace pneuma::sim

@@ -15,18 +15,21 @@ namespace {
 /// within the speculative margin.
 void make_spheres(const World& world, std::vector<BoundingSphere>& spheres,
                   std::vector<Bounds>& soft_bounds, Workers& workers) {
+  const bool as_printed = is_as_printed(world.settings);
   spheres.resize(world.soft.size());
   soft_bounds.resize(world.soft.size());
   const auto block = [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
       const VertexArray& positions = world.soft[at(i)].positions;
       const Bounds& around = soft_bounds[at(i)] = bounds(positions);
-      spheres[at(i)] = bounding_sphere(positions, around, world.settings.skin_thickness);
+      spheres[at(i)] = as_printed
+                           ? printed_bounding_sphere(around)
+                           : bounding_sphere(positions, around, world.settings.skin_thickness);
     }
   };
   workers.for_blocks(static_cast<int>(world.soft.size()), block);
   for (const RigidBox& box : world.rigid) {
-    const double margin = resting_lengths(box.size.minCoeff()).margin;
+    const double margin = as_printed ? 0.0 : resting_lengths(box.size.minCoeff()).margin;
     spheres.push_back({box.position, 0.5 * box.size.norm() + margin});
   }
 }
@@ -150,7 +153,9 @@ void broad_phase(World& world, const Plan& plan, PairStart& start, NearBodies& n
   make_spheres(world, near_bodies.spheres, near_bodies.soft_bounds, workers);
   memory.sweep_and_prune.find(near_bodies.spheres, memory.pairs);
   sort_by_kind(memory.pairs, static_cast<int>(world.soft.size()), near_bodies);
-  leave_out_separate(world, near_bodies, memory.is_separate, workers);
+  if (!is_as_printed(world.settings)) {
+    leave_out_separate(world, near_bodies, memory.is_separate, workers);
+  }
   if (plan.runs(Stage::depenetrate)) set_overlapping_aside(world, start, near_bodies, memory);
   if (world.settings.soft_search == SoftSearch::particles) mark_near(world, near_bodies.soft_pairs);
 }

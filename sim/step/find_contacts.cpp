@@ -23,8 +23,10 @@ class ContactSearch {
   }
 
   void find_rigid_with_ground() {
+    const auto find =
+        is_as_printed(world_.settings) ? find_printed_rigid_ground : find_rigid_ground;
     find_all(world_.rigid.size(),
-             [&](int i, int, auto& contacts) { find_rigid_ground(memory_.boxes, i, contacts); });
+             [&](int i, int, auto& contacts) { find(memory_.boxes, i, contacts); });
   }
 
   void find_between_soft() {
@@ -63,9 +65,10 @@ class ContactSearch {
   }
 
   void find_between_rigid() {
+    const auto find = is_as_printed(world_.settings) ? find_printed_rigid_rigid : find_rigid_rigid;
     find_all(near_.rigid_pairs.size(), [&](int i, int, auto& contacts) {
       const auto& [first, second] = near_.rigid_pairs[at(i)];
-      find_rigid_rigid(memory_.boxes, first, second, contacts);
+      find(memory_.boxes, first, second, contacts);
     });
   }
 

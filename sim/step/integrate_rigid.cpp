@@ -5,7 +5,8 @@ namespace pneuma::sim {
 namespace {
 
 std::optional<Divergence> integrate(const World& world, RigidBox& box) {
-  move_freely(box, world.settings.gravity, time_step(world.settings));
+  const auto move = is_as_printed(world.settings) ? move_as_printed : move_freely;
+  move(box, world.settings.gravity, time_step(world.settings));
   if (box.position.allFinite() && box.orientation.coeffs().allFinite() &&
       box.velocity.allFinite() && box.angular_velocity.allFinite()) {
     return std::nullopt;

@@ -72,6 +72,9 @@ Plan make_plan(const World& world) {
       world.soft, [](const SoftBody& body) { return has_filled_centre(*body.mesh); });
   item(plan, Stage::depenetrate) =
       needs(filled > 1, "fewer than two soft bodies that are filled at their centre");
+  if (is_as_printed(world.settings)) {
+    item(plan, Stage::depenetrate) = {false, "the paper moves features apart, not whole bodies"};
+  }
   if (world.settings.contact == ContactMethod::swept) leave_out_what_swept_contacts_do(plan);
   return plan;
 }

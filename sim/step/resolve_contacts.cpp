@@ -1,4 +1,5 @@
 #include "sim/response/keep_volume.h"
+#include "sim/response/printed_response.h"
 #include "sim/response/vertex_on_ground.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/step/find_divergence.h"
@@ -73,6 +74,20 @@ void remember(World& world, std::span<const Contact> contacts, ResolveContactsMe
   }
 }
 
+/// In the order in which they were found, by one thread: each changes what the next one meets.
+std::optional<Divergence> resolve_as_printed(World& world, std::span<const Contact> contacts,
+                                             ResolveContactsMemory& memory, Workers& workers) {
+  memory.box_masses.clear();
+  memory.box_positions.clear();
+  for (const RigidBox& box : world.rigid) {
+    memory.box_masses.push_back(box_mass(box));
+    memory.box_positions.push_back(box.position);
+  }
+  apply_printed_impulses(world, memory.box_masses, contacts);
+  separate_as_printed(world, memory.box_positions, contacts);
+  return find_first_divergence(world, memory.outcomes, workers);
+}
+
 }  // namespace
 
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
@@ -82,6 +97,7 @@ std::optional<Divergence> resolve_contacts(World& world, const MotionStart& star
     world.warm_start_impulses.clear();
     return std::nullopt;
   }
+  if (is_as_printed(world.settings)) return resolve_as_printed(world, contacts, memory, workers);
   const bool keeps_volume = is_implicit(world.settings.integrator);
   if (keeps_volume) keep_positions(world, memory.before_contacts);
   prepare(world, contacts, memory);

@@ -82,6 +82,7 @@ struct ResolveContactsMemory {
   explicit ResolveContactsMemory(const World& world);
 
   std::vector<VertexArray> before_contacts;  // positions per soft body, of implicit integrators
+  std::vector<Vec3> box_positions;  // as contacts found them, where they are resolved as printed
   std::vector<BoxMass> box_masses;
   ContactIslands islands;
   // At least as many as the islands have contacts, in their order.

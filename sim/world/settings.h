@@ -34,6 +34,12 @@ enum class ContactMethod {
   swept,     // found before a body passes through another, impulses only (ERRATA row 67)
 };
 
+/// Whose form of the paper's formulas a world follows (ERRATA row 68).
+enum class Method {
+  corrected,  // as ERRATA reads and corrects them; where there is a choice, as it is made
+  paper,      // as printed, every choice included: use_paper_method
+};
+
 /// Section 5.2.1's numbers, with the paper's values as defaults.
 struct ParticleSettings {
   double per_vertex = 1.0 / 8.0;  // particles per vertex of a body, at least one per body
@@ -43,6 +49,7 @@ struct ParticleSettings {
 };
 
 struct Settings {
+  Method method = Method::corrected;  // set by use_paper_method, with all that belongs to it
   int steps_per_second = 60;  // the step is its inverse, so that time is exact at whole seconds
   Integrator integrator = Integrator::rk4;
   Vec3 gravity = {0.0, 0.0, -9.81};  // m/s^2
@@ -61,6 +68,8 @@ struct Settings {
   int contact_iterations = 10;
   std::uint64_t seed = 1;  // of the particles' start features (ERRATA row 40)
 };
+
+inline bool is_as_printed(const Settings& settings) { return settings.method == Method::paper; }
 
 inline double time_step(const Settings& settings) { return 1.0 / settings.steps_per_second; }
 

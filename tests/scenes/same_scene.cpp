@@ -106,9 +106,10 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
 }
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
-  const auto& [steps_per_second, integrator, gravity, ground, contact, skin_thickness, soft_search,
-               particles, relaxation_time, contact_iterations, seed] = a;
+  const auto& [method, steps_per_second, integrator, gravity, ground, contact, skin_thickness,
+               soft_search, particles, relaxation_time, contact_iterations, seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
+  c.member("method", method, b.method);
   c.member("steps_per_second", steps_per_second, b.steps_per_second);
   c.member("integrator", integrator, b.integrator);
   c.member("gravity", gravity, b.gravity);
