@@ -50,11 +50,13 @@ ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
   const CrossingStatistics& crossings = run.crossings;
   if (crossings.frames == 0) return ExitCode::done;
   const bool is_swept = scene.settings.contact == sim::ContactMethod::swept;
+  const char* method =
+      sim::is_as_printed(scene.settings) ? "simulation.method=corrected --set " : "";
   fmt::print(
       stderr,
       "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s{}\n",
       scene.name, crossings.frames, run.frames, crossings.first_bodies, crossings.edges.time,
-      is_swept ? "" : "; --set simulation.contact=swept keeps them apart");
+      is_swept ? "" : fmt::format("; --set {}simulation.contact=swept keeps them apart", method));
   return ExitCode::check_failed;
 }
 

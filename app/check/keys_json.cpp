@@ -42,6 +42,7 @@ json key_json(std::string_view table, const scenes::Key& key) {
           {"unit", text_or_null(key.unit)},
           {"default", std::visit(ValueJson{}, key.slot)},
           {"only_for", text_or_null(key.only_for)},
+          {"set_by_paper_method", key.of_method},
           {"meaning", key.meaning}};
 }
 

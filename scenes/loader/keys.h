@@ -61,6 +61,7 @@ struct Key {
   std::string_view only_for = {};  // "soft bodies"; empty: for all
   bool applies = true;             // to the struct at hand
   bool of_shape = false;           // decides a soft body's mesh
+  bool of_method = false;          // set by simulation.method = "paper", and refused beside it
   bool selects = false;            // decides which other keys apply, so it is read first
   bool or_number = false;          // a string's key that also takes a whole number as its digits
 };

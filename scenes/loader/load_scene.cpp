@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "scenes/loader/apply_method.h"
 #include "scenes/loader/check_scene.h"
 #include "scenes/loader/document.h"
 #include "scenes/loader/overrides.h"
@@ -27,6 +28,7 @@ class Loader {
     for (const SectionMaker make : section_makers()) read_section(make);
     const std::vector<Origin> headers = read_bodies();
     reader_.report_idle_overrides();
+    apply_method(scene_, reader_, report_);
     check_scene(scene_, reader_, headers, report_);
   }
 

@@ -20,13 +20,18 @@ std::string comment(const Key& key, const std::string& value, const std::string&
 }
 
 /// The keys that apply, as TOML lines. `defaults` is the same section of a struct as it is made.
-std::string section_text(const Section& section, const Section& defaults, bool comments) {
+/// What the paper's method sets is refused beside it: it becomes a comment.
+std::string section_text(const Section& section, const Section& defaults, bool comments,
+                         bool as_printed) {
   std::string text;
   for (std::size_t i = 0; i < section.keys.size(); ++i) {
     const Key& key = section.keys[i];
     const std::string value = value_text(key.slot);
     if (!key.applies || value.empty()) continue;
-    const std::string line = fmt::format("{} = {}", key.name, value);
+    const bool set_by_method = as_printed && key.of_method;
+    if (set_by_method && !comments) continue;
+    const std::string line =
+        fmt::format("{}{} = {}", set_by_method ? "# by method: " : "", key.name, value);
     if (comments) {
       text +=
           fmt::format("{:<36}  {}\n", line, comment(key, value, value_text(defaults.keys[i].slot)));
@@ -42,17 +47,19 @@ std::string scene_text(Scene scene, bool comments) {
   Scene default_scene;
   const std::vector<Section> sections = fixed_sections(scene);
   const std::vector<Section> defaults = fixed_sections(default_scene);
+  const bool as_printed = sim::is_as_printed(scene.settings);
   std::string text;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     if (!sections[i].table.empty()) text += fmt::format("\n[{}]\n", sections[i].table);
-    text += section_text(sections[i], defaults[i], comments);
+    text += section_text(sections[i], defaults[i], comments, as_printed);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     BodyScene default_body;
     default_body.name = default_name(i);
     if (scene.bodies[i].kind == BodyKind::rigid) default_body.shape = Shape::box;
     text += "\n[[body]]\n";
-    text += section_text(body_section(scene.bodies[i]), body_section(default_body), comments);
+    text += section_text(body_section(scene.bodies[i]), body_section(default_body), comments,
+                         as_printed);
   }
   return text;
 }
@@ -62,6 +69,7 @@ std::string key_reference(const Key& key) {
   const std::string value = value_text(key.slot);
   std::string text = fmt::format("  {:<20}{}", key.name, key.meaning);
   if (!key.only_for.empty()) text += fmt::format(" ({} only)", key.only_for);
+  if (key.of_method) text += " (set by method = \"paper\")";
   text += fmt::format("\n  {:<20}  {}", "", type_text(key.slot));
   if (!range.empty()) text += fmt::format(", {}", range);
   if (!key.unit.empty()) text += fmt::format(" {}", key.unit);

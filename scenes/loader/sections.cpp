@@ -35,6 +35,10 @@ constexpr std::array integrators = {
     Named<sim::Integrator>{sim::Integrator::implicit_euler, "implicit_euler"},
     Named<sim::Integrator>{sim::Integrator::sdirk2, "sdirk2"},
 };
+constexpr std::array methods = {
+    Named<sim::Method>{sim::Method::corrected, "corrected"},
+    Named<sim::Method>{sim::Method::paper, "paper"},
+};
 constexpr std::array soft_searches = {
     Named<sim::SoftSearch>{sim::SoftSearch::particles, "particles"},
     Named<sim::SoftSearch>{sim::SoftSearch::exact, "exact"},
@@ -99,6 +103,11 @@ Key of_shape(Key key) {
   return key;
 }
 
+Key of_method(Key key) {
+  key.of_method = true;
+  return key;
+}
+
 Key selector(Key key) {
   key.selects = true;
   return key;
@@ -131,23 +140,26 @@ Section simulation_section(Scene& scene) {
       .keys = {
           {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
            "simulation steps; the time step is the inverse"},
-          {"integrator", word(settings.integrator, integrators), any(), "",
-           "how soft bodies are stepped"},
+          {"method", word(settings.method, methods), any(), "",
+           "paper: all as printed, and no key beside it that it sets; corrected: as ERRATA says"},
+          of_method({"integrator", word(settings.integrator, integrators), any(), "",
+                     "how soft bodies are stepped"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
-          {"contact", word(settings.contact, contact_methods), any(), "",
-           "swept: no body passes through another; impulses: as in the paper, after the motion"},
-          {"skin_thickness", &settings.skin_thickness, length(), "m",
-           "features nearer than twice this are in contact; swept contacts need a few hundredths "
-           "of "
-           "an edge, and keep no more"},
-          {"soft_search", word(settings.soft_search, soft_searches), any(), "",
-           "how impulses find contacts of soft bodies: the paper's particles, or all within reach"},
-          {"relaxation_time", &settings.relaxation_time, at_least(0), "s",
-           "in which impulses part soft features by a factor e; 0: at once, as in the paper"},
-          {"contact_iterations", &settings.contact_iterations, between(1, 10'000), "",
-           "of impulses, over contacts that hang together; at most 3 if none of them is a box's "
-           "with "
-           "another or the ground"},
+          of_method({"contact", word(settings.contact, contact_methods), any(), "",
+                     "swept: no body passes through another; impulses: as in the paper, after the "
+                     "motion"}),
+          of_method({"skin_thickness", &settings.skin_thickness, length(), "m",
+                     "features nearer than twice this are in contact; swept contacts need a few "
+                     "hundredths of an edge, and keep no more"}),
+          of_method({"soft_search", word(settings.soft_search, soft_searches), any(), "",
+                     "how impulses find contacts of soft bodies: the paper's particles, or all "
+                     "within reach"}),
+          of_method(
+              {"relaxation_time", &settings.relaxation_time, at_least(0), "s",
+               "in which impulses part soft features by a factor e; 0: at once, as in the paper"}),
+          of_method({"contact_iterations", &settings.contact_iterations, between(1, 10'000), "",
+                     "of impulses, over contacts that hang together; at most 3 if none of them is "
+                     "a box's with another or the ground"}),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};
@@ -158,14 +170,14 @@ Section particles_section(Scene& scene) {
   return {.table = "simulation.particles",
           .what = "the collision particles",
           .keys = {
-              {"per_vertex", &particles.per_vertex, above_to(0, 100), "",
-               "particles per vertex of a body, at least one per body"},
-              {"attraction", &particles.attraction, between(0, 1e6), "",
-               "pull of the other body's particles, in units of the own ones' push"},
-              {"max_sweeps", &particles.max_sweeps, between(1, 10'000), "",
-               "of the refinement loop per step"},
-              {"settled_below", &particles.settled_below, between(0, 1e9), "",
-               "the loop ends when fewer particles than this move"},
+              of_method({"per_vertex", &particles.per_vertex, above_to(0, 100), "",
+                         "particles per vertex of a body, at least one per body"}),
+              of_method({"attraction", &particles.attraction, between(0, 1e6), "",
+                         "pull of the other body's particles, in units of the own ones' push"}),
+              of_method({"max_sweeps", &particles.max_sweeps, between(1, 10'000), "",
+                         "of the refinement loop per step"}),
+              of_method({"settled_below", &particles.settled_below, between(0, 1e9), "",
+                         "the loop ends when fewer particles than this move"}),
           }};
 }
 
@@ -318,10 +330,11 @@ Section body_section(BodyScene& body) {
           only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),
           only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K", "of the gas"}),
           only(soft_bodies, {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
-          only(soft_bodies, {"pressure_weighting", word(material.pressure_weighting, pressures),
-                             any(), "", "uniform: conservative; valence: the paper's"}),
-          only(soft_bodies, {"damping", word(material.damping, dampings), any(), "",
-                             "dashpot: continuous; literal: the paper's"}),
+          only(soft_bodies,
+               of_method({"pressure_weighting", word(material.pressure_weighting, pressures), any(),
+                          "", "uniform: conservative; valence: the paper's"})),
+          only(soft_bodies, of_method({"damping", word(material.damping, dampings), any(), "",
+                                       "dashpot: continuous; literal: the paper's"})),
           only(soft_bodies, {"k_max", &material.k_max, above(0), "N/m",
                              "springs of this k or more are damped most"}),
           only(rigid_bodies, {"mass", &body.mass, above(0), "kg", "of the whole box"}),

@@ -7,6 +7,7 @@
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
 #include "scenes/loader/sections.h"
+#include "sim/world/paper_method.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -108,6 +109,10 @@ void make_consistent(Scene& scene) {
   scene.settings.steps_per_second = scene.picture.frames_per_second * *rc::gen::inRange(1, 100);
   scene.duration =
       static_cast<double>(*rc::gen::inRange(1, 1000)) / scene.picture.frames_per_second;
+  if (sim::is_as_printed(scene.settings)) {
+    sim::use_paper_method(scene.settings);
+    for (BodyScene& body : scene.bodies) sim::use_paper_method(body.material);
+  }
   for (BodyScene& body : scene.bodies) {
     if (body.shape == Shape::torus && body.kind == BodyKind::soft) {
       body.tube_radius = body.radius / 3.0;

@@ -80,7 +80,7 @@ TEST(Check, PrintsTheKeysAsJsonToo) {
   };
   EXPECT_EQ(find("body.k"), nlohmann::json::parse(R"({"path": "body.k", "takes": "number",
       "words": null, "range": "k >= 0", "unit": "N/m", "default": 50.0,
-      "only_for": "soft bodies", "meaning": "spring constant"})"));
+      "only_for": "soft bodies", "set_by_paper_method": false, "meaning": "spring constant"})"));
   EXPECT_EQ(find("simulation.integrator")["words"],
             (nlohmann::json{"martin", "symplectic_euler", "velocity_verlet", "rk4",
                             "implicit_euler", "sdirk2"}));
