@@ -41,8 +41,7 @@ std::int64_t counted_steps(const scenes::Scene& scene) {
 // Particles are made when two bodies meet, and belong to the world, not to the stepper: they are
 // made again, copied in the next step (to be given back should it fail), and counted is what comes
 // after.
-TEST_P(AllocationsTest, NoneOnceTheContactsHavePeaked) {
-  const scenes::Scene scene = scenes::load_scene(find_scene(GetParam()));
+void expect_none_after_the_peak(const scenes::Scene& scene) {
   const sim::World start = build_world(scene);
   sim::World world = start;
   sim::Stepper stepper(world);
@@ -64,6 +63,18 @@ TEST_P(AllocationsTest, NoneOnceTheContactsHavePeaked) {
   const long before = allocation_count();
   while (world.steps < end) ASSERT_FALSE(stepper.step(world));
   EXPECT_EQ(allocation_count() - before, 0);
+}
+
+TEST_P(AllocationsTest, NoneOnceTheContactsHavePeaked) {
+  expect_none_after_the_peak(scenes::load_scene(find_scene(GetParam())));
+}
+
+TEST(PaperMethodAllocations, NoneOnceTheContactsHavePeaked) {
+  const std::vector<std::string> by_paper = {"simulation.method=paper"};
+  for (const char* name : {"two_spheres_contact", "torus_three_spheres_four_cubes"}) {
+    SCOPED_TRACE(name);
+    expect_none_after_the_peak(scenes::load_scene(find_scene(name), by_paper));
+  }
 }
 
 }  // namespace

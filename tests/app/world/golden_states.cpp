@@ -39,8 +39,10 @@ double total_volume(const sim::World& world) {
   return sum;
 }
 
-GoldenState measure_state(const std::string& name, std::string_view integrator) {
-  const std::vector<std::string> overrides = {fmt::format("simulation.integrator={}", integrator)};
+/// `label`: what stands for the integrator.
+GoldenState measure_state(const std::string& name, std::string_view label,
+                          const std::string& override_text) {
+  const std::vector<std::string> overrides = {override_text};
   const scenes::Scene scene = scenes::load_scene(find_scene(name), overrides);
   const auto steps = static_cast<std::int64_t>(seconds_of(scene) * scene.settings.steps_per_second);
   sim::World world = build_world(scene);
@@ -49,7 +51,7 @@ GoldenState measure_state(const std::string& name, std::string_view integrator) 
   while (world.steps < steps && !stepper.step(world)) {
   }
   return {.scene = name,
-          .integrator = std::string(integrator),
+          .integrator = std::string(label),
           .steps = world.steps,
           .hash = sim::state_hash(world),
           .energy = sim::energy(world).total(),
@@ -101,9 +103,24 @@ std::vector<std::string> all_scenes() {
 std::vector<GoldenState> measure_states(const std::string& scene) {
   std::vector<GoldenState> states;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
-    states.push_back(measure_state(scene, name));
+    states.push_back(measure_state(scene, name, fmt::format("simulation.integrator={}", name)));
   }
   return states;
+}
+
+std::vector<std::string> paper_method_scenes() {
+  std::vector<std::string> names = all_scenes();
+  std::erase_if(names, [](const std::string& name) {
+    const scenes::Scene scene = scenes::load_scene(find_scene(name));
+    const bool in_equilibrium = std::ranges::any_of(
+        scene.bodies, [](const auto& body) { return body.rest == scenes::Rest::equilibrium; });
+    return !scene.paper_fps || in_equilibrium;
+  });
+  return names;
+}
+
+std::vector<GoldenState> measure_paper_state(const std::string& scene) {
+  return {measure_state(scene, "paper", "simulation.method=paper")};
 }
 
 std::vector<GoldenSection> read_golden_states(const fs::path& path) {
@@ -131,7 +148,7 @@ std::vector<GoldenSection> read_golden_states(const fs::path& path) {
 }
 
 void write_golden_states(const std::vector<GoldenSection>& sections, std::ostream& out) {
-  out << "# The state of every scene under every integrator, written by scripts/golden-hashes.\n"
+  out << "# States of scenes under their integrators, written by scripts/golden-hashes.\n"
          "# Below a system, or several that come to the same:\n"
          "# scene  integrator  steps  state hash  energy, J  volume, m^3  penetration, m\n";
   for (const GoldenSection& section : sections) {

@@ -1,5 +1,6 @@
 // The state of every scene after a short run under every integrator, as it is on record in
-// tests/golden/state_hashes.txt: "nothing changed" is checked and not believed.
+// tests/golden/state_hashes.txt, and by the paper's method in paper_hashes.txt: "nothing changed"
+// is checked and not believed.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +39,13 @@ std::vector<std::string> all_scenes();
 
 /// Runs a scene under each integrator.
 std::vector<GoldenState> measure_states(const std::string& scene);
+
+/// The scenes with a frame rate of the paper's that its method can run: not those whose rest shape
+/// is an equilibrium, which valence pressure has none of (ERRATA row 27).
+std::vector<std::string> paper_method_scenes();
+
+/// Runs a scene by the paper's method (ERRATA row 68), with "paper" for its integrator.
+std::vector<GoldenState> measure_paper_state(const std::string& scene);
 
 /// Throws std::runtime_error that names file and line.
 std::vector<GoldenSection> read_golden_states(const std::filesystem::path& path);

@@ -19,16 +19,18 @@ const std::vector<GoldenSection>& golden_states() {
   return sections;
 }
 
-class GoldenStates : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, GoldenStates, testing::ValuesIn(all_scenes()),
-                         [](const auto& scene) { return scene.param; });
+const std::vector<GoldenSection>& golden_paper_states() {
+  static const auto sections = read_golden_states(PNEUMA_GOLDEN_PAPER_STATES);
+  return sections;
+}
 
-TEST_P(GoldenStates, AreWhatTheyWere) {
-  const GoldenSection* golden = section_of(golden_states(), this_system());
+void expect_recorded(const std::vector<GoldenState>& states,
+                     const std::vector<GoldenSection>& sections) {
+  const GoldenSection* golden = section_of(sections, this_system());
   if (golden == nullptr) {
     GTEST_SKIP() << "no states on record for " << this_system() << ": scripts/golden-hashes";
   }
-  for (const GoldenState& now : measure_states(GetParam())) {
+  for (const GoldenState& now : states) {
     const auto same_run = [&](const GoldenState& state) {
       return state.scene == now.scene && state.integrator == now.integrator;
     };
@@ -41,6 +43,31 @@ TEST_P(GoldenStates, AreWhatTheyWere) {
         << ", volume " << now.volume << " m^3 after " << before->volume << ", penetration "
         << now.penetration << " m after " << before->penetration
         << ". If this is meant: scripts/golden-hashes";
+  }
+}
+
+class GoldenStates : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenStates, testing::ValuesIn(all_scenes()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST_P(GoldenStates, AreWhatTheyWere) {
+  const bool is_known = section_of(golden_states(), this_system()) != nullptr;
+  expect_recorded(is_known ? measure_states(GetParam()) : std::vector<GoldenState>(),
+                  golden_states());
+}
+
+class GoldenPaperStates : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, GoldenPaperStates, testing::ValuesIn(paper_method_scenes()),
+                         [](const auto& scene) { return scene.param; });
+
+TEST_P(GoldenPaperStates, AreWhatTheyWere) {
+  expect_recorded(measure_paper_state(GetParam()), golden_paper_states());
+}
+
+TEST(GoldenPaperStates, AreOnRecordForNoSceneThatIsGone) {
+  EXPECT_FALSE(golden_paper_states().empty());
+  for (const GoldenSection& section : golden_paper_states()) {
+    EXPECT_EQ(section.states.size(), paper_method_scenes().size()) << section.systems.front();
   }
 }
 

@@ -1,6 +1,6 @@
 // Runs every scene under every integrator, prints old and new of what changed, and records the new:
-//   pneuma_record_golden_states FILE     tests/golden/state_hashes.txt; run by
-//   scripts/golden-hashes
+//   pneuma_record_golden_states STATES PAPER     state_hashes.txt and paper_hashes.txt of
+//   tests/golden; run by scripts/golden-hashes. PAPER: by the paper's method.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,10 @@ bool compare(const GoldenState& now, const GoldenSection* golden) {
   return true;
 }
 
-void record(const std::filesystem::path& file) {
+using Measure = std::vector<GoldenState> (*)(const std::string& scene);
+
+void record(const std::filesystem::path& file, const std::vector<std::string>& scenes,
+            Measure measure) {
   std::vector<GoldenSection> sections;
   if (std::filesystem::exists(file)) sections = read_golden_states(file);
   const GoldenSection* golden = section_of(sections, this_system());
@@ -45,8 +48,8 @@ void record(const std::filesystem::path& file) {
 
   std::vector<GoldenState> states;
   int changed = 0;
-  for (const std::string& scene : all_scenes()) {
-    for (const GoldenState& state : measure_states(scene)) {
+  for (const std::string& scene : scenes) {
+    for (const GoldenState& state : measure(scene)) {
       changed += compare(state, golden) ? 1 : 0;
       states.push_back(state);
     }
@@ -71,12 +74,14 @@ void record(const std::filesystem::path& file) {
 }  // namespace pneuma::app
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    fmt::print(stderr, "usage: pneuma_record_golden_states FILE\n");
+  if (argc != 3) {
+    fmt::print(stderr, "usage: pneuma_record_golden_states STATES PAPER\n");
     return 2;
   }
   try {
-    pneuma::app::record(argv[1]);
+    using namespace pneuma::app;
+    record(argv[1], all_scenes(), measure_states);
+    record(argv[2], paper_method_scenes(), measure_paper_state);
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
