@@ -66,6 +66,7 @@ ExitCode bench(const BenchOptions& options) {
     fmt::print(stderr, "{}/{} {}\n", i + 1, scenes.size(), scenes[i].name);
     try {
       report.scenes.push_back(measure_scene(scenes[i], options.measure));
+      report.scenes.back().paper_method = measure_paper_method(scenes[i], options.measure);
     } catch (const DivergenceError& error) {  // the other scenes are still worth measuring
       report.warnings.push_back(fmt::format("{} is missing: {}", scenes[i].name, error.what()));
       code = ExitCode::diverged;

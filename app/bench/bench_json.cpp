@@ -17,6 +17,12 @@ json ratio_json(double fps, const std::optional<double>& paper_fps) {
   return paper_fps ? json(fps / *paper_fps) : json(nullptr);
 }
 
+json paper_method_json(const PaperMethodFps& paper_method) {
+  const auto& [fps, reason] = paper_method;
+  return {{"fps", fps ? spread_json(*fps) : json(nullptr)},
+          {"not_measured_because", reason.empty() ? json(nullptr) : json(reason)}};
+}
+
 json stages_json(const SceneTimes& scene) {
   return json_by_stage([&](sim::Stage stage) {
     const double share = scene.stage_shares[static_cast<std::size_t>(stage)];
@@ -39,6 +45,7 @@ json scene_json(const SceneTimes& scene) {
                  {"step_s", spread_json(scene.step_seconds)},
                  {"simulation_fps", spread_json(simulation)},
                  {"simulation_over_paper", ratio_json(simulation.median, scene.paper_fps)},
+                 {"paper_method", paper_method_json(scene.paper_method)},
                  {"picture", nullptr},
                  {"contacts_per_step", contacts_per_step_json(scene.contacts)},
                  {"stage_shares", stages_json(scene)},

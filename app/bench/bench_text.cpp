@@ -37,6 +37,7 @@ std::string fps_table(const BenchReport& report) {
     }
   };
   add_group("simulation only, fps");
+  columns.push_back({"as\nprinted", Align::right, "simulation only, fps"});
   if (picture_size(report.scenes)) add_group("with picture, fps");
 
   Table table(std::move(columns));
@@ -48,6 +49,8 @@ std::string fps_table(const BenchReport& report) {
                   ratio_text(fps.median, scene.paper_fps)});
     };
     add_spread(simulation_fps(scene));
+    const std::optional<Spread>& printed = scene.paper_method.fps;
+    cells.push_back(printed ? readable(printed->median) : "-");
     if (scene.frames) add_spread(inverse(scene.frames->seconds));
     table.add_row(std::move(cells));
   }
@@ -148,7 +151,8 @@ std::string legend(const BenchReport& report) {
   }
   return text +
          "  5th, 95th        percentiles: 5 of 100 values are below, 5 above\n"
-         "  / paper          the median over the paper's frame rate\n";
+         "  / paper          the median over the paper's frame rate\n"
+         "  as printed       the median by the paper's method: simulation.method = \"paper\"\n";
 }
 
 std::string notes(const BenchReport& report) {
@@ -165,6 +169,11 @@ std::string notes(const BenchReport& report) {
       text += fmt::format("{}: {} steps per reading of the clock, which resolves {:.0f} ns.\n",
                           scene.name, scene.steps_per_reading, 1e9 * clock_resolution());
     }
+  }
+  for (const SceneTimes& scene : report.scenes) {
+    const std::string& reason = scene.paper_method.reason;
+    if (reason.empty()) continue;
+    text += wrapped(fmt::format("{} as printed: {}.", scene.name, reason), text_width) + '\n';
   }
   return text + provenance_text(report.date);
 }

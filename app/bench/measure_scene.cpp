@@ -8,10 +8,13 @@
 
 #include "app/host/budget.h"
 #include "app/host/clock.h"
+#include "app/host/errors.h"
 #include "app/host/interrupt.h"
 #include "app/picture/place_camera.h"
 #include "app/world/build_world.h"
 #include "app/world/replay.h"
+#include "scenes/loader/apply_method.h"
+#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {
@@ -175,6 +178,21 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
                        Budget(options.steps, options.seconds, least_frames), options.backend);
   }
   return times;
+}
+
+PaperMethodFps measure_paper_method(const scenes::Scene& scene, const MeasureOptions& options) {
+  if (sim::is_as_printed(scene.settings)) return {};
+  scenes::Scene as_printed = scene;
+  scenes::use_paper_method(as_printed);
+  MeasureOptions simulation = options;
+  simulation.pictures = false;
+  try {
+    return {simulation_fps(measure_scene(as_printed, simulation)), ""};
+  } catch (const DivergenceError& error) {
+    return {{}, error.what()};
+  } catch (const scenes::SceneError& error) {
+    return {{}, error.diagnostics().front().message};
+  }
 }
 
 }  // namespace pneuma::app

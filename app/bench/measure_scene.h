@@ -25,6 +25,13 @@ struct MeasureOptions {
   int threads = 1;
 };
 
+/// Frames per second of the same scene by the paper's method, without drawing; where there is none,
+/// why. Neither for a scene that asks for this method itself.
+struct PaperMethodFps {
+  std::optional<Spread> fps;
+  std::string reason;
+};
+
 /// Times of one scene. Contacts are those of the very steps whose times are given.
 struct SceneTimes {
   std::string name;
@@ -40,6 +47,7 @@ struct SceneTimes {
   int steps_per_reading = 1;  // of the clock: more than one when a step is too short for it
   Spread step_seconds;
   std::optional<FrameTimes> frames;
+  PaperMethodFps paper_method;  // by measure_paper_method
   ContactTally contacts;
   sim::Plan plan;
   sim::StageTimes stage_shares = {};  // of the time in stages; they add up to 1
@@ -51,6 +59,9 @@ Spread simulation_fps(const SceneTimes& times);
 
 /// Throws DivergenceError, and render::GlError when pictures are asked for.
 SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& options);
+
+/// Never throws for what the paper's method cannot run.
+PaperMethodFps measure_paper_method(const scenes::Scene& scene, const MeasureOptions& options);
 
 /// Seconds: the min. difference between two readings of the clock that differ.
 double clock_resolution();

@@ -64,11 +64,12 @@ std::vector<std::string> row(const std::string& text, const std::string& scene, 
 using Cells = std::vector<std::string>;
 
 TEST(BenchText, GivesFramesPerSecondBesideThePapers) {
-  const SceneTimes scene = two_bodies();
+  SceneTimes scene = two_bodies();
+  scene.paper_method.fps = Spread{10'000.0, 12'000.0, 14'000.0};
   const std::string text = bench_text(report_of({scene}));
   // 1 / 100 us, 1 / 125 us, 1 / 80 us; 1 / 5 ms, 1 / 8 ms, 1 / 4 ms; over 50.
   EXPECT_EQ(row(text, scene.name, 0), (Cells{scene.name, "50", "10,000", "8,000", "12,500", "200x",
-                                             "200", "125", "250", "4.00x"}));
+                                             "12,000", "200", "125", "250", "4.00x"}));
 }
 
 TEST(BenchText, GivesTheStepAndItsContacts) {
@@ -98,12 +99,21 @@ TEST(BenchText, AFrameOfSeveralStepsTakesAsManyTimesAsLong) {
   EXPECT_EQ(row(bench_text(report_of({scene})), scene.name, 0).at(2), "2,500");
 }
 
+TEST(BenchText, SaysWhyThePapersMethodWasNotMeasured) {
+  SceneTimes scene = two_bodies();
+  EXPECT_EQ(row(bench_text(report_of({scene})), scene.name, 0).at(6), "-");
+  scene.paper_method.reason = "no equilibrium";
+  const std::string text = bench_text(report_of({scene}));
+  EXPECT_NE(text.find(scene.name + " as printed: no equilibrium."), std::string::npos) << text;
+}
+
 TEST(BenchText, WithoutPicturesOrThePaperHasNoSuchColumns) {
   SceneTimes scene = two_bodies();
   scene.frames.reset();
   scene.paper_fps.reset();
   const std::string text = bench_text(report_of({scene}));
-  EXPECT_EQ(row(text, scene.name, 0), (Cells{scene.name, "-", "10,000", "8,000", "12,500", "-"}));
+  EXPECT_EQ(row(text, scene.name, 0),
+            (Cells{scene.name, "-", "10,000", "8,000", "12,500", "-", "-"}));
   EXPECT_EQ(text.find("picture"), std::string::npos);
   EXPECT_TRUE(row(text, scene.name, 3).empty());
 }
@@ -143,8 +153,10 @@ TEST(BenchJson, SaysTheSameForMachines) {
   plain.frames.reset();
   plain.paper_fps.reset();
   const auto json = nlohmann::json::parse(bench_json(report_of({two_bodies(), plain})).dump());
-  expect_nulls_only_at(json["scenes"][0], {"/stage_shares/integrate_rigid"});
-  expect_nulls_only_at(json["scenes"][1], {"/stage_shares/integrate_rigid", "/paper_fps",
+  expect_nulls_only_at(json["scenes"][0], {"/stage_shares/integrate_rigid", "/paper_method/fps",
+                                           "/paper_method/not_measured_because"});
+  expect_nulls_only_at(json["scenes"][1], {"/stage_shares/integrate_rigid", "/paper_method/fps",
+                                           "/paper_method/not_measured_because", "/paper_fps",
                                            "/simulation_over_paper", "/picture"});
   const auto& scene = json["scenes"][0];
   // 1e-9: the decimal digits of JSON, and one rounding.
