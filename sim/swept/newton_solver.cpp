@@ -8,7 +8,7 @@ namespace pneuma::sim {
 namespace {
 
 constexpr int max_steps = 20;
-constexpr int max_halvings = 12;
+constexpr int max_shortenings = 12;
 /// Of the squared residual: below it lies rounding times the penalty.
 constexpr double converged = 1e-12;
 /// Multiplications of a factorisation, 0.1 ms: a stack of 100 boxes has fewer, a heap of 50 more.
@@ -158,7 +158,7 @@ bool NewtonSolver::descend(std::span<SweptImpulse* const> impulses, double penal
   const double before = potential(impulses, penalty);
   move(1.0);
   double share = 1.0;
-  for (int i = 0; i < max_halvings; ++i) {
+  for (int i = 0; i < max_shortenings; ++i) {
     if (potential(impulses, penalty) < before) return true;
     move(-0.5 * share);
     share *= 0.5;
