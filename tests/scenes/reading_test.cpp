@@ -220,8 +220,8 @@ TEST(Reading, NoKeyIsLeftOutAbove) {
   for (std::size_t i = 0; i < sections.size(); ++i) {
     std::ranges::copy(keys_at_default(sections[i], of_defaults[i]), std::back_inserter(missed));
   }
-  EXPECT_EQ(missed, std::vector<std::string>({"simulation.method", "ground.present", "camera.eye",
-                                              "camera.target"}));
+  EXPECT_EQ(missed, std::vector<std::string>(
+                        {"simulation.method", "ground.present", "camera.eye", "camera.target"}));
 
   Scene soft = parse_scene(soft_body, "soft.toml");
   BodyScene body;
