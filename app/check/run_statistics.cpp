@@ -1,13 +1,11 @@
 #include "app/check/run_statistics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "app/host/interrupt.h"
+#include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
-#include "sim/inspect/closed_surface.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/measure.h"
@@ -32,13 +30,6 @@ double fastest_point(const sim::World& world) {
     speed = std::max(speed, box.velocity.norm() + rim);
   }
   return speed;
-}
-
-std::string two_bodies(const sim::World& world, int first, int second) {
-  const auto name = [&](int body) {
-    return body == sim::ground_body ? std::string("the ground") : sim::body_name(world, body);
-  };
-  return first == second ? name(first) : fmt::format("{} and {}", name(first), name(second));
 }
 
 /// Gathers the statistics while a run goes on.

@@ -126,12 +126,37 @@ class DividedSteps {
   int most_ = 0;
 };
 
+/// Says that bodies pass through each other: at the first frame that shows it, and in the end.
+class CrossedFrames {
+ public:
+  void add(const Simulation& simulation, const FrameState& state, Progress& progress) {
+    ++frames_;
+    if (state.bodies_that_cross.empty()) return;
+    if (count_++ > 0) return;
+    const bool is_swept = simulation.world().settings.contact == sim::ContactMethod::swept;
+    progress.say(
+        fmt::format("{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
+                    sim::time(simulation.world()),
+                    is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
+  }
+
+  void summarise(Progress& progress) const {
+    if (count_ == 0) return;
+    progress.say(fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
+  }
+
+ private:
+  std::int64_t frames_ = 0;
+  std::int64_t count_ = 0;
+};
+
 }  // namespace
 
 void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
                  Progress& progress) {
   FrameWriter writer(output);
   DividedSteps divided;
+  CrossedFrames crossed;
   Stopwatch watch;
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
@@ -151,7 +176,10 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
     state.time = sim::time(simulation.world());
     state.simulated = state.time - time_at_start;
     std::optional<TakenFrame> frame;
-    if (state.frame >= output.log.next_frame()) frame = writer.take(simulation);
+    if (state.frame >= output.log.next_frame()) {
+      frame = writer.take(simulation);
+      crossed.add(simulation, frame->state, progress);
+    }
     const bool more = state.frame < last;
     if (more) stepping.submit([&simulation] { simulation.advance_frame(); });
     if (frame) {
@@ -168,6 +196,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   state.elapsed += watch.lap();
   progress.say(summary_line(state));
   divided.summarise(progress);
+  crossed.summarise(progress);
 }
 
 }  // namespace pneuma::app

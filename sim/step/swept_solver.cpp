@@ -10,7 +10,7 @@ namespace {
 /// Before Newton's method is tried, and where it cannot help: in a heap, and among soft bodies,
 /// whose loads are carried through the bodies and not from contact to contact.
 constexpr int few_iterations = 20;
-constexpr int max_iterations = 50;
+constexpr int many_iterations = 50;
 /// What is left makes a stack tremble.
 constexpr double tolerance_of_boxes = 0.01;
 /// Each call to Newton's method with so many times the penalty of the one before.
@@ -67,7 +67,7 @@ void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptI
     if (has_boxes_[i]) {
       solve_with_boxes(island(i), tolerance);
     } else {
-      correct_in_turn(island(i), tolerance, max_iterations);
+      correct_in_turn(island(i), tolerance, many_iterations);
     }
   }
 }
@@ -77,7 +77,7 @@ void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, doub
   if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!newton_.improve(impulses, penalty)) {
-      correct_in_turn(impulses, tolerance, max_iterations - few_iterations);
+      correct_in_turn(impulses, tolerance, many_iterations - few_iterations);
       return;
     }
     if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;

@@ -6,10 +6,12 @@
 #include "app/host/version.h"
 #include "app/record/contact_tally.h"
 #include "app/record/provenance.h"
+#include "app/record/two_bodies.h"
 #include "app/record/world_json.h"
 #include "app/world/build_world.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
+#include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 
 namespace pneuma::app {
@@ -29,6 +31,10 @@ Json contacts_json(std::span<const sim::Contact> contacts) {
   json.update(json_by_contact_kind<Json>(
       [&](sim::ContactKind kind) { return counts[static_cast<std::size_t>(kind)]; }));
   return json;
+}
+
+Json crossings_json(const sim::Crossings& crossings) {
+  return {{"between_bodies", crossings.between_bodies}, {"within_bodies", crossings.within_bodies}};
 }
 
 Json program_with_libraries() {
@@ -135,6 +141,7 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
   }
   stage_times_ = stage_times;
 
+  const sim::Crossings crossings = sim::crossings(world);
   Json line = {{"frame", simulation.frame()},
                {"time", sim::time(world)},
                {"step", world.steps},
@@ -143,9 +150,12 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"momentum", momentum_json<Json>(sim::momentum(world))},
                {"volumes", volumes_json(world)},
                {"contacts", contacts_json(simulation.stepper().contacts())},
-               {"greatest_penetration", number_json<Json>(sim::max_penetration(world))}};
+               {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
+               {"crossings", crossings_json(crossings)}};
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
-  return {std::move(line), std::move(times)};
+  const sim::CrossingPair* pair = sim::first_crossing_bodies(crossings);
+  return {std::move(line), std::move(times),
+          pair ? two_bodies(world, pair->first, pair->second) : std::string()};
 }
 
 Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {

@@ -124,6 +124,22 @@ TEST_F(RenderTest, DoesNotDisturbTheSimulation) {
   }
 }
 
+TEST_F(RenderTest, SaysWhenBodiesPassThroughEachOther) {
+  const auto render_cubes = [&](const std::string& folder, const std::string& contact) {
+    return run_pneuma("render torus_four_cubes --frames 34-36 --size 64x48 --out '" +
+                      out(folder).string() + "' --set simulation.contact=" + contact + " 2>&1")
+        .output;
+  };
+  const std::string crossing = render_cubes("crossing", "impulses");
+  EXPECT_NE(crossing.find("torus and cube."), std::string::npos) << crossing;
+  EXPECT_NE(crossing.find("simulation.contact = \"swept\" keeps bodies apart"), std::string::npos);
+  EXPECT_NE(crossing.find("bodies pass through each other in 3 of 3 frames"), std::string::npos)
+      << crossing;
+  EXPECT_GT(record("crossing")["frames"][0]["crossings"]["between_bodies"], 0);
+  const std::string apart = render_cubes("apart", "swept");
+  EXPECT_EQ(apart.find("pass through"), std::string::npos) << apart;
+}
+
 TEST_F(RenderTest, RecordsWhatEachFrameShows) {
   render("--set body.k=60");
   const json run = record();
@@ -144,6 +160,8 @@ TEST_F(RenderTest, RecordsWhatEachFrameShows) {
     EXPECT_EQ(frame["momentum"]["angular"].size(), 3u);
     EXPECT_EQ(frame["contacts"]["count"], frame["contacts"]["soft_ground"]);
     EXPECT_GE(frame["greatest_penetration"], 0.0);
+    EXPECT_EQ(frame["crossings"]["between_bodies"], 0);
+    EXPECT_EQ(frame["crossings"]["within_bodies"], 0);
     EXPECT_GE(frame["seconds"]["total"], frame["seconds"]["draw"]);
     EXPECT_EQ(frame["png_bytes"], pictures()[fmt::format("fall_{:05}.png", i)].size());
     touched |= frame["contacts"]["count"] > 0;
