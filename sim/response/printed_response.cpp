@@ -58,7 +58,7 @@ void move_out(World& world, std::span<const Vec3> box_positions, const Contact& 
   }
   Vec3& position = world.rigid[at(side.body)].position;
   const double moved = (position - box_positions[at(side.body)]).dot(way);
-  position += std::max(0.0, contact.depth - moved) * way;
+  position += (contact.depth - std::clamp(moved, 0.0, contact.depth)) * way;
 }
 
 }  // namespace
