@@ -56,7 +56,10 @@ ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
       stderr,
       "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s{}\n",
       scene.name, crossings.frames, run.frames, crossings.first_bodies, crossings.edges.time,
-      is_swept ? "" : fmt::format("; --set {}simulation.contact=swept keeps them apart", method));
+      is_swept
+          ? ""
+          : fmt::format("; --set {}simulation.contact=swept lets nothing pass through soft bodies",
+                        method));
   return ExitCode::check_failed;
 }
 

@@ -145,9 +145,10 @@ Section simulation_section(Scene& scene) {
           of_method({"integrator", word(settings.integrator, integrators), any(), "",
                      "how soft bodies are stepped"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
-          of_method({"contact", word(settings.contact, contact_methods), any(), "",
-                     "swept: no body passes through another; impulses: as in the paper, after the "
-                     "motion"}),
+          of_method(
+              {"contact", word(settings.contact, contact_methods), any(), "",
+               "swept: nothing passes through a soft body; impulses: as in the paper, after the "
+               "motion"}),
           of_method({"skin_thickness", &settings.skin_thickness, length(), "m",
                      "features nearer than twice this are in contact; swept contacts need a few "
                      "hundredths of an edge, and keep no more"}),
@@ -158,7 +159,7 @@ Section simulation_section(Scene& scene) {
               {"relaxation_time", &settings.relaxation_time, at_least(0), "s",
                "in which impulses part soft features by a factor e; 0: at once, as in the paper"}),
           of_method({"contact_iterations", &settings.contact_iterations, between(1, 10'000), "",
-                     "of impulses, over contacts that hang together; at most 3 if none of them is "
+                     "of impulses, over an island of contacts; at most 3 if none of them is "
                      "a box's with another or the ground"}),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},

@@ -110,9 +110,9 @@ void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
     if (corner.z() > reach) continue;
     contact.all[at(contact.count++)] = {faces.to_world(corner), -corner.z()};
   }
-  if (contact.count > 0) return;
-  // Only when this face was preferred to edges that overlap a little less: the incident box passes
-  // the face by its side, and its deepest corner stands for it.
+  if (contact.count > 0 || contact.depth < 0.0) return;
+  // Of boxes that overlap only when this face was preferred to edges that overlap a little less:
+  // the incident box passes the face by its side, and its deepest corner stands for it.
   const int corner = support_corner(faces.incident, -faces.outward);
   contact.all[at(contact.count++)] = {faces.incident.corner(corner), contact.depth};
 }
@@ -164,6 +164,7 @@ std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& sec
     add_face_points(contact, {second, first, overlap->second_axis, overlap->normal},
                     reach_of_points);
   }
+  if (contact.count == 0) return {};  // they are apart, and pass each other by their sides
   return contact;
 }
 

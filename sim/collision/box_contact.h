@@ -11,7 +11,7 @@ namespace pneuma::sim {
 
 struct BoxContactPoint {
   Vec3 point = Vec3::Zero();  // m
-  double depth = 0.0;         // m the boxes must move apart along the normal to part here, >= 0
+  double depth = 0.0;  // m the boxes must move apart along the normal to part here; < 0: apart
 };
 
 /// One to eight points that share a normal.
@@ -31,7 +31,8 @@ struct BoxContact {
 /// The points of boxes that overlap or touch; none when they are apart.
 std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second);
 
-/// Also of boxes that are up to `reach` (m) apart, and the points of theirs that are (depth < 0).
+/// Also of boxes that are up to `reach` (m) apart, and the points of theirs that are (depth < 0);
+/// none of boxes that are apart and face each other with no part of a face.
 std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
                                                   const OrientedBox& second);
 

@@ -11,7 +11,16 @@ namespace {
 /// the points of one contact, as boxes, and not by their features.
 constexpr double near_of_side = 0.02;
 
+double reach_of(const OrientedBox& one, const OrientedBox& other) {
+  return near_of_side * 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
+}
+
 }  // namespace
+
+OrientedBox SweptSearch::end_box(int body) const {
+  const RigidBox& box = world_.rigid[at(bodies_.box(body))];
+  return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
+}
 
 OrientedBox SweptSearch::start_box(int body) const {
   const RigidStart& start = start_.rigid[at(bodies_.box(body))];
@@ -43,8 +52,7 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   const auto [first, second] = bodies;
   if (!bodies_.is_rigid(first) || !bodies_.is_rigid(second)) return false;
   const OrientedBox one = start_box(first), other = start_box(second);
-  const double shortest = 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
-  const double near_boxes = near_of_side * shortest;
+  const double near_boxes = reach_of(one, other);
   const auto contact = find_box_contact_within(near_boxes, one, other);
   if (!contact) return false;
   if (contact->depth < 0.0 && greatest_relative_way(first, second) > near_boxes) return false;
@@ -61,9 +69,26 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   return true;
 }
 
+/// Whether boxes that touch turn or slide far into each other in the step: what the points of their
+/// contact at its start do not see. A shorter step does.
+bool SweptSearch::turn_into_each_other(const BodyPair& bodies) const {
+  const auto [first, second] = bodies;
+  const OrientedBox one = start_box(first), other = start_box(second);
+  const double near_boxes = reach_of(one, other);
+  if (greatest_relative_way(first, second) <= near_boxes) return false;
+  const auto before = find_box_contact_within(near_boxes, one, other);
+  const auto after = find_box_contact(end_box(first), end_box(second));
+  return after && after->depth > (before ? std::max(0.0, before->depth) : 0.0) + near_boxes;
+}
+
 /// Boxes that others push into each other, further than they were.
 bool SweptSearch::sinks_in(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
+  const bool is_first_point = candidate.features.first.index == 0;
+  if (is_first_point && turn_into_each_other(candidate.bodies)) {
+    blocked_ = candidate.bodies;
+    return true;
+  }
   const double least = std::min(0.0, candidate.start.distance) - distance_wanted(first, second);
   if (move_to_end(candidate).distance >= least) return false;
   if (candidate.contact < 0) add(candidate, place(candidate, candidate.start, Moment::start));

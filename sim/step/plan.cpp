@@ -22,7 +22,7 @@ Item& item(Plan& plan, ContactKind kind) {
 void leave_out_what_swept_contacts_do(Plan& plan) {
   item(plan, Stage::broad_phase) = {false, "swept contacts are found over the whole step"};
   item(plan, Stage::move_particles) = {false, "swept contacts are found by bounding hierarchies"};
-  item(plan, Stage::depenetrate) = {false, "what is swept does not overlap"};
+  item(plan, Stage::depenetrate) = {false, "swept soft bodies do not overlap"};
 }
 
 }  // namespace

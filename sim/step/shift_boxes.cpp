@@ -3,7 +3,7 @@
 namespace pneuma::sim {
 namespace {
 
-/// m in a step, at most: boxes that start in each other do not jump.
+/// m in a whole step, at most: boxes that start in each other do not jump.
 constexpr double max_shift = 0.05;
 /// Of the thinnest skin: less is not worth a shift.
 constexpr double min_shift = 0.02;
@@ -12,13 +12,14 @@ constexpr double shift_tolerance = 0.05;
 
 }  // namespace
 
-void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search) {
+void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   memory.bodies.forget_shifts();
   search.find_contacts_of_boxes();
+  if (memory.contacts.empty()) return;
   double greatest = 0.0;
   for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
     const double missing = missing_distance(memory.contacts[i]);
-    const double shift = std::min(made_up_per_step * missing, max_shift);
+    const double shift = std::min(made_up_per_step * missing, fraction * max_shift);
     memory.impulses[i].aim(shift, Vec3::Zero());
     greatest = std::max(greatest, shift);
   }

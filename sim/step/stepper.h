@@ -56,7 +56,8 @@ class Stepper {
   /// The contacts that the last step found and resolved.
   std::span<const Contact> contacts() const;
   const StageTimes& stage_times() const;
-  /// J, the work of all impulses of the last step; of swept contacts only, which do nothing else.
+  /// J, the work of all impulses of the last step, and of what shifted boxes; of swept contacts
+  /// only.
   double contact_work() const;
 
  private:

@@ -183,6 +183,13 @@ void SweptBodies::take_as_shifts() {
   for (BoxChange& change : box_changes_) change.velocity = change.angular_velocity = Vec4d{};
 }
 
+Vec3 SweptBodies::shift(const SurfacePoint& point) const {
+  if (shifts_.empty() || point.body == swept_ground || !is_rigid(point.body)) return Vec3::Zero();
+  const BoxChange& of_box = shifts_[at(box(point.body))];
+  const Vec3 arm = point.point - to_vec3(of_box.centre);
+  return to_vec3(of_box.velocity) + to_vec3(of_box.angular_velocity).cross(arm);
+}
+
 double SweptBodies::work_of_shifts(const World& world) const {
   double work = 0.0;
   for (std::size_t i = 0; i < shifts_.size(); ++i) {

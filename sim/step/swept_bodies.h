@@ -70,6 +70,8 @@ class SweptBodies {
   /// given in this step besides their motion, and forgets them; without it there are none.
   void take_as_shifts();
   void forget_shifts() { shifts_.clear(); }
+  /// m, by which the shifts move a point of a box; zero of others.
+  Vec3 shift(const SurfacePoint& point) const;
   /// J, the work of the shifts against gravity.
   double work_of_shifts(const World& world) const;
   /// Gives the boxes their shifts.

@@ -1,4 +1,4 @@
-// The contacts of a step in which no body passes through another. Private to sim/step.
+// Swept contacts, and what may become one. Private to sim/step.
 #pragma once
 
 #include <tuple>

@@ -288,7 +288,9 @@ bool SweptSearch::is_rigid(const SweptContact& contact) const {
 /// How the sides meet: with an even acceleration over the step, after the fraction of it in which
 /// the distance is used up. `kicked`: by impulses since the start.
 void SweptSearch::find_approach(SweptContact& contact, const Vec3& kicked) const {
-  const double mean = contact.normal.dot(displacement(contact)) / time_step(world_.settings);
+  const Vec3 shift = bodies_.shift(contact.first) - bodies_.shift(contact.second);
+  const Vec3 moved_by = displacement(contact) - shift;
+  const double mean = contact.normal.dot(moved_by) / time_step(world_.settings);
   const double before = contact.normal.dot(start_velocity(contact) + kicked);
   if (contact.is_near || mean >= 0.0) {
     contact.approach = std::max(0.0, -before);

@@ -1,4 +1,4 @@
-// The contacts of a step in which no body passes through another: found among all features whose
+// Swept contacts: found among all features whose
 // ways come near each other. Private to sim/step.
 #pragma once
 
@@ -84,6 +84,8 @@ class SweptSearch {
   void find_near_ground();
   bool offer_near_boxes(const BodyPair& bodies);
   OrientedBox start_box(int body) const;
+  OrientedBox end_box(int body) const;
+  bool turn_into_each_other(const BodyPair& bodies) const;
   double greatest_relative_way(int first, int second) const;
   void offer(const BodyPair& bodies, const NearFeatures& features);
   void recall_contacts();

@@ -1,5 +1,4 @@
-// The impulses of a step in which no body passes through another: solved for island by island.
-// Private to sim/step.
+// The impulses of a step with swept contacts, solved for island by island. Private to sim/step.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +15,10 @@ class SweptSolver {
   /// `bodies`: how many there are, of which the first are soft.
   SweptSolver(int bodies, int soft_bodies) : soft_bodies_(soft_bodies), parents_(at(bodies)) {}
 
-  /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`
-  /// (m/s), by Gauss-Seidel iterations; where a box is on a box or on the ground until none does by
-  /// more than a hundredth of it, also by Newton's method.
+  /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`,
+  /// in the unit of what they aim at, or 50 times, by Gauss-Seidel iterations. Where a box is on a
+  /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
+  /// if that can help.
   void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance);
 

@@ -1,6 +1,7 @@
 #include "sim/step/swept_step.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -42,6 +43,7 @@ class SweptStep {
       m_.work = work;
       w_.contacts.resize(contacts);
     };
+    fraction_ = std::ldexp(1.0, -halvings);
     auto failure = try_step();
     if (!failure) return std::nullopt;
     take_all_back();
@@ -74,7 +76,7 @@ class SweptStep {
       bodies_.set_end(world_);
       search_.find_candidates();
       bodies_.begin_at_start(world_, start());
-      shift_near_boxes(world_, m_, search_);
+      shift_near_boxes(world_, m_, search_, fraction_);
       search_.start();
     });
     for (int round = 0; round < max_rounds; ++round) {
@@ -133,8 +135,14 @@ class SweptStep {
   double may_move(const SweptContact& contact) const {
     if (contact.distance > contact.wanted) return contact.wanted - contact.distance;
     if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
-    if (search_.is_rigid(contact)) return std::min(0.0, -contact.distance);
+    if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
+      return std::min(0.0, -contact.distance);  // shifts do the rest
+    }
     return made_up_per_step * std::max(0.0, missing_distance(contact));
+  }
+
+  bool on_ground_as_box(const SweptContact& contact) const {
+    return contact.second.body == swept_ground && search_.is_rigid(contact);
   }
 
   std::optional<Divergence> finish() {
@@ -285,6 +293,7 @@ class SweptStep {
   SweptBodies& bodies_;
   SweptSearch search_;
   StageRunner run_;
+  double fraction_ = 1.0;  // of a whole step
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A step in which no body passes through another (ERRATA row 67). Private to sim/step.
+// A step in which nothing passes through a soft body (ERRATA row 67). Private to sim/step.
 //
 // Contacts act twice. At the start of the step impulses change the velocities so that the free
 // motion that follows, whatever the integrator, leaves every pair of features apart. At its end

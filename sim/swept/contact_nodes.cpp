@@ -80,7 +80,8 @@ void ContactNodes::find_neighbours() {
   for_each_pair([&](int a, int b) { neighbours_[at(filled_[at(a)]++)] = b; });
 }
 
-/// Cuthill and McKee's: the neighbours of what comes first come next.
+/// The neighbours of what comes first come next (as Cuthill and McKee's, without their order of
+/// degrees).
 void ContactNodes::order() {
   queue_.clear();
   is_queued_.assign(nodes_.size(), 0);

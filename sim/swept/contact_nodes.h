@@ -21,7 +21,7 @@ struct ContactNode {
   int rows() const { return box ? 6 : 3; }
 };
 
-/// The share of a node in a contact's relative velocity: weight (v + w x arm).
+/// The part of a node in a contact's relative velocity: weight (v + w x arm).
 struct ContactLever {
   int node = 0;
   double weight = 1.0;      // < 0 on the second side

@@ -11,7 +11,7 @@ constexpr int max_steps = 20;
 constexpr int max_shortenings = 12;
 /// Of the squared residual: below it lies rounding times the penalty.
 constexpr double converged = 1e-12;
-/// Multiplications of a factorisation, 0.1 ms: a stack of 100 boxes has fewer, a heap of 50 more.
+/// Multiplications of a factorisation. A stack of some hundred boxes has fewer, a heap of 50 more.
 constexpr double most_work = 1e5;
 
 Mat3 inertia_of(const BoxChange& box) {
@@ -149,19 +149,19 @@ double NewtonSolver::potential(std::span<SweptImpulse* const> impulses, double p
   return sum;
 }
 
-void NewtonSolver::move(double share) {
-  for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] += share * residual_[i];
+void NewtonSolver::move(double fraction) {
+  for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] += fraction * residual_[i];
 }
 
 /// The longest of the step, its half, its quarter and so on that the potential falls by.
 bool NewtonSolver::descend(std::span<SweptImpulse* const> impulses, double penalty) {
   const double before = potential(impulses, penalty);
   move(1.0);
-  double share = 1.0;
+  double fraction = 1.0;
   for (int i = 0; i < max_shortenings; ++i) {
     if (potential(impulses, penalty) < before) return true;
-    move(-0.5 * share);
-    share *= 0.5;
+    move(-0.5 * fraction);
+    fraction *= 0.5;
   }
   return false;
 }

@@ -23,7 +23,7 @@ class NewtonSolver {
  public:
   /// Improves the impulses, the more the greater the `penalty` is: of what each would need if it
   /// acted alone. False, and nothing is changed, if that would take longer than many Gauss-Seidel
-  /// iterations, or if it does not converge: from impulses that are good it does at any penalty.
+  /// iterations, or if it does not converge.
   bool improve(std::span<SweptImpulse* const> impulses, double penalty);
 
  private:
@@ -35,7 +35,7 @@ class NewtonSolver {
   void add(const SweptImpulse::Response& response, std::span<const ContactLever> levers);
   double potential(std::span<SweptImpulse* const> impulses, double penalty) const;
   bool descend(std::span<SweptImpulse* const> impulses, double penalty);
-  void move(double share);
+  void move(double fraction);
   Vec4d relative_change(std::span<const ContactLever> levers) const;
   Vec3 part(const ContactNode& node, int first) const;
 

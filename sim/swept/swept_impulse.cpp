@@ -93,7 +93,9 @@ void SweptImpulse::aim(double parting, const Vec3& sliding) {
 
 void SweptImpulse::start_from(double normal, const Vec3& friction) {
   normal_impulse_ = start_normal_ = normal;
-  friction_impulse_ = start_friction_ = to_vec4d(friction);
+  // The normal may have turned since: of that part nothing is taken back.
+  const Vec4d across = to_vec4d(friction);
+  friction_impulse_ = start_friction_ = across - dot(across, normal_) * normal_;
 }
 
 void SweptImpulse::warm_start(const Vec3& impulse) {
@@ -154,8 +156,8 @@ SweptImpulse::Response SweptImpulse::respond(Vec4d change, double penalty) const
 
 void SweptImpulse::replace_given(Vec4d given) {
   const Vec4d all = given + start();
-  const double normal = dot(all, normal_);
-  const Vec4d friction = all - normal * normal_;
+  const double along = dot(all, normal_), normal = std::max(0.0, along);
+  const Vec4d friction = all - along * normal_;
   apply((normal - normal_impulse_) * normal_ + (friction - friction_impulse_));
   normal_impulse_ = normal;
   friction_impulse_ = friction;
@@ -177,7 +179,7 @@ double SweptImpulse::correct_normal() {
 
 // A step against the sliding, then the nearest point in the cone: from within the cone it never
 // adds energy, and unlike the impulse that stops the sliding at once, where there is room for it,
-// it does not jump from one sweep to the next.
+// it does not jump from one iteration to the next.
 double SweptImpulse::correct_friction() {
   const double limit = friction_ * normal_impulse_;
   if (limit == 0.0 && dot(friction_impulse_, friction_impulse_) == 0.0) return 0.0;

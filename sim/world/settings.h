@@ -31,7 +31,7 @@ enum class SoftSearch {
 /// How bodies in contact are kept apart.
 enum class ContactMethod {
   impulses,  // the paper's: found after the motion, then impulses and displacements (5.3)
-  swept,     // found before a body passes through another, impulses only (ERRATA row 67)
+  swept,     // found before anything passes through a soft body (ERRATA row 67)
 };
 
 /// Whose form of the paper's formulas a world follows (ERRATA row 68).

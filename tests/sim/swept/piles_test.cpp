@@ -7,6 +7,7 @@
 #include "sim/inspect/inspect.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/rotation.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -104,6 +105,57 @@ TEST(Piles, BoxesThatStartInEachOtherPartWithoutAJump) {
   // impulses take it away again, m (g h)^2 / 2 a box and step that no fall has cost.
   const double of_gravity = 120 * 2 * 0.5 * std::pow(9.81 / 60.0, 2);
   EXPECT_NEAR(gained, work + of_gravity, 0.01);
+}
+
+TEST(Piles, WhatIsMovedApartThrowsNothing) {
+  World world = make_tower({1.0, 1.0, 1.0});
+  world.settings.gravity.setZero();
+  world.rigid[1].position.z() = 2.5;
+  world.rigid[2].position.z() = 4.545;  // the one below comes nearer by 0.05 m in the first step
+  Stepper stepper(world);
+  for (int i = 0; i < 120; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    for (const RigidBox& box : world.rigid) ASSERT_LT(box.velocity.norm(), 0.01) << i;
+  }
+  EXPECT_GT(world.rigid[2].position.z(), 4.9);
+}
+
+/// What the solvers have to do with it: a load that iterations do not carry, and an overlap.
+World make_hard_world() {
+  World world = make_tower({1.0, 1.0, 1.0, 1.0, 1.0, 1000.0});
+  for (const double height : {1.0, 2.7}) {
+    world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {10.0, 0.3 * height, height}));
+  }
+  return world;
+}
+
+TEST(Piles, ContinueBitForBitFromACopyAndOverThreads) {
+  World world = make_hard_world();
+  ASSERT_FALSE(run(world, 0.2));
+  World copy = world;
+  ASSERT_FALSE(run(world, 0.5));
+  StepperOptions three;
+  three.threads = 3;
+  ASSERT_FALSE(run(copy, 0.5, three));
+  EXPECT_EQ(state_hash(world), state_hash(copy));
+}
+
+TEST(Piles, AllocateNothingOnceTheContactsHavePeaked) {
+  World world = make_hard_world();
+  Stepper stepper(world);
+  const World start = world;
+  for (int i = 0; i < 60; ++i) ASSERT_FALSE(stepper.step(world));
+  world = start;
+  const long before = allocation_count();
+  for (int i = 0; i < 60; ++i) ASSERT_FALSE(stepper.step(world));
+  EXPECT_EQ(allocation_count() - before, 0);
+}
+
+TEST(Piles, AWorldOfNothingButGroundSteps) {
+  World world = make_tower({});
+  Stepper stepper(world);
+  EXPECT_FALSE(stepper.step(world));
+  EXPECT_EQ(world.steps, 1);
 }
 
 }  // namespace
