@@ -134,10 +134,10 @@ class CrossedFrames {
     if (state.bodies_that_cross.empty()) return;
     if (count_++ > 0) return;
     const bool is_swept = simulation.world().settings.contact == sim::ContactMethod::swept;
-    progress.say(fmt::format(
-        "{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
-        sim::time(simulation.world()),
-        is_swept ? "" : "; simulation.contact = \"swept\" lets nothing pass through soft bodies"));
+    progress.say(
+        fmt::format("{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
+                    sim::time(simulation.world()),
+                    is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
   }
 
   void summarise(Progress& progress) const {

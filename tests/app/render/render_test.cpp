@@ -132,7 +132,7 @@ TEST_F(RenderTest, SaysWhenBodiesPassThroughEachOther) {
   };
   const std::string crossing = render_cubes("crossing", "impulses");
   EXPECT_NE(crossing.find("torus and cube."), std::string::npos) << crossing;
-  EXPECT_NE(crossing.find("simulation.contact = \"swept\" lets nothing pass"), std::string::npos);
+  EXPECT_NE(crossing.find("simulation.contact = \"swept\" keeps bodies apart"), std::string::npos);
   EXPECT_NE(crossing.find("bodies pass through each other in 3 of 3 frames"), std::string::npos)
       << crossing;
   EXPECT_GT(record("crossing")["frames"][0]["crossings"]["between_bodies"], 0);
