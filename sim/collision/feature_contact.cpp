@@ -55,6 +55,17 @@ Vec3 contact_normal(const SurfaceView& first, const SurfaceView& second,
   return contact.distance > 0.0 ? Vec3(apart / contact.distance) : Vec3::UnitZ();
 }
 
+FeatureContact to_contact(const SurfaceView& first, Feature first_feature,
+                          const SurfaceView& second, Feature second_feature,
+                          const Proximity& proximity) {
+  return {.first = part_of(first.topology, first_feature, proximity.first),
+          .second = part_of(second.topology, second_feature, proximity.second),
+          .first_point = proximity.first_point,
+          .second_point = proximity.second_point,
+          .normal = Vec3::Zero(),
+          .distance = proximity.distance};
+}
+
 std::optional<FeatureContact> find_touching_parts(const SurfaceView& first, Feature first_feature,
                                                   const SurfaceView& second, Feature second_feature,
                                                   double reach) {
@@ -63,13 +74,7 @@ std::optional<FeatureContact> find_touching_parts(const SurfaceView& first, Feat
                        : test_ordered(second, second_feature, first, first_feature, reach);
   if (!near) return {};
   if (!in_order) near = mirrored(*near);
-
-  return FeatureContact{.first = part_of(first.topology, first_feature, near->first),
-                        .second = part_of(second.topology, second_feature, near->second),
-                        .first_point = near->first_point,
-                        .second_point = near->second_point,
-                        .normal = Vec3::Zero(),
-                        .distance = near->distance};
+  return to_contact(first, first_feature, second, second_feature, *near);
 }
 
 std::optional<FeatureContact> find_feature_contact(const SurfaceView& first, Feature first_feature,

@@ -21,6 +21,11 @@ struct FeatureContact {
 /// The part of a feature as a feature of the mesh.
 Feature part_of(const MeshTopology& topology, Feature feature, FeaturePart part);
 
+/// Where two features are near each other, written for the mesh, without a normal.
+FeatureContact to_contact(const SurfaceView& first, Feature first_feature,
+                          const SurfaceView& second, Feature second_feature,
+                          const Proximity& proximity);
+
 /// Runs the test of section 5.2.1.1 that fits the kinds of the two features. None unless they are
 /// less than `reach` (m, the paper's 2 x skin thickness) apart.
 std::optional<FeatureContact> find_feature_contact(const SurfaceView& first, Feature first_feature,

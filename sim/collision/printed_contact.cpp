@@ -230,12 +230,7 @@ std::optional<FeatureContact> find_printed_contact(const SurfaceView& first, Fea
                         : test_lower_first(second, second_feature, first, first_feature, reach);
   if (!found) return {};
   if (!in_order) found = mirrored(*found);
-  FeatureContact contact{.first = part_of(first.topology, first_feature, found->first),
-                         .second = part_of(second.topology, second_feature, found->second),
-                         .first_point = found->first_point,
-                         .second_point = found->second_point,
-                         .normal = Vec3::Zero(),
-                         .distance = found->distance};
+  FeatureContact contact = to_contact(first, first_feature, second, second_feature, *found);
   contact.normal = normal_of(first, second, contact);
   return contact;
 }
