@@ -384,12 +384,7 @@ TEST_P(Implicit, ThreadsChangeNoBit) {
     perturb(one.soft.back(), 0.05, static_cast<unsigned>(i));
   }
   one.settings.integrator = GetParam();
-  World two = one;
-  ASSERT_FALSE(run(one, 1.0));
-  StepperOptions options;
-  options.threads = 2;
-  ASSERT_FALSE(run(two, 1.0, options));
-  EXPECT_EQ(state_hash(one), state_hash(two));
+  EXPECT_EQ(state_hash_after(one, 1.0, 1), state_hash_after(one, 1.0, 2));
 }
 
 TEST_P(Implicit, ContinuesBitForBitFromACheckpoint) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/step/stepper.h"
@@ -85,6 +86,16 @@ inline World make_free_boxes(std::vector<RigidBox> boxes, double restitution) {
     if (auto divergence = stepper.step(world)) return divergence;
   }
   return std::nullopt;
+}
+
+/// Of a copy of the world, with a stepper of its own. Throws std::runtime_error if it diverges.
+inline std::uint64_t state_hash_after(World world, double seconds, int threads) {
+  StepperOptions options;
+  options.threads = threads;
+  if (const auto divergence = run(world, seconds, std::move(options))) {
+    throw std::runtime_error(divergence->body + ": " + divergence->what);
+  }
+  return state_hash(world);
 }
 
 /// Steps until something touches; the last step is the one that resolved it. Returns the state of
