@@ -12,10 +12,10 @@ constexpr double shift_tolerance = 0.05;
 
 }  // namespace
 
-void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
+bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   memory.bodies.forget_shifts();
+  if (world.rigid.empty()) return false;
   search.find_contacts_of_boxes();
-  if (memory.contacts.empty()) return;
   double greatest = 0.0;
   for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
     const double missing = missing_distance(memory.contacts[i]);
@@ -23,11 +23,14 @@ void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, do
     memory.impulses[i].aim(shift, Vec3::Zero());
     greatest = std::max(greatest, shift);
   }
-  if (greatest < min_shift * memory.bodies.thinnest_skin()) return;
+  if (greatest < min_shift * memory.bodies.thinnest_skin()) return false;
   memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
   memory.bodies.take_as_shifts();
   memory.bodies.shift_boxes(world);
   memory.work += memory.bodies.work_of_shifts(world);
+  memory.contacts.clear();  // they are none of the step's motion
+  memory.impulses.clear();
+  return true;
 }
 
 }  // namespace pneuma::sim

@@ -20,7 +20,7 @@ inline double missing_distance(const SweptContact& contact) {
 /// Moves boxes apart besides their motion in the step (split impulses, as in Bullet), so that they
 /// gain no velocity: velocities are never solved for so well, in a tall stack, that all of what
 /// pushed would be taken back. The candidates must be known, and the boxes be at the end of their
-/// free motion. `fraction`: of a whole step, which may have been halved.
-void shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction);
+/// free motion. `fraction`: of a whole step, which may have been halved. Whether any was moved.
+bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction);
 
 }  // namespace pneuma::sim

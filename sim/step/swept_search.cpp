@@ -30,8 +30,6 @@ double SweptSearch::near_distance(int first, int second) const {
 void SweptSearch::start() {
   m_.contacts.clear();
   m_.impulses.clear();
-  bodies_.set_end(world_);
-  if (!bodies_.search_is_valid()) find_candidates();
   for (SweptCandidate& candidate : m_.candidates) add_if_it_meets(candidate);
 }
 
@@ -105,13 +103,16 @@ SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
   return *m_.candidates.insert(place, missing);
 }
 
+void SweptSearch::follow_ends() {
+  bodies_.set_end(world_);
+  if (bodies_.search_is_valid()) return;
+  find_candidates();
+  recall_contacts();
+}
+
 bool SweptSearch::find_collisions() {
   blocked_.reset();
-  bodies_.set_end(world_);
-  if (!bodies_.search_is_valid()) {
-    find_candidates();
-    recall_contacts();
-  }
+  follow_ends();
   bool collided = false;
   for (SweptCandidate& candidate : m_.candidates) {
     const bool on_ground = candidate.bodies.second == swept_ground;

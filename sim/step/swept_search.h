@@ -48,6 +48,8 @@ class SweptSearch {
 
   /// What may meet.
   void find_candidates();
+  /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
+  void follow_ends();
   /// The contacts that the free motion would use up.
   void start();
   /// Fills the memory's contacts and impulses with those that keep boxes from being shifted into

@@ -76,7 +76,7 @@ class SweptStep {
       bodies_.set_end(world_);
       search_.find_candidates();
       bodies_.begin_at_start(world_, start());
-      shift_near_boxes(world_, m_, search_, fraction_);
+      if (shift_near_boxes(world_, m_, search_, fraction_)) search_.follow_ends();
       search_.start();
     });
     for (int round = 0; round < max_rounds; ++round) {
