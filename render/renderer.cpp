@@ -6,12 +6,13 @@
 
 #include "render/context/context.h"
 #include "render/frame/check_frame.h"
+#include "render/geometry/drawn_surface.h"
+#include "render/light/indirect.h"
 #include "render/passes/discs.h"
 #include "render/passes/ground_plane.h"
 #include "render/passes/ground_shadow.h"
 #include "render/passes/layer.h"
 #include "render/passes/lettering.h"
-#include "render/passes/mesh_buffers.h"
 #include "render/passes/scenery.h"
 #include "render/passes/segments.h"
 #include "render/passes/shadow_map.h"
@@ -67,13 +68,22 @@ struct Renderer::Resources {
   Resources(const Resources&) = delete;
   Resources& operator=(const Resources&) = delete;
 
+  void draw_shadows(const Frame& frame, const View& view, bool on_ground);
+  /// After draw_shadows, if there are any.
+  void light_surface(bool between_bodies, bool on_ground);
+
   RenderOptions options;
   Context context;  // before all that lives in it
   std::string description;
   Target target;
   Layer layer;
-  MeshBuffers mesh_buffers;
+  DrawnSurface surface;
+  SurfaceBuffers surface_buffers;
+  IndirectLighting indirect;
+  std::vector<IndirectLight> lit;    // per lit vertex
+  std::vector<IndirectLight> drawn;  // per drawn vertex
   ShadowMap shadow_map;
+  ShadowDepths shadow_depths;
   GroundShadow ground_shadow;
   Surfaces surfaces;
   GroundPlane ground_plane;
@@ -82,6 +92,32 @@ struct Renderer::Resources {
   Discs discs;
   Lettering lettering;
 };
+
+void Renderer::Resources::draw_shadows(const Frame& frame, const View& view, bool on_ground) {
+  shadow_map.draw(view, frame.light, surface_buffers);
+  shadow_map.read(shadow_depths);
+  indirect.take_bodies(frame.light.between_bodies ? frame.meshes : std::vector<Mesh>(),
+                       view.to_light,
+                       [this](const Vec3f& point) { return shadow_depths.lit(point); });
+  if (on_ground) {
+    ground_shadow.draw(shadow_map, shadow_depths, view.to_light, indirect.bodies());
+  }
+}
+
+void Renderer::Resources::light_surface(bool between_bodies, bool on_ground) {
+  if (between_bodies) {
+    indirect.light(surface,
+                   on_ground ? FloorLeft([this](const Vec3f& position) {
+                     return ground_shadow.left_below(position);
+                   })
+                             : FloorLeft(),
+                   lit);
+  } else {
+    lit.assign(surface.positions().size(), IndirectLight{});
+  }
+  surface.spread(lit, drawn);
+  surface_buffers.upload_light(drawn);
+}
 
 Renderer::Renderer(const RenderOptions& options)
     : resources_(std::make_unique<Resources>(options)) {}
@@ -93,19 +129,20 @@ void Renderer::draw(const Frame& frame, Image& image) {
   Resources& r = *resources_;
   r.context.make_current();
   glDisable(GL_SCISSOR_TEST);  // which a frame that failed half way may have left
-  const View view = make_view(frame, r.options.width, r.options.height);
-  r.mesh_buffers.upload(frame.meshes);
-  const std::vector<DrawnMesh>& meshes = r.mesh_buffers.meshes();
+  View view = make_view(frame, r.options.width, r.options.height);
+  r.surface.build(frame, view);
+  for (const SurfaceVertex& vertex : r.surface.vertices()) view.casters.grow(vertex.position);
+  r.surface_buffers.upload(r.surface);
 
   const bool shadows = frame.light.shadows && !view.casters.empty();
   // Light along the ground or from below throws no shadow on it.
   const bool ground_shadow = shadows && frame.ground && view.to_light.z() > 0.05f;
-  if (shadows) r.shadow_map.draw(view, frame.light, meshes);
-  if (ground_shadow) r.ground_shadow.draw(r.shadow_map, view.to_light);
+  if (shadows) r.draw_shadows(frame, view, ground_shadow);
+  r.light_surface(shadows && frame.light.between_bodies, ground_shadow);
 
-  r.layer.begin(region_of_bodies(frame, view));
+  r.layer.begin(region_of_bodies(frame, view, r.surface.vertices()));
   if (ground_hides(frame, view)) r.ground_plane.hide_below(view);
-  r.surfaces.draw(view, meshes, shadows ? &r.shadow_map : nullptr);
+  r.surfaces.draw(view, r.surface_buffers, shadows ? &r.shadow_map : nullptr);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);
   r.segments.draw_lines(view, frame.lines);
   r.discs.draw(view, frame.points);
@@ -113,7 +150,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
 
   r.target.begin();
   r.scenery.draw(view, frame.ground, r.ground_plane);
-  if (ground_shadow) r.ground_plane.darken(view, r.shadow_map, r.ground_shadow);
+  if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
   r.layer.compose();
   if (frame.caption) r.lettering.draw(view, frame.caption->text);
   r.target.read(image);

@@ -11,6 +11,7 @@
 #include "app/host/errors.h"
 #include "app/picture/body_colours.h"
 #include "app/picture/overlay.h"
+#include "app/picture/rounding_room.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 
@@ -139,12 +140,13 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
   // build_world puts a body's copies one after the other, in the order of the scene.
   for (const scenes::BodyScene& body : scene.bodies) {
     const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
+    const auto roughness = static_cast<float>(body.roughness);
     if (body.kind == scenes::BodyKind::rigid) {
-      const ShapePointer shape = rigid_shape(world.rigid.at(rigid_shapes_.size()), body);
-      rigid_shapes_.insert(rigid_shapes_.end(), copies, shape);
+      const ShapePointer shape = rigid_shape(world.rigid.at(rigid_looks_.size()), body);
+      rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness});
     } else {
-      const ShapePointer shape = soft_shape(*world.soft.at(soft_shapes_.size()).mesh, body);
-      soft_shapes_.insert(soft_shapes_.end(), copies, shape);
+      const ShapePointer shape = soft_shape(*world.soft.at(soft_looks_.size()).mesh, body);
+      soft_looks_.insert(soft_looks_.end(), copies, {shape, roughness});
     }
   }
 }
@@ -154,11 +156,15 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   render::Frame frame = scenery_;
   frame.wireframe = show.wireframe;
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    frame.meshes.push_back(soft_mesh(world.soft[i], soft_shapes_[i]));
+    frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
+    frame.meshes.back().roughness = soft_looks_[i].roughness;
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_shapes_[i]));
+    frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_looks_[i].shape));
+    frame.meshes.back().roughness = rigid_looks_[i].roughness;
   }
+  // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
+  if (!show.wireframe && !show.particles && !show.contacts) set_rounding_room(frame.meshes);
   if (show.particles) add_particles(world, contacts, frame);
   if (show.contacts) add_contacts(contacts, frame);
   if (caption_) frame.caption = caption(title_, world);

@@ -45,11 +45,16 @@ class FrameBuilder {
                       Show show = {}) const;
 
  private:
+  struct Look {
+    std::shared_ptr<const render::MeshShape> shape;
+    float roughness;
+  };
+
   std::string title_;
   bool caption_ = false;
-  render::Frame scenery_;  // all that is the same in every frame
-  std::vector<std::shared_ptr<const render::MeshShape>> soft_shapes_;   // as World::soft
-  std::vector<std::shared_ptr<const render::MeshShape>> rigid_shapes_;  // as World::rigid
+  render::Frame scenery_;          // all that is the same in every frame
+  std::vector<Look> soft_looks_;   // as World::soft
+  std::vector<Look> rigid_looks_;  // as World::rigid
 };
 
 }  // namespace pneuma::app

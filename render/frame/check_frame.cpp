@@ -48,6 +48,13 @@ void check_mesh(const Mesh& mesh, std::size_t i) {
   require(mesh.normals.empty() || mesh.normals.size() == vertices,
           "mesh {} has {} positions and {} normals; as many are needed, or none", i, vertices,
           mesh.normals.size());
+  require(mesh.roughness >= 0.05f && mesh.roughness <= 1.0f,
+          "mesh {}: the roughness is {}; allowed is 0.05..1", i, mesh.roughness);
+  require(mesh.room.empty() || mesh.room.size() == mesh.shape->triangles.size(),
+          "mesh {} has {} triangles and room for {} to bulge; as many are needed, or none", i,
+          mesh.shape->triangles.size(), mesh.room.size());
+  require(std::all_of(mesh.room.begin(), mesh.room.end(), [](float room) { return room >= 0.0f; }),
+          "mesh {}: the room of a triangle is negative or not a number", i);
   check_vectors(mesh.positions, i, "position");
   check_vectors(mesh.normals, i, "normal");
   check_indices(mesh.shape->triangles, vertices, i, "triangle");

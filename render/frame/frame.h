@@ -26,6 +26,7 @@ struct Light {
   Vec3f direction = {-0.45f, 0.35f, -0.82f};  // the way it shines; any length but zero
   float softness = 0.03f;  // width of a shadow's edge, as a fraction of the scene, 0..0.2
   bool shadows = true;
+  bool between_bodies = true;  // with shadows: bodies take light of each other and of the ground
 };
 
 /// The plane z = 0 with a grid that gives scale.
@@ -44,6 +45,9 @@ struct Mesh {
   std::shared_ptr<const MeshShape> shape;
   std::vector<Vec3f> positions;  // per vertex
   std::vector<Vec3f> normals;    // per vertex, unit; empty for flat shading
+  float roughness = 0.35f;       // of the surface, 0.05 (shines) .. 1 (dull)
+  // Per triangle, m: how far the drawn surface may bulge out of it to look round; empty: nowhere.
+  std::vector<float> room;
 };
 
 /// Drawn over the surfaces, round, with a dark rim so that it stands out on any colour.

@@ -1,8 +1,8 @@
 // What is seen where nothing else is: a soft vertical gradient.
 #pragma once
 
+#include "render/frame/view.h"
 #include "render/passes/full_screen.h"
-#include "render/passes/view.h"
 
 namespace pneuma::render {
 

@@ -1,6 +1,5 @@
 #include "render/passes/ground_plane.h"
 
-#include <Eigen/LU>
 #include <string>
 #include <vector>
 
@@ -46,8 +45,8 @@ void main() {
   vec3 distant = backdrop(gl_FragCoord.y / picture_height);
   float near = nearness(from_centre);
   vec2 pixel = fwidth(on_grid);
-  float grid = max(0.07 * lines(on_grid, pixel), 0.16 * lines(on_grid * 0.2, pixel * 0.2));
-  vec3 ground = mix(distant, vec3(0.925, 0.925, 0.922), 0.6 * near) * (1.0 - near * grid);
+  float grid = max(0.05 * lines(on_grid, pixel), 0.11 * lines(on_grid * 0.2, pixel * 0.2));
+  vec3 ground = mix(distant, vec3(0.800, 0.797, 0.788), near) * (1.0 - near * grid);
   colour = vec4(ground, 1.0);
 }
 )";
@@ -118,15 +117,10 @@ Vertices whole_ground(const View& view) {
   return vertices;
 }
 
-/// Where the light that passes the map's dark cells meets the ground.
-Vertices dark_ground(const ShadowMap& map, const GroundShadow& shadow, const Vec3f& to_light) {
-  const Mat4f to_world = map.world_to_map().inverse();
-  const auto corner = [&](int column, int row) -> Eigen::Vector2f {
+Vertices dark_ground(const GroundShadow& shadow) {
+  const auto corner = [&](int column, int row) {
     constexpr float cells = GroundShadow::cells;
-    const Eigen::Vector4f in_map(static_cast<float>(column) / cells,
-                                 static_cast<float>(row) / cells, 0.0f, 1.0f);
-    const Vec3f on_map = (to_world * in_map).head<3>();
-    return (on_map - to_light * (on_map.z() / to_light.z())).head<2>();
+    return shadow.on_ground(static_cast<float>(column) / cells, static_cast<float>(row) / cells);
   };
   Vertices vertices;
   for (const auto& [column, row] : shadow.dark_cells()) {
@@ -184,18 +178,18 @@ void GroundPlane::draw(const View& view, const Ground& ground) {
   draw_triangles(whole_ground(view));
 }
 
-void GroundPlane::darken(const View& view, const ShadowMap& map, const GroundShadow& shadow) {
+void GroundPlane::darken(const View& view, const GroundShadow& shadow) {
   if (view.eye.z() <= 0.0f) return;
   glEnable(GL_BLEND);
   glBlendFunc(GL_ZERO, GL_SRC_COLOR);
   glDisable(GL_DEPTH_TEST);
   shadow_.use();
   set_uniform(shadow_view_projection_, view.view_projection);
-  set_uniform(shadow_world_to_map_, map.world_to_map());
+  set_uniform(shadow_world_to_map_, shadow.world_to_picture());
   set_uniform(shadow_centre_, centre_of(view));
   set_uniform(shadow_radius_, ground_radius(view));
   shadow.bind(0);
-  draw_triangles(dark_ground(map, shadow, view.to_light));
+  draw_triangles(dark_ground(shadow));
 }
 
 void GroundPlane::hide_below(const View& view) {

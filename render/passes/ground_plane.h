@@ -16,7 +16,7 @@ class GroundPlane {
   void draw(const View& view, const Ground& ground);
 
   /// Darkens what draw() has drawn where light is blocked.
-  void darken(const View& view, const ShadowMap& map, const GroundShadow& shadow);
+  void darken(const View& view, const GroundShadow& shadow);
 
   /// Its depth alone, so that what lies below is not drawn.
   void hide_below(const View& view);

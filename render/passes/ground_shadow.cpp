@@ -6,14 +6,17 @@
 #include <cmath>
 #include <cstdint>
 
-#include "render/passes/look.h"
-
 namespace pneuma::render {
 namespace {
 
-constexpr int size = 160;  // texels on a side; blurred, so that more would not show
+constexpr int size = GroundShadow::size;
 static_assert(size % GroundShadow::cells == 0);
 constexpr std::size_t texels = static_cast<std::size_t>(size) * size;
+// What is seen of the sky changes slowly over the ground: one point for so many texels a side.
+constexpr int texels_per_point = 4;
+constexpr int points = size / texels_per_point;
+constexpr int block = 8;  // points on a side that are lit together
+static_assert(points % block == 0 && block * block <= Receivers::most);
 
 /// Depth of the ground z = 0 over the map's coordinates: dot(result, (u, v, 1)). In those
 /// coordinates q = A p + b the plane reads n.(q - b) = 0 with n = A^-T e_z, so that its depth is
@@ -47,22 +50,13 @@ void make_kernel(float step, std::vector<float>& kernel) {
   }
 }
 
-using Bytes = std::array<std::uint8_t, 4>;
-
-/// What is left of the ground's colour when 0..255 of 255 parts of the light are blocked. sRGB is
-/// close to linear to the power of 1 / 2.2, and so are products.
-std::array<Bytes, 256> colours_left(const Vec3f& to_light) {
-  std::array<Bytes, 256> colours;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float direct = sun[c] * to_light.z();
-      const float left = 1.0f - static_cast<float>(i) / 255.0f * direct / (sky[c] + direct);
-      colours[i][c] = static_cast<std::uint8_t>(255.0f * std::pow(left, 1.0f / 2.2f) + 0.5f);
-    }
-    colours[i][3] = 255;
-  }
-  return colours;
+/// sRGB is close to linear to the power of 1 / 2.2, and so are products.
+std::uint8_t byte_of(float left) {
+  return static_cast<std::uint8_t>(255.0f * std::pow(left, 1.0f / 2.2f) + 0.5f);
 }
+
+/// The green channel, close to the luminance.
+constexpr int green = 1;
 
 void add_weighted(float weight, const float* from, float* to, int count) {
   for (int i = 0; i < count; ++i) to[i] += weight * from[i];
@@ -71,7 +65,17 @@ void add_weighted(float weight, const float* from, float* to, int count) {
 }  // namespace
 
 GroundShadow::GroundShadow()
-    : cover_(texels), soft_cover_(texels), narrow_(texels), scratch_(texels), bytes_(texels) {
+    : cover_(texels),
+      soft_cover_(texels),
+      narrow_(texels),
+      scratch_(texels),
+      openness_(static_cast<std::size_t>(points) * points),
+      bytes_(texels) {
+  for (std::size_t i = 0; i < tone_.size(); ++i)
+    tone_[i] = byte_of(static_cast<float>(i) / 1023.0f);
+  for (int side = size; side > 2; side /= 2) {
+    left_.emplace_back(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 1.0f);
+  }
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -83,40 +87,58 @@ GroundShadow::GroundShadow()
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-void GroundShadow::draw(const ShadowMap& map, const Vec3f& to_light) {
-  map.read(depths_);
-  measure_cover(map);
+void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
+                        std::span<const BodyElements> bodies) {
+  picture_to_map_.setIdentity();
+  picture_to_map_(0, 0) = picture_to_map_(1, 1) = static_cast<float>(size) / inner;
+  picture_to_map_(0, 3) = picture_to_map_(1, 3) = -static_cast<float>(margin) / inner;
+  map_to_world_ = map.world_to_map().inverse();
+  world_to_picture_ = picture_to_map_.inverse() * map.world_to_map();
+  to_light_ = to_light;
+  texel_ = map.extent() / inner;
+  measure_cover(map, depths);
   // Nine weights spread over two and a half steps to each side, to the eye.
-  const float wide_step = 0.4f * map.edge() * size;
+  const float wide_step = 0.4f * map.edge() * inner;
   const float narrow_step = std::min(0.5f * wide_step, 1.0f);
   blur(cover_, narrow_step);
   blur(soft_cover_, narrow_step);
   narrow_ = cover_;
   blur(cover_, wide_step);
   blur(soft_cover_, wide_step);
-  upload(to_light);
+  measure_openness(bodies);
+  add_up();
+  average_down();
+  upload();
   find_dark_cells();
 }
 
-void GroundShadow::measure_cover(const ShadowMap& map) {
+Eigen::Vector2f GroundShadow::on_ground(float u, float v) const {
+  const Eigen::Vector4f at = picture_to_map_ * Eigen::Vector4f(u, v, 0.0f, 1.0f);
+  const Vec3f on_map = (map_to_world_ * at).head<3>();
+  return (on_map - to_light_ * (on_map.z() / to_light_.z())).head<2>();
+}
+
+void GroundShadow::measure_cover(const ShadowMap& map, const ShadowDepths& shadow_depths) {
   const Vec3f ground = ground_depth(map);
   // A shadow is at its softest a third of the scene's size below its caster.
   const float softness = map.depth_range() / (0.35f * map.extent());
   const int map_size = map.size();
-  const auto first = [map_size](int texel) { return texel * map_size / size; };
+  const auto first = [map_size](int texel) { return texel * map_size / inner; };
+  std::ranges::fill(cover_, 0.0f);
+  std::ranges::fill(soft_cover_, 0.0f);
   std::vector<float> nearest(static_cast<std::size_t>(map_size));
   std::vector<float> covered(static_cast<std::size_t>(map_size));
-  for (int y = 0; y < size; ++y) {
+  for (int y = 0; y < inner; ++y) {
     std::ranges::fill(nearest, 1.0f);
     std::ranges::fill(covered, 0.0f);
     for (int row = first(y); row < first(y + 1); ++row) {
-      const float* depths = depths_.data() + static_cast<std::ptrdiff_t>(row) * map_size;
+      const float* depths = shadow_depths.row(row);
       for (std::size_t i = 0; i < nearest.size(); ++i) {
         nearest[i] = std::min(nearest[i], depths[i]);
         covered[i] += depths[i] < 1.0f ? 1.0f : 0.0f;
       }
     }
-    for (int x = 0; x < size; ++x) {
+    for (int x = 0; x < inner; ++x) {
       float depth = 1.0f;
       float sum = 0.0f;
       for (int column = first(x); column < first(x + 1); ++column) {
@@ -125,9 +147,9 @@ void GroundShadow::measure_cover(const ShadowMap& map) {
       }
       const int count = (first(x + 1) - first(x)) * (first(y + 1) - first(y));
       const float fraction = sum / static_cast<float>(count);
-      const Vec3f at = {(static_cast<float>(x) + 0.5f) / size,
-                        (static_cast<float>(y) + 0.5f) / size, 1.0f};
-      const auto texel = static_cast<std::size_t>(y * size + x);
+      const Vec3f at = {(static_cast<float>(x) + 0.5f) / inner,
+                        (static_cast<float>(y) + 0.5f) / inner, 1.0f};
+      const auto texel = static_cast<std::size_t>((y + margin) * size + x + margin);
       cover_[texel] = fraction;
       soft_cover_[texel] = fraction * std::clamp((ground.dot(at) - depth) * softness, 0.0f, 1.0f);
     }
@@ -157,20 +179,121 @@ void GroundShadow::blur(Picture& picture, float step) {
   }
 }
 
-void GroundShadow::upload(const Vec3f& to_light) {
-  const auto colours = colours_left(to_light);
-  for (std::size_t i = 0; i < texels; ++i) {
-    const float softness = soft_cover_[i] / std::max(cover_[i], 0.004f);
-    const float blocked = narrow_[i] + (cover_[i] - narrow_[i]) * softness;
-    bytes_[i] = colours[static_cast<std::size_t>(255.0f * std::clamp(blocked, 0.0f, 1.0f) + 0.5f)];
+void GroundShadow::measure_openness(std::span<const BodyElements> bodies) {
+  const auto coordinate = [](int point) {
+    return (static_cast<float>(point) + 0.5f) / static_cast<float>(points);
+  };
+  for (int row = 0; row < points; row += block) {
+    for (int column = 0; column < points; column += block) {
+      receivers_.begin(block * block);
+      for (int i = 0; i < block * block; ++i) {
+        const Eigen::Vector2f at =
+            on_ground(coordinate(column + i % block), coordinate(row + i / block));
+        receivers_.add({at.x(), at.y(), 0.0f}, Vec3f::UnitZ());
+      }
+      gather(bodies, receivers_);
+      for (int i = 0; i < block * block; ++i) {
+        openness_[static_cast<std::size_t>((row + i / block) * points + column + i % block)] =
+            left_at(receivers_, static_cast<std::size_t>(i)).open_to.x();
+      }
+    }
   }
+}
+
+float GroundShadow::openness_at(int x, int y) const {
+  const auto place = [](int texel, int& first, float& rest) {
+    const float at = std::clamp((static_cast<float>(texel) + 0.5f) / texels_per_point - 0.5f, 0.0f,
+                                static_cast<float>(points) - 1.001f);
+    first = static_cast<int>(at);
+    rest = at - static_cast<float>(first);
+  };
+  int column = 0;
+  int row = 0;
+  float right = 0.0f;
+  float up = 0.0f;
+  place(x, column, right);
+  place(y, row, up);
+  const float* at = openness_.data() + row * points + column;
+  return std::lerp(std::lerp(at[0], at[1], right), std::lerp(at[points], at[points + 1], right),
+                   up);
+}
+
+void GroundShadow::add_up() {
+  const Environment environment;
+  const auto irradiance = sky_irradiance(environment);
+  const Light3 sky = irradiance[0] + irradiance[1] + irradiance[2];
+  const Light3 sun = environment.sun * to_light_.z();
+  const Light3 sky_part = sky / (sky + sun);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const auto i = static_cast<std::size_t>(y * size + x);
+      const float softness = soft_cover_[i] / std::max(cover_[i], 0.004f);
+      const float blocked =
+          std::clamp(narrow_[i] + (cover_[i] - narrow_[i]) * softness, 0.0f, 1.0f);
+      // Three hundredths of the sky are not seen to be missing.
+      const float open = std::min(1.0f, openness_at(x, y) + 0.03f);
+      const Light3 left = sky_part * open + (1.0f - sky_part) * (1.0f - blocked);
+      left_[0][i] = left[green];
+      bytes_[i] = {tone_[static_cast<std::size_t>(1023.0f * left[0])],
+                   tone_[static_cast<std::size_t>(1023.0f * left[1])],
+                   tone_[static_cast<std::size_t>(1023.0f * left[2])], 255};
+    }
+  }
+}
+
+void GroundShadow::average_down() {
+  for (std::size_t level = 1; level < left_.size(); ++level) {
+    const Picture& from = left_[level - 1];
+    Picture& to = left_[level];
+    const int side = size >> level;
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        const float* at = from.data() + 4 * y * side + 2 * x;
+        to[static_cast<std::size_t>(y * side + x)] =
+            0.25f * (at[0] + at[1] + at[2 * side] + at[2 * side + 1]);
+      }
+    }
+  }
+}
+
+float GroundShadow::left_below(const Vec3f& position) const {
+  const Eigen::Vector4f foot(position.x(), position.y(), 0.0f, 1.0f);
+  const Eigen::Vector2f at = (world_to_picture_ * foot).head<2>();
+  if ((at.array() <= 0.0f).any() || (at.array() >= 1.0f).any()) return 1.0f;
+  // Half of what a surface that faces the ground sees of it lies within its height.
+  const float level = std::clamp(std::log2(std::max(2.0f * position.z() / texel_, 1.0f)), 0.0f,
+                                 static_cast<float>(left_.size()) - 1.001f);
+  const auto whole = static_cast<std::size_t>(level);
+  return std::lerp(left_at_level(whole, at), left_at_level(whole + 1, at),
+                   level - static_cast<float>(whole));
+}
+
+float GroundShadow::left_at_level(std::size_t level, const Eigen::Vector2f& at) const {
+  const int side = size >> level;
+  const auto texel = [side](float coordinate, float& rest) {
+    const float place = std::clamp(coordinate * static_cast<float>(side) - 0.5f, 0.0f,
+                                   static_cast<float>(side) - 1.001f);
+    const int first = static_cast<int>(place);
+    rest = place - static_cast<float>(first);
+    return first;
+  };
+  float right = 0.0f;
+  float up = 0.0f;
+  const int column = texel(at.x(), right);
+  const int row = texel(at.y(), up);
+  const float* left = left_[level].data() + row * side + column;
+  return std::lerp(std::lerp(left[0], left[1], right), std::lerp(left[side], left[side + 1], right),
+                   up);
+}
+
+void GroundShadow::upload() {
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
 }
 
 void GroundShadow::find_dark_cells() {
   constexpr int side = size / cells;
-  constexpr Bytes light = {255, 255, 255, 255};
+  constexpr std::array<std::uint8_t, 4> light = {255, 255, 255, 255};
   dark_cells_.clear();
   for (int row = 0; row < cells; ++row) {
     for (int column = 0; column < cells; ++column) {

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "render/light/gather.h"
 #include "render/passes/shadow_map.h"
 
 namespace pneuma::render {
@@ -17,15 +19,32 @@ namespace pneuma::render {
 ///
 /// The picture is made by the CPU itself, not by shaders: llvmpipe takes 3 ns to read a texel, and
 /// five passes over so small a picture would take ten times as long.
+///
+/// To it comes, at every fourth texel, what bodies take of the sky (light/gather.h): the soft dark
+/// around the place where a body touches the ground.
 class GroundShadow {
  public:
   GroundShadow();
 
-  /// After `map` has been drawn.
-  void draw(const ShadowMap& map, const Vec3f& to_light);
+  /// Texels on a side; blurred, so that more would not show. The shadow map lies within a margin:
+  /// the ground is darkened beside a body, too.
+  static constexpr int size = 192;
+  static constexpr int margin = 24;
+  static constexpr int inner = size - 2 * margin;
+
+  /// After `map` has been drawn and its depths read.
+  void draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
+            std::span<const BodyElements> bodies);
 
   /// The texture: what is left of the ground's colour, in sRGB.
   void bind(GLuint unit) const;
+  const Mat4f& world_to_picture() const { return world_to_picture_; }
+  /// Where the light that passes a point of the picture meets the ground.
+  Eigen::Vector2f on_ground(float u, float v) const;
+
+  /// How much of its light the ground below a point has left, on average over a place that is as
+  /// wide as the point is high.
+  float left_below(const Vec3f& position) const;
 
   /// Cells on a side into which the picture is divided, and those that hold any shadow, each by its
   /// column and row.
@@ -35,18 +54,31 @@ class GroundShadow {
  private:
   using Picture = std::vector<float>;  // one channel, row by row
 
-  void measure_cover(const ShadowMap& map);
+  void measure_cover(const ShadowMap& map, const ShadowDepths& depths);
   void blur(Picture& picture, float step);
-  void upload(const Vec3f& to_light);
+  void measure_openness(std::span<const BodyElements> bodies);
+  float openness_at(int x, int y) const;
+  void add_up();
+  void average_down();
+  float left_at_level(std::size_t level, const Eigen::Vector2f& at) const;
+  void upload();
   void find_dark_cells();
 
-  std::vector<float> depths_;
+  Mat4f picture_to_map_;
+  Mat4f map_to_world_;
+  Mat4f world_to_picture_;
+  Vec3f to_light_;
+  float texel_ = 1.0f;  // m
   std::vector<float> kernel_;
   Picture cover_;       // fraction of the light that is blocked
   Picture soft_cover_;  // that fraction times how soft the shadow is to be: 0 for a caster on the
                         // ground, 1 for one well above it
   Picture narrow_;
   Picture scratch_;
+  Picture openness_;           // fraction of the sky that is seen, at some of the texels
+  std::vector<Picture> left_;  // of the ground's light; each half as many texels a side
+  std::array<std::uint8_t, 1024> tone_;
+  Receivers receivers_;
   std::vector<std::array<std::uint8_t, 4>> bytes_;
   std::vector<std::array<int, 2>> dark_cells_;
   Texture texture_;

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/passes/gl_objects.h"
 #include "render/passes/layer.h"
 #include "render/passes/program.h"
-#include "render/passes/view.h"
 
 namespace pneuma::render {
 

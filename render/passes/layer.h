@@ -1,9 +1,9 @@
 // The bodies, and what is drawn over them, on a layer of their own.
 #pragma once
 
+#include "render/frame/view.h"
 #include "render/passes/full_screen.h"
 #include "render/passes/gl_objects.h"
-#include "render/passes/view.h"
 
 namespace pneuma::render {
 

@@ -55,6 +55,35 @@ std::string printable(std::string text) {
   return text;
 }
 
+float width_of(std::string line) { return static_cast<float>(stb_easy_font_width(line.data())); }
+
+/// How many characters of `line` fit: up to the last space where there is one, else as many as go,
+/// at least one.
+std::size_t fitting(const std::string& line, float width) {
+  std::size_t count = line.size();
+  while (count > 1 && width_of(line.substr(0, count)) > width) --count;
+  if (count == line.size()) return count;
+  const std::size_t space = line.rfind(' ', count);
+  return space == line.npos || space == 0 ? count : space;
+}
+
+/// The text with a new line wherever one would be wider than `width`, in the font's units.
+std::string wrapped(const std::string& text, float width) {
+  std::string result;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    do {
+      const std::size_t count = fitting(line, width);
+      if (!result.empty()) result += '\n';
+      result += line.substr(0, count);
+      line.erase(0, std::max(count, std::min(line.find_first_not_of(' ', count), line.size())));
+    } while (!line.empty());
+    begin = end + 1;
+  }
+  return result;
+}
+
 /// Rectangles of four corners each: upper left, upper right, lower right, lower left.
 std::vector<FontVertex> font_rectangles(std::string& text) {
   constexpr std::size_t bytes_per_character = 30 * 4 * sizeof(FontVertex);  // none has more strokes
@@ -86,13 +115,14 @@ Lettering::Lettering()
 }
 
 void Lettering::draw(const View& view, const std::string& caption) {
-  std::string text = printable(caption);
-  const std::vector<FontVertex> corners = font_rectangles(text);
-  if (corners.empty()) return;
   // Whole pixels for each of the font's, so that every stroke is equally wide.
   const float scale = std::max(1.0f, std::round(view.pixel_scale * 1.5f));
   const float margin = 5.0f * scale;
   const float padding = 4.0f * scale;
+  const float room = static_cast<float>(view.width) - 2.0f * (margin + padding);
+  std::string text = caption.empty() ? "" : wrapped(printable(caption), room / scale);
+  const std::vector<FontVertex> corners = font_rectangles(text);
+  if (corners.empty()) return;
   const Eigen::Vector2f text_size =
       scale * Eigen::Vector2f(static_cast<float>(stb_easy_font_width(text.data())),
                               static_cast<float>(stb_easy_font_height(text.data())));

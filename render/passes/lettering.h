@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/passes/gl_objects.h"
 #include "render/passes/program.h"
-#include "render/passes/view.h"
 
 namespace pneuma::render {
 
@@ -14,8 +14,8 @@ class Lettering {
  public:
   Lettering();
 
-  /// In the lower left corner, growing upwards with the number of lines. Characters outside
-  /// printable ASCII are shown as '?'.
+  /// In the lower left corner, growing upwards with the number of lines; lines that are too long
+  /// for the picture go on in the next. Characters outside printable ASCII are shown as '?'.
   void draw(const View& view, const std::string& text);
 
  private:

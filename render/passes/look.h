@@ -5,20 +5,16 @@
 // sample at each write.
 #pragma once
 
-#include <array>
 #include <string>
 
 namespace pneuma::render {
 
-/// Linear: what arrives from the light, from above and from below.
-inline constexpr std::array<float, 3> sun = {0.80f, 0.775f, 0.73f};
-inline constexpr std::array<float, 3> sky = {0.34f, 0.37f, 0.42f};
-inline constexpr std::array<float, 3> bounce = {0.16f, 0.15f, 0.14f};
-
-/// `sun`, `sky`, `bounce` as above;
-/// `to_srgb(linear)`;
-/// `backdrop(height)`: the background at a height in the picture, 0 at its foot and 1 at its top,
-/// in sRGB.
+/// `sun`, `floor_light` and `sky_light(z)`: the environment's radiances;
+/// `sky_irradiance(z)`: over pi, on a surface whose normal has that z component;
+/// `fresnel(cosine, roughness)`, `entering` and `highlight(nl, nv, nh, vh, roughness)`: what a
+/// surface of plastic or rubber reflects; what is not reflected lights its colour; `shown(linear)`:
+/// the tone curve, then sRGB; `backdrop(height)`: the background at a height in the picture, 0 at
+/// its foot and 1 at its top, in sRGB.
 std::string look_source();
 
 }  // namespace pneuma::render

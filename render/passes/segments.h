@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "render/frame/view.h"
 #include "render/passes/instanced_quads.h"
-#include "render/passes/view.h"
 
 namespace pneuma::render {
 

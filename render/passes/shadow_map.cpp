@@ -72,7 +72,7 @@ void ShadowMap::fit(const View& view, const Light& light) {
   world_to_map_.row(2) /= depth_range_;
 }
 
-void ShadowMap::draw(const View& view, const Light& light, const std::vector<DrawnMesh>& meshes) {
+void ShadowMap::draw(const View& view, const Light& light, const SurfaceBuffers& surface) {
   fit(view, light);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, size_, size_);
@@ -87,10 +87,7 @@ void ShadowMap::draw(const View& view, const Light& light, const std::vector<Dra
   Mat4f map_to_clip = 2.0f * Mat4f::Identity();
   map_to_clip.col(3) = Eigen::Vector4f(-1.0f, -1.0f, -1.0f, 1.0f);
   set_uniform(world_to_clip_, Mat4f(map_to_clip * world_to_map_));
-  for (const DrawnMesh& mesh : meshes) {
-    glBindVertexArray(mesh.vao);
-    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
-  }
+  surface.draw();
   glDisable(GL_CULL_FACE);
 }
 
@@ -100,11 +97,21 @@ void ShadowMap::bind(GLuint unit) const {
   glBindSampler(unit, sampler_.name());
 }
 
-void ShadowMap::read(std::vector<float>& depths) const {
-  depths.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_));
+void ShadowMap::read(ShadowDepths& depths) const {
+  depths.size = size_;
+  depths.world_to_map = world_to_map_;
+  depths.depths.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, size_, size_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  glReadPixels(0, 0, size_, size_, GL_DEPTH_COMPONENT, GL_FLOAT, depths.depths.data());
+}
+
+bool ShadowDepths::lit(const Vec3f& point) const {
+  const Vec3f at = (world_to_map * point.homogeneous()).head<3>();
+  const auto texel = [this](float coordinate) {
+    return std::clamp(static_cast<int>(coordinate * static_cast<float>(size)), 0, size - 1);
+  };
+  return row(texel(at.y()))[texel(at.x())] >= at.z();
 }
 
 }  // namespace pneuma::render

@@ -1,11 +1,22 @@
 // What the light sees: depth along the light.
 #pragma once
 
-#include "render/passes/mesh_buffers.h"
+#include "render/frame/view.h"
 #include "render/passes/program.h"
-#include "render/passes/view.h"
+#include "render/passes/surface_buffers.h"
 
 namespace pneuma::render {
+
+/// A shadow map in the CPU's memory.
+struct ShadowDepths {
+  int size = 0;               // texels on a side
+  std::vector<float> depths;  // row by row; 1 where there is nothing
+  Mat4f world_to_map;
+
+  const float* row(int y) const { return depths.data() + static_cast<std::ptrdiff_t>(y) * size; }
+  /// Whether the light reaches a point.
+  bool lit(const Vec3f& point) const;
+};
 
 /// Depth of the meshes' far sides as the light sees them. Storing far sides rather than near ones
 /// leaves the whole thickness of a body between a lit surface and the stored depth, so that there
@@ -14,7 +25,7 @@ class ShadowMap {
  public:
   explicit ShadowMap(int size);
 
-  void draw(const View& view, const Light& light, const std::vector<DrawnMesh>& meshes);
+  void draw(const View& view, const Light& light, const SurfaceBuffers& surface);
 
   /// From world to the map's texture coordinates and depth, all 0..1.
   const Mat4f& world_to_map() const { return world_to_map_; }
@@ -30,8 +41,8 @@ class ShadowMap {
 
   /// The map for sampler2DShadow: fraction of lit texels.
   void bind(GLuint unit) const;
-  /// Its depths, row by row; 1 where there is nothing. Waits until they are drawn.
-  void read(std::vector<float>& depths) const;
+  /// Waits until it is drawn.
+  void read(ShadowDepths& depths) const;
 
  private:
   void fit(const View& view, const Light& light);

@@ -1,7 +1,6 @@
 #include "render/passes/surfaces.h"
 
 #include <algorithm>
-#include <string>
 
 #include "render/passes/look.h"
 #include "render/passes/shader_sources.h"
@@ -12,10 +11,14 @@ namespace {
 constexpr const char* vertex_source = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec3 colour;
+layout(location = 2) in vec4 material;  // linear colour, roughness
+layout(location = 3) in vec3 bounced;   // light from other bodies
+layout(location = 4) in vec2 open_to;   // how much is seen of the sky, and of the lit ground
 uniform mat4 view_projection;
 out vec3 world;
-out vec3 albedo;
+out vec4 surface;
+out vec3 indirect;
+out vec2 openness;
 #ifdef SMOOTH
 out vec3 outward;
 #endif
@@ -26,7 +29,9 @@ out vec3 in_map;
 
 void main() {
   world = position;
-  albedo = colour;
+  surface = material;
+  indirect = bounced;
+  openness = open_to;
 #ifdef SMOOTH
   outward = normal;
 #endif
@@ -39,7 +44,9 @@ void main() {
 
 constexpr const char* fragment_source = R"(
 in vec3 world;
-in vec3 albedo;
+in vec4 surface;
+in vec3 indirect;
+in vec2 openness;
 uniform vec3 eye;
 uniform vec3 to_light;
 out vec4 colour;
@@ -51,12 +58,12 @@ in vec3 in_map;
 uniform sampler2DShadow map;
 uniform float edge;  // in the map's coordinates
 
-// Four reads of two by two texels each, on a square turned so that no two share a row.
+// Three reads of two by two texels each, on a triangle turned so that no two share a row.
 float lit_share() {
-  vec3 a = vec3(edge, 0.4 * edge, 0.0);
-  vec3 b = vec3(-0.4 * edge, edge, 0.0);
-  return (texture(map, in_map + a) + texture(map, in_map - a) +
-          texture(map, in_map + b) + texture(map, in_map - b)) * 0.25;
+  vec3 a = vec3(0.97, 0.26, 0.0) * edge;
+  vec3 b = vec3(-0.71, 0.71, 0.0) * edge;
+  return (texture(map, in_map + a) + texture(map, in_map + b) + texture(map, in_map - a - b)) *
+         (1.0 / 3.0);
 }
 #endif
 
@@ -67,40 +74,34 @@ void main() {
   vec3 n = normalize(cross(dFdx(world), dFdy(world)));
 #endif
   vec3 to_eye = normalize(eye - world);
-  float facing = dot(n, to_light);
-  float lit = max(facing, 0.0);
+  float nv = clamp(dot(n, to_eye), 0.0, 1.0);
+  float nl = max(dot(n, to_light), 0.0);
+  vec3 half_way = normalize(to_eye + to_light + vec3(1e-6));
+  float lit = nl;
 #ifdef SHADOWED
   lit *= lit_share();
 #endif
-  vec3 light = mix(bounce, sky, n.z * 0.5 + 0.5) + sun * lit;
-
-  // Phong's highlight: the light's mirror direction against the eye's, to the power of 64.
-  float shine = max(dot(2.0 * facing * n - to_light, to_eye), 0.0);
-  shine *= shine;
-  shine *= shine;
-  shine *= shine;
-  shine *= shine;
-  shine *= shine;
-  shine *= shine;
-  // What grazes a surface mirrors the sky, which sets a body off from what lies behind it.
-  float grazing = 1.0 - max(dot(n, to_eye), 0.0);
-  grazing *= grazing * grazing;
-  colour = vec4(to_srgb(albedo * light + sun * (0.6 * shine * min(4.0 * lit, 1.0)) +
-                        sky * (0.25 * grazing)), 1.0);
+  float roughness = surface.a;
+  vec3 diffuse = sun * lit + sky_irradiance(n.z) * openness.x + indirect +
+                 floor_light * (0.5 - 0.5 * n.z) * openness.y;
+  // What is mirrored of sky and ground; a rough surface blurs the horizon between them.
+  float up = 2.0 * nv * n.z - to_eye.z;
+  vec3 mirrored = mix(floor_light * openness.y, sky_light(max(up, 0.0)) * openness.x,
+                      smoothstep(-roughness, roughness, up));
+  float reflected = fresnel(nv, roughness);
+  float shine = highlight(nl, nv, max(dot(n, half_way), 0.0), max(dot(to_eye, half_way), 0.0),
+                          roughness);
+  colour = vec4(shown(mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine)), 1.0);
 }
 )";
-
-std::string preamble(bool smooth, bool shadowed) {
-  return std::string(smooth ? "#define SMOOTH\n" : "") + (shadowed ? "#define SHADOWED\n" : "");
-}
 
 }  // namespace
 
 Surfaces::Surfaces() = default;
 
-Surfaces::Variant::Variant(bool smooth, bool shadowed)
-    : program("surfaces", preamble(smooth, shadowed), vertex_source,
-              look_source() + fragment_source),
+Surfaces::Variant::Variant(bool shadowed)
+    : program("surfaces", shadowed ? "#define SMOOTH\n#define SHADOWED\n" : "#define SMOOTH\n",
+              vertex_source, look_source() + fragment_source),
       view_projection(program.uniform("view_projection")),
       eye(program.uniform("eye")),
       to_light(program.uniform("to_light")) {
@@ -111,28 +112,18 @@ Surfaces::Variant::Variant(bool smooth, bool shadowed)
   set_uniform(program.uniform("map"), 0);
 }
 
-void Surfaces::draw(const View& view, const std::vector<DrawnMesh>& meshes,
-                    const ShadowMap* shadow) {
+void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow) {
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  if (shadow != nullptr) shadow->bind(0);
-  draw_variant(shadow != nullptr ? smooth_shadowed_ : smooth_lit_, true, view, meshes, shadow);
-  draw_variant(shadow != nullptr ? flat_shadowed_ : flat_lit_, false, view, meshes, shadow);
-}
-
-void Surfaces::draw_variant(const Variant& variant, bool smooth, const View& view,
-                            const std::vector<DrawnMesh>& meshes, const ShadowMap* shadow) {
-  if (std::none_of(meshes.begin(), meshes.end(),
-                   [smooth](const DrawnMesh& mesh) { return mesh.smooth == smooth; })) {
-    return;
-  }
+  const Variant& variant = shadow != nullptr ? shadowed_ : lit_;
   variant.program.use();
   set_uniform(variant.view_projection, view.view_projection);
   set_uniform(variant.eye, view.eye);
   set_uniform(variant.to_light, view.to_light);
   if (shadow != nullptr) {
+    shadow->bind(0);
     set_uniform(variant.world_to_map, shadow->world_to_map());
     // A body's shadow on another falls from near by and is crisper than one on the ground. Further
     // apart than this, the four reads would be seen one by one.
@@ -142,11 +133,7 @@ void Surfaces::draw_variant(const Variant& variant, bool smooth, const View& vie
   // what then fails the depth test, so that drawing them would cost as much again.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  for (const DrawnMesh& mesh : meshes) {
-    if (mesh.smooth != smooth) continue;
-    glBindVertexArray(mesh.vao);
-    glDrawElements(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr);
-  }
+  surface.draw();
   glDisable(GL_CULL_FACE);
 }
 

@@ -1,9 +1,8 @@
-// The bodies: Phong's shading of every pixel, as in the paper's pictures.
+// The bodies, lit by the sun, by the sky and by each other.
 #pragma once
 
-#include <vector>
-
 #include "render/passes/shadow_map.h"
+#include "render/passes/surface_buffers.h"
 
 namespace pneuma::render {
 
@@ -12,13 +11,12 @@ class Surfaces {
   Surfaces();
 
   /// `shadow` is null when there are no shadows.
-  void draw(const View& view, const std::vector<DrawnMesh>& meshes, const ShadowMap* shadow);
+  void draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow);
 
  private:
-  /// One program for each of smooth or flat, with or without shadows, so that none of them pays
-  /// for another.
+  /// One program with and one without shadows, so that none pays for the other.
   struct Variant {
-    explicit Variant(bool smooth, bool shadowed);
+    explicit Variant(bool shadowed);
     Program program;
     GLint view_projection;
     GLint eye;
@@ -27,13 +25,8 @@ class Surfaces {
     GLint edge = -1;
   };
 
-  void draw_variant(const Variant& variant, bool smooth, const View& view,
-                    const std::vector<DrawnMesh>& meshes, const ShadowMap* shadow);
-
-  Variant smooth_lit_{true, false};
-  Variant smooth_shadowed_{true, true};
-  Variant flat_lit_{false, false};
-  Variant flat_shadowed_{false, true};
+  Variant lit_{false};
+  Variant shadowed_{true};
 };
 
 }  // namespace pneuma::render

@@ -151,7 +151,7 @@ TEST(Wireframe, ShowsTheEdgesThatFaceTheEye) {
       EXPECT_EQ(change_at(0.6f * from + 0.4f * to), 0);
     } else {
       ++visible;
-      EXPECT_GT(change_at(0.6f * from + 0.4f * to), 15);
+      EXPECT_GT(change_at(0.6f * from + 0.4f * to), 12);
     }
   }
   EXPECT_EQ(visible, 9);
@@ -191,6 +191,21 @@ TEST(CaptionText, StandsInTheLowerLeftCorner) {
   const Extent two = caption_extent("t = 1.25 s\nstep 75", small_picture());
   EXPECT_EQ(two.bottom, one.bottom);
   EXPECT_GT(two.height(), one.height() + 6);
+}
+
+TEST(CaptionText, IsWrappedAndNeverCut) {
+  RenderOptions small = small_picture();
+  small.width = 160;
+  small.height = 120;
+  const std::string title = "Soft torus, three soft spheres and four rigid cubes";
+  for (const std::string& text : {title, title + "\nt = 3.33 s   step 200", std::string(60, 'W')}) {
+    const Extent extent = caption_extent(text, small);
+    EXPECT_LT(extent.right, 160 - 4);
+    EXPECT_GT(extent.top, 0);
+    EXPECT_GT(extent.height(), caption_extent("t", small).height() + 6) << "more lines than one";
+  }
+  // What fits stays on its line.
+  EXPECT_EQ(caption_extent("Soft cat", small).height(), caption_extent("t", small).height());
 }
 
 TEST(CaptionText, GrowsWithThePicture) {

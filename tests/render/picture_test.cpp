@@ -183,7 +183,7 @@ TEST(Ground, HasALineAtEachSpacing) {
   for (const float line : {-2.0f, -1.0f, 1.0f, 2.0f}) {
     // A pixel is 15 mm here: the line is within one to either side.
     const int darkest = std::min({at(line - 0.015f), at(line), at(line + 0.015f)});
-    EXPECT_LT(darkest, at(line + 0.5f) - 5) << line;
+    EXPECT_LT(darkest, at(line + 0.5f) - 4) << line;
     EXPECT_LE(std::abs(at(line + 0.3f) - at(line + 0.5f)), 1) << "no lines between";
   }
   const int fifth = std::min({at(-0.015f), at(0.0f), at(0.015f)});

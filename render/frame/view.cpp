@@ -1,4 +1,4 @@
-#include "render/passes/view.h"
+#include "render/frame/view.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -106,15 +106,14 @@ float ground_radius(const View& view) {
   return std::max(2.5f * distance, 2.0f * scene);
 }
 
-Region region_of_bodies(const Frame& frame, const View& view) {
+Region region_of_bodies(const Frame& frame, const View& view,
+                        std::span<const SurfaceVertex> surface) {
   if (frame.wireframe || !frame.points.empty() || !frame.lines.empty()) {
     return {0, 0, view.width, view.height};
   }
   if (view.casters.empty()) return {};
   SeenBox box(view);
-  for (const Mesh& mesh : frame.meshes) {
-    for (const Vec3f& position : mesh.positions) box.add(position);
-  }
+  for (const SurfaceVertex& vertex : surface) box.add(vertex.position);
   return box.pixels();
 }
 

@@ -1,8 +1,11 @@
 // What all passes need to know of the frame at hand.
 #pragma once
 
+#include <span>
+
 #include "render/frame/camera.h"
 #include "render/frame/frame.h"
+#include "render/frame/surface_vertex.h"
 
 namespace pneuma::render {
 
@@ -38,7 +41,8 @@ struct Region {
 
 /// Around all that is drawn over ground and background, rather too large than too small: the whole
 /// picture when more than surfaces are drawn.
-Region region_of_bodies(const Frame& frame, const View& view);
+Region region_of_bodies(const Frame& frame, const View& view,
+                        std::span<const SurfaceVertex> surface);
 
 /// sRGB to linear, one channel or colour.
 float to_linear(float srgb);

@@ -1,0 +1,16 @@
+// What is drawn at a point of a surface, before light.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "render/frame/frame.h"
+
+namespace pneuma::render {
+
+struct SurfaceVertex {
+  Vec3f position;
+  Vec3f normal;              // unit
+  Eigen::Vector4f material;  // linear colour, roughness
+};
+
+}  // namespace pneuma::render

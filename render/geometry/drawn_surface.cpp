@@ -1,0 +1,180 @@
+#include "render/geometry/drawn_surface.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "render/geometry/rounding.h"
+
+namespace pneuma::render {
+namespace {
+
+constexpr float visible_error = 0.5f;      // pixels between a rounded outline and its chords
+constexpr int most_levels = 3;             // each time quarters that distance
+constexpr float visible_in_shadow = 1.4f;  // likewise; shadows have soft edges
+
+/// Pixels of the picture to a metre, where the mesh is nearest to the eye.
+float pixels_per_metre(const Mesh& mesh, const View& view) {
+  float nearest = view.far;
+  for (const Vec3f& position : mesh.positions) {
+    nearest = std::min(nearest, -(view.view.row(2) * position.homogeneous()).value());
+  }
+  const float depth = std::max(nearest, view.near);
+  return 0.5f * static_cast<float>(view.height) * view.projection(1, 1) / depth;
+}
+
+/// Whether the surface between two points with these normals turns away, or does so next to them,
+/// for who looks against `to_viewer`: there its bends are seen, and elsewhere its shading alone.
+bool at_outline(const Vec3f& a, const Vec3f& b, const Vec3f& to_viewer) {
+  const float first = a.dot(to_viewer);
+  const float second = b.dot(to_viewer);
+  const float bend = 0.5f * (a - b).norm() + 0.03f;
+  return first * second <= 0.0f || std::min(std::abs(first), std::abs(second)) < bend;
+}
+
+/// Whether the edge between two points of a rounded surface is seen to be straight, where a metre
+/// is so many pixels.
+bool bend_is_seen(const SurfaceVertex& a, const SurfaceVertex& b, float pixels, const View& view) {
+  // An arc's height over its chord, from the angle between its ends' normals.
+  const float height =
+      0.125f * pixels * (a.normal - b.normal).norm() * (a.position - b.position).norm();
+  if (height < visible_error) return false;
+  const Vec3f to_eye = (view.eye - 0.5f * (a.position + b.position)).normalized();
+  return at_outline(a.normal, b.normal, to_eye) ||
+         (height > visible_in_shadow && at_outline(a.normal, b.normal, view.to_light));
+}
+
+/// No point above the ground comes nearer to it than half its height.
+Vec3f kept_above_ground(Vec3f rounded, float flat_height) {
+  if (flat_height > 0.0f) rounded.z() = std::max(rounded.z(), 0.5f * flat_height);
+  return rounded;
+}
+
+float height_of(const SurfacePoint& point, std::span<const Vec3f> positions) {
+  float height = 0.0f;
+  for (std::size_t i = 0; i < 3; ++i) height += point.weights[i] * positions[point.corners[i]].z();
+  return height;
+}
+
+Vec3f mixed(const SurfacePoint& point, std::span<const Vec3f> of) {
+  return point.weights[0] * of[point.corners[0]] + point.weights[1] * of[point.corners[1]] +
+         point.weights[2] * of[point.corners[2]];
+}
+
+Eigen::Vector4f material(const Vec3f& colour, float roughness) {
+  return {colour.x(), colour.y(), colour.z(), roughness};
+}
+
+}  // namespace
+
+void DrawnSurface::build(const Frame& frame, const View& view) {
+  std::erase_if(shapes_, [](const auto& entry) { return entry.first.expired(); });
+  lit_meshes_.clear();
+  positions_.clear();
+  normals_.clear();
+  points_.clear();
+  vertices_.clear();
+  triangles_.clear();
+  for (const Mesh& mesh : frame.meshes) {
+    mesh.normals.empty() ? add_flat(mesh) : add_smooth(mesh, frame, view);
+  }
+}
+
+void DrawnSurface::add_lit_mesh(const Mesh& mesh) {
+  const bool smooth = !mesh.normals.empty();
+  const std::size_t count = smooth ? mesh.positions.size() : 3 * mesh.shape->triangles.size();
+  lit_meshes_.push_back({mesh.shape, smooth, positions_.size(), count});
+}
+
+void DrawnSurface::append(const Refinement& refinement) {
+  const auto first_vertex = static_cast<std::uint32_t>(points_.size());
+  const auto first_lit = static_cast<std::uint32_t>(lit_meshes_.back().first);
+  for (SurfacePoint point : refinement.points) {
+    for (std::uint32_t& corner : point.corners) corner += first_lit;
+    points_.push_back(point);
+  }
+  for (const Triangle& t : refinement.triangles) {
+    triangles_.push_back({t[0] + first_vertex, t[1] + first_vertex, t[2] + first_vertex});
+  }
+}
+
+void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& view) {
+  add_lit_mesh(mesh);
+  positions_.insert(positions_.end(), mesh.positions.begin(), mesh.positions.end());
+  normals_.insert(normals_.end(), mesh.normals.begin(), mesh.normals.end());
+  const std::vector<Triangle>& triangles = mesh.shape->triangles;
+  std::vector<float> share(mesh.positions.size(), 0.0f);
+  float pixels = 0.0f;  // to a metre
+  if (!mesh.room.empty()) {
+    share = bulge_shares(triangles, mesh.positions, mesh.normals, mesh.room);
+    pixels = pixels_per_metre(mesh, view);
+  }
+  std::vector<SurfaceVertex> vertices;  // of the points so far
+  const Shape& shape = shape_of(mesh.shape);
+  const auto add_vertices = [&](const std::vector<SurfacePoint>& points) {
+    for (std::size_t i = vertices.size(); i < points.size(); ++i) {
+      Vec3f position = rounded_position(mesh.positions, mesh.normals, share, points[i]);
+      if (frame.ground) {
+        position = kept_above_ground(position, height_of(points[i], mesh.positions));
+      }
+      vertices.push_back({position, mixed(points[i], mesh.normals).normalized(),
+                          material(mixed(points[i], shape.colours), mesh.roughness)});
+    }
+  };
+  const auto needs_halving = [&](const std::vector<SurfacePoint>& points, std::uint32_t a,
+                                 std::uint32_t b) {
+    add_vertices(points);
+    return bend_is_seen(vertices[a], vertices[b], pixels, view);
+  };
+  const Refinement refinement =
+      refine(triangles, mesh.positions.size(), pixels > 0.0f ? most_levels : 0, needs_halving);
+  add_vertices(refinement.points);
+  append(refinement);
+  vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+}
+
+void DrawnSurface::add_flat(const Mesh& mesh) {
+  add_lit_mesh(mesh);
+  const Shape& shape = shape_of(mesh.shape);
+  Refinement apart;
+  for (const Triangle& t : mesh.shape->triangles) {
+    const auto first = static_cast<std::uint32_t>(apart.points.size());
+    apart.triangles.push_back({first, first + 1, first + 2});
+    const Vec3f& a = mesh.positions[t[0]];
+    const Vec3f normal =
+        (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).stableNormalized();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = t[i];
+      apart.points.push_back({{first + i, first + i, first + i}, {1.0f, 0.0f, 0.0f}});
+      positions_.push_back(mesh.positions[v]);
+      normals_.push_back(normal);
+      vertices_.push_back({mesh.positions[v], normal, material(shape.colours[v], mesh.roughness)});
+    }
+  }
+  append(apart);
+}
+
+void DrawnSurface::spread(const std::vector<IndirectLight>& light,
+                          std::vector<IndirectLight>& drawn) const {
+  drawn.resize(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto& [corners, weights] = points_[i];
+    IndirectLight sum = {Vec3f::Zero(), Eigen::Vector2f::Zero()};
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum.bounced += weights[c] * light[corners[c]].bounced;
+      sum.open_to += weights[c] * light[corners[c]].open_to;
+    }
+    drawn[i] = sum;
+  }
+}
+
+DrawnSurface::Shape& DrawnSurface::shape_of(const std::shared_ptr<const MeshShape>& shape) {
+  const auto known = shapes_.find(shape);
+  if (known != shapes_.end()) return known->second;
+  Shape& made = shapes_[shape];
+  for (const Colour& colour : shape->colours) made.colours.push_back(to_linear(colour));
+  return made;
+}
+
+}  // namespace pneuma::render

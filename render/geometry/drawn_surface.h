@@ -1,0 +1,71 @@
+// The meshes of a frame as one list of triangles, rounded where they may be.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "render/frame/surface_vertex.h"
+#include "render/frame/view.h"
+#include "render/geometry/refine.h"
+
+namespace pneuma::render {
+
+/// What the light does to a place on a surface beside the sun's.
+struct IndirectLight {
+  Vec3f bounced = Vec3f::Zero();                      // from other bodies, over pi
+  Eigen::Vector2f open_to = Eigen::Vector2f::Ones();  // fraction seen of the sky; of the lit ground
+};
+
+/// The vertices of a mesh as they are lit: one for each of a smooth mesh; three for each triangle
+/// of a flat one.
+struct LitMesh {
+  std::shared_ptr<const MeshShape> shape;
+  bool smooth = false;
+  std::size_t first = 0;  // of its vertices
+  std::size_t count = 0;
+};
+
+/// Keeps what follows from a mesh's shape alone.
+class DrawnSurface {
+ public:
+  /// The frame must have passed check_frame.
+  void build(const Frame& frame, const View& view);
+
+  const std::vector<LitMesh>& lit_meshes() const { return lit_meshes_; }
+  /// Of all lit meshes.
+  const std::vector<Vec3f>& positions() const { return positions_; }
+  const std::vector<Vec3f>& normals() const { return normals_; }
+
+  const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  /// From one light per lit vertex, one per drawn vertex.
+  void spread(const std::vector<IndirectLight>& light, std::vector<IndirectLight>& drawn) const;
+
+  /// How many shapes are kept at present.
+  std::size_t shape_count() const { return shapes_.size(); }
+
+ private:
+  struct Shape {
+    std::vector<Vec3f> colours;  // linear
+  };
+  using Key = std::weak_ptr<const MeshShape>;
+
+  Shape& shape_of(const std::shared_ptr<const MeshShape>& shape);
+  void add_smooth(const Mesh& mesh, const Frame& frame, const View& view);
+  void add_flat(const Mesh& mesh);
+  void add_lit_mesh(const Mesh& mesh);
+  void append(const Refinement& refinement);
+
+  // Ordered by owner: a new shape at a dead one's address is another one.
+  std::map<Key, Shape, std::owner_less<Key>> shapes_;
+  std::vector<LitMesh> lit_meshes_;
+  std::vector<Vec3f> positions_;
+  std::vector<Vec3f> normals_;
+  std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
+  std::vector<SurfaceVertex> vertices_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace pneuma::render

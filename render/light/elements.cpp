@@ -1,0 +1,110 @@
+#include "render/light/elements.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <deque>
+
+namespace pneuma::render {
+namespace {
+
+/// The triangles around each vertex.
+std::vector<std::vector<std::uint32_t>> rings(const std::vector<Triangle>& triangles) {
+  std::uint32_t vertices = 0;
+  for (const Triangle& t : triangles) vertices = std::max({vertices, t[0] + 1, t[1] + 1, t[2] + 1});
+  std::vector<std::vector<std::uint32_t>> result(vertices);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    for (const std::uint32_t v : triangles[i]) result[v].push_back(i);
+  }
+  return result;
+}
+
+/// Light on a surface over pi, without what stands in its way.
+Light3 open_light(const std::array<Light3, 3>& irradiance, const Light3& floor, float z) {
+  return irradiance[0] + z * (irradiance[1] + z * irradiance[2]) + floor * (0.5f - 0.5f * z);
+}
+
+Element patch_element(const Mesh& mesh, std::span<const Vec3f> albedo,
+                      const std::vector<std::uint32_t>& patch) {
+  Vec3f area_vector = Vec3f::Zero();
+  Vec3f centre = Vec3f::Zero();
+  Vec3f colour = Vec3f::Zero();
+  float area = 0.0f;
+  for (const std::uint32_t i : patch) {
+    const auto& [a, b, c] = mesh.shape->triangles[i];
+    const auto& x = mesh.positions;
+    const Vec3f part = 0.5f * (x[b] - x[a]).cross(x[c] - x[a]);
+    const float size = part.norm();
+    area_vector += part;
+    area += size;
+    centre += size / 3.0f * (x[a] + x[b] + x[c]);
+    colour += size / 3.0f * (albedo[a] + albedo[b] + albedo[c]);
+  }
+  const float over = 1.0f / std::max(area, 1e-12f);
+  return {over * centre, area_vector.stableNormalized(), area_vector.norm(), over * colour.array()};
+}
+
+BodyElements with_whole(std::vector<Element> elements) {
+  BodyElements body;
+  Element& whole = body.whole;
+  whole = {Vec3f::Zero(), Vec3f::Zero(), 0.0f, Light3::Zero()};
+  for (const Element& element : elements) {
+    whole.centre += element.area * element.centre;
+    whole.radiosity += element.area * element.radiosity;
+    whole.area += element.area;
+  }
+  whole.centre /= std::max(whole.area, 1e-12f);
+  whole.radiosity /= std::max(whole.area, 1e-12f);
+  whole.area *= 0.25f;
+  for (const Element& element : elements) {
+    body.radius = std::max(body.radius, (element.centre - whole.centre).norm());
+  }
+  body.elements = std::move(elements);
+  return body;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> patches(const std::vector<Triangle>& triangles,
+                                                std::size_t most) {
+  const std::size_t size = (triangles.size() + most - 1) / most;
+  const auto around = rings(triangles);
+  std::vector<std::vector<std::uint32_t>> result;
+  std::vector<bool> taken(triangles.size(), false);
+  for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
+    if (taken[seed]) continue;
+    std::vector<std::uint32_t> patch = {seed};
+    taken[seed] = true;
+    // Breadth first over triangles that share a vertex.
+    for (std::size_t next = 0; next < patch.size(); ++next) {
+      for (const std::uint32_t v : triangles[patch[next]]) {
+        for (const std::uint32_t t : around[v]) {
+          if (taken[t] || patch.size() == size) continue;
+          taken[t] = true;
+          patch.push_back(t);
+        }
+      }
+    }
+    result.push_back(std::move(patch));
+  }
+  return result;
+}
+
+BodyElements elements_of(const Mesh& mesh, std::span<const Vec3f> albedo,
+                         const std::vector<std::vector<std::uint32_t>>& patches,
+                         const Vec3f& to_light, const IsLit& is_lit) {
+  constexpr float usually_open = 0.75f;
+  static const Environment environment;
+  static const auto irradiance = sky_irradiance(environment);
+  std::vector<Element> elements;
+  for (const std::vector<std::uint32_t>& patch : patches) {
+    Element element = patch_element(mesh, albedo, patch);
+    const float facing = element.normal.dot(to_light);
+    Light3 light = usually_open * open_light(irradiance, environment.floor, element.normal.z());
+    if (facing > 0.0f && is_lit(element.centre)) light += facing * environment.sun;
+    element.radiosity *= light;
+    elements.push_back(element);
+  }
+  return with_whole(std::move(elements));
+}
+
+}  // namespace pneuma::render

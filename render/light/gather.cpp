@@ -1,0 +1,99 @@
+#include "render/light/gather.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pneuma::render {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr float far_away = 3.0f;  // radii of the body from its centre to the receivers
+
+/// The part of the hemisphere that a disc of the area A takes, at a distance d:
+/// A cos(r) cos(e) / (pi d^2 + A), with the angles at receiver and element (GPU Gems 2, 14.3). A
+/// ball faces every receiver.
+template <bool is_ball>
+void add_element(const Element& element, Receivers& to) {
+  using Column = Receivers::Column;
+  const Vec3f& at = element.centre;
+  const Vec3f& normal = element.normal;
+  const Column dx = at.x() - to.x;
+  const Column dy = at.y() - to.y;
+  const Column dz = at.z() - to.z;
+  const Column squared = dx * dx + dy * dy + dz * dz + 1e-9f;
+  const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz).max(0.0f);
+  Column at_element;
+  if constexpr (is_ball) {
+    at_element = squared.sqrt();
+  } else {
+    at_element = (-normal.x() * dx - normal.y() * dy - normal.z() * dz).max(0.0f);
+  }
+  const Column taken =
+      element.area * at_receiver * at_element / (squared * (pi * squared + element.area));
+  const Column above = taken * (1e6f * dz).max(0.0f).min(1.0f);  // no branch for 0 or all of it
+  to.above += above;
+  to.below += taken - above;
+  to.red += taken * element.radiosity[0];
+  to.green += taken * element.radiosity[1];
+  to.blue += taken * element.radiosity[2];
+}
+
+struct Ball {
+  Vec3f centre;
+  float radius;
+};
+
+Ball around(const Receivers& receivers) {
+  Box box;
+  for (Eigen::Index i = 0; i < receivers.count; ++i) {
+    box.grow({receivers.x[i], receivers.y[i], receivers.z[i]});
+  }
+  return {box.centre(), 0.5f * (box.max - box.min).norm()};
+}
+
+}  // namespace
+
+void Receivers::begin(std::size_t points) {
+  const auto size = static_cast<Eigen::Index>(points);
+  count = 0;
+  for (Column* column : {&x, &y, &z, &nx, &ny, &nz}) column->resize(size);
+  for (Column* sum : {&above, &below, &red, &green, &blue}) sum->setZero(size);
+}
+
+void Receivers::add(const Vec3f& position, const Vec3f& normal) {
+  const Eigen::Index row = count++;
+  x[row] = position.x();
+  y[row] = position.y();
+  z[row] = position.z();
+  nx[row] = normal.x();
+  ny[row] = normal.y();
+  nz[row] = normal.z();
+}
+
+void gather(std::span<const BodyElements> bodies, Receivers& receivers) {
+  const Ball ball = around(receivers);
+  for (const BodyElements& body : bodies) {
+    const float distance = (body.whole.centre - ball.centre).norm() - ball.radius;
+    if (distance > far_away * body.radius) {
+      add_element<true>(body.whole, receivers);
+      continue;
+    }
+    for (const Element& element : body.elements) add_element<false>(element, receivers);
+  }
+}
+
+float at_most_one(float x) { return x / std::cbrt(1.0f + x * x * x); }
+
+IndirectLight left_at(const Receivers& receivers, std::size_t number) {
+  const auto i = static_cast<Eigen::Index>(number);
+  const float sky = std::max(0.5f + 0.5f * receivers.nz[i], 0.02f);
+  const float floor = std::max(0.5f - 0.5f * receivers.nz[i], 0.02f);
+  const float all = receivers.above[i] + receivers.below[i];
+  const float sent = all > 0.0f ? at_most_one(all) / all : 0.0f;
+  return {sent * Vec3f(receivers.red[i], receivers.green[i], receivers.blue[i]),
+          {1.0f - at_most_one(receivers.above[i] / sky),
+           1.0f - at_most_one(receivers.below[i] / floor)}};
+}
+
+}  // namespace pneuma::render

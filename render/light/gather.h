@@ -1,0 +1,41 @@
+// What points on surfaces get of sky, floor and other bodies, from the bodies' elements.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "render/light/elements.h"
+
+namespace pneuma::render {
+
+/// Points that are near each other, in columns, so that eight are done at once.
+struct Receivers {
+  static constexpr std::size_t most = 64;
+  using Column = Eigen::Array<float, Eigen::Dynamic, 1, Eigen::ColMajor, most, 1>;
+
+  Eigen::Index count = 0;
+  Column x, y, z;     // m
+  Column nx, ny, nz;  // unit
+  // Of the light from above and from below, the fraction of the whole hemisphere that elements
+  // take; and what they send instead, over pi.
+  Column above, below;
+  Column red, green, blue;
+
+  /// For so many points to be added.
+  void begin(std::size_t points);
+  void add(const Vec3f& position, const Vec3f& normal);
+};
+
+/// Adds what the bodies take and send. A body that is far away for its size counts as a ball.
+void gather(std::span<const BodyElements> bodies, Receivers& receivers);
+
+/// Fractions that add up where several elements lie behind each other never exceed one: nearly x
+/// where it is small, 1 from far beyond.
+float at_most_one(float x);
+
+/// What is left at one receiver. `above` and `below` are fractions of the hemisphere, of which a
+/// surface sees (1 + nz) / 2 of the sky and the rest of the floor.
+IndirectLight left_at(const Receivers& receivers, std::size_t number);
+
+}  // namespace pneuma::render

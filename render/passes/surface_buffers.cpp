@@ -1,0 +1,46 @@
+#include "render/passes/surface_buffers.h"
+
+#include <cstddef>
+
+namespace pneuma::render {
+namespace {
+
+template <typename T>
+void stream(GLenum target, const std::vector<T>& data) {
+  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(),
+               GL_STREAM_DRAW);
+}
+
+}  // namespace
+
+SurfaceBuffers::SurfaceBuffers() {
+  glBindVertexArray(vao_.name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+  set_attribute(0, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, position));
+  set_attribute(1, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, normal));
+  set_attribute(2, 4, sizeof(SurfaceVertex), offsetof(SurfaceVertex, material));
+  glBindBuffer(GL_ARRAY_BUFFER, light_.name());
+  set_attribute(3, 3, sizeof(IndirectLight), offsetof(IndirectLight, bounced));
+  set_attribute(4, 2, sizeof(IndirectLight), offsetof(IndirectLight, open_to));
+}
+
+void SurfaceBuffers::upload(const DrawnSurface& surface) {
+  glBindVertexArray(vao_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+  stream(GL_ARRAY_BUFFER, surface.vertices());
+  stream(GL_ELEMENT_ARRAY_BUFFER, surface.triangles());
+  index_count_ = static_cast<GLsizei>(3 * surface.triangles().size());
+}
+
+void SurfaceBuffers::upload_light(const std::vector<IndirectLight>& light) {
+  glBindBuffer(GL_ARRAY_BUFFER, light_.name());
+  stream(GL_ARRAY_BUFFER, light);
+}
+
+void SurfaceBuffers::draw() const {
+  glBindVertexArray(vao_.name());
+  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace pneuma::render

@@ -1,0 +1,63 @@
+#include "render/geometry/drawn_surface.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/render/probe.h"
+#include "tests/render/shapes.h"
+
+namespace pneuma::render {
+namespace {
+
+DrawnSurface built(DrawnSurface surface, const std::vector<Mesh>& meshes) {
+  Frame frame = empty_frame();
+  frame.meshes = meshes;
+  surface.build(frame, make_view(frame, 320, 240));
+  return surface;
+}
+
+TEST(DrawnSurface, KeepsAShapeOnceAndWhileItLives) {
+  std::vector<Mesh> meshes = {make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0})};
+  meshes.push_back(meshes[0]);
+  meshes.push_back(make_box({2, 0, 0}, {1, 1, 1}, {0, 1, 0}));
+  DrawnSurface surface = built({}, meshes);
+  EXPECT_EQ(surface.lit_meshes().size(), 3u);
+  EXPECT_EQ(surface.shape_count(), 2u);
+  // Out of the picture for a while, but alive.
+  surface = built(std::move(surface), {});
+  EXPECT_EQ(surface.shape_count(), 2u);
+  meshes.clear();
+  surface = built(std::move(surface), {});
+  EXPECT_EQ(surface.shape_count(), 0u);
+}
+
+TEST(DrawnSurface, GivesAFlatMeshThreeVerticesATriangleAndASmoothOneItsOwn) {
+  const Mesh box = make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0});
+  const Mesh ball = make_ball({0, 0, 0}, 1, {1, 0, 0}, 6);
+  const DrawnSurface surface = built({}, {box, ball});
+  EXPECT_EQ(surface.lit_meshes()[0].count, 36u);
+  EXPECT_EQ(surface.lit_meshes()[1].count, ball.positions.size());
+  EXPECT_EQ(surface.triangles().size(), 12 + ball.shape->triangles.size());
+  for (std::size_t i = 0; i < 36; ++i) {
+    // A unit box about the origin: a face's normal is where its vertices are furthest out.
+    EXPECT_NEAR(surface.vertices()[i].normal.dot(surface.vertices()[i].position), 0.5f, 1e-6f);
+  }
+}
+
+TEST(DrawnSurface, ANewShapeInADeadOnesPlaceIsAnotherOne) {
+  const auto box_frame = [](const Colour& colour) {
+    Frame frame = empty_frame();
+    frame.meshes = {make_box({0, 0, 0}, {2, 2, 2}, colour)};
+    return frame;
+  };
+  Renderer renderer(small_picture());
+  Image image;
+  // Freed and allocated again without anything between: mostly at the same address.
+  for (const Colour& colour : {Colour(0.9f, 0, 0), Colour(0, 0.9f, 0), Colour(0, 0, 0.9f)}) {
+    const Frame frame = box_frame(colour);
+    renderer.draw(frame, image);
+    EXPECT_EQ(image.pixels, draw_once(frame, small_picture()).pixels);
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::render

@@ -1,0 +1,178 @@
+// Light from sky, ground and bodies against closed forms and quadrature.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/context/context.h"
+#include "render/light/environment.h"
+#include "render/light/gather.h"
+#include "render/passes/full_screen.h"
+#include "render/passes/look.h"
+#include "render/passes/target.h"
+#include "tests/render/probe.h"
+#include "tests/render/shapes.h"
+
+namespace pneuma::render {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Of the sky over pi, by quadrature over directions.
+Light3 irradiance_by_quadrature(const Environment& environment, const Vec3f& normal) {
+  constexpr int rings = 200;
+  constexpr int around = 400;
+  Light3 sum = Light3::Zero();
+  for (int i = 0; i < rings; ++i) {
+    const float z = (static_cast<float>(i) + 0.5f) / rings;
+    const float across = std::sqrt(1.0f - z * z);
+    for (int j = 0; j < around; ++j) {
+      const float angle = 2.0f * pi * (static_cast<float>(j) + 0.5f) / around;
+      const Vec3f direction(across * std::cos(angle), across * std::sin(angle), z);
+      sum += std::max(0.0f, direction.dot(normal)) * sky_radiance(environment, z);
+    }
+  }
+  return sum * (2.0f / (rings * around));
+}
+
+TEST(SkyIrradiance, IsThatOfQuadratureWithinAHundredth) {
+  const Environment environment;
+  const auto c = sky_irradiance(environment);
+  for (int degrees = 0; degrees <= 180; degrees += 10) {
+    const float tilt = static_cast<float>(degrees) * pi / 180.0f;
+    const Vec3f normal(std::sin(tilt), 0, std::cos(tilt));
+    const float z = normal.z();
+    const Light3 harmonics = c[0] + z * (c[1] + z * c[2]);
+    const Light3 expected = irradiance_by_quadrature(environment, normal);
+    // What the second order leaves out of a hemisphere's light is mostly its fourth, up to 2 %.
+    EXPECT_LT((harmonics - expected).abs().maxCoeff(), 0.02f) << degrees << " degrees";
+  }
+}
+
+Mesh fine_ball(const Vec3f& centre) { return make_ball(centre, 1.0f, {0.5f, 0.5f, 0.5f}, 16); }
+
+BodyElements ball_elements(const Vec3f& centre) {
+  const Mesh mesh = fine_ball(centre);
+  const std::vector<Vec3f> albedo(mesh.positions.size(), Vec3f::Constant(0.2f));
+  return elements_of(mesh, albedo, patches(mesh.shape->triangles, most_elements), Vec3f::UnitZ(),
+                     [](const Vec3f&) { return true; });
+}
+
+TEST(Gather, TakesOfTheSkyWhatABallCovers) {
+  // Of a level surface below its middle, a ball of radius r at a distance d takes (r / d)^2. Discs
+  // stand for its patches well from as far as these are wide.
+  for (const float distance : {1.5f, 2.0f, 4.0f, 10.0f}) {
+    const std::vector<BodyElements> bodies = {ball_elements({0, 0, distance})};
+    Receivers receivers;
+    receivers.begin(1);
+    receivers.add(Vec3f::Zero(), Vec3f::UnitZ());
+    gather(bodies, receivers);
+    const float expected = 1.0f / (distance * distance);
+    EXPECT_NEAR(receivers.above[0], expected, (distance < 2.0f ? 0.25f : 0.1f) * expected)
+        << distance;
+    EXPECT_EQ(receivers.below[0], 0.0f);
+  }
+}
+
+TEST(Gather, TakesNothingOfAConvexBodyFromItself) {
+  const Mesh ball = fine_ball(Vec3f::Zero());
+  const std::vector<BodyElements> bodies = {ball_elements(Vec3f::Zero())};
+  for (std::size_t v = 0; v < ball.positions.size(); v += 7) {
+    Receivers receivers;
+    receivers.begin(1);
+    receivers.add(ball.positions[v], ball.normals[v]);
+    gather(bodies, receivers);
+    EXPECT_LT(receivers.above[0] + receivers.below[0], 0.02f);
+  }
+}
+
+TEST(LeftAt, IsAFractionHoweverMuchIsTaken) {
+  Receivers receivers;
+  receivers.begin(1);
+  receivers.add(Vec3f::Zero(), Vec3f::UnitX());
+  for (const float taken : {0.0f, 0.1f, 0.5f, 3.0f, 100.0f}) {
+    receivers.above[0] = receivers.below[0] = taken;
+    receivers.red[0] = receivers.green[0] = receivers.blue[0] = 2.0f * taken;
+    const IndirectLight left = left_at(receivers, 0);
+    EXPECT_GE(left.open_to.minCoeff(), 0.0f);
+    EXPECT_LE(left.open_to.maxCoeff(), 1.0f);
+    // No more than if all that is seen sent what the elements send.
+    EXPECT_LE(left.bounced.maxCoeff(), 1.0f + 1e-5f);
+    EXPECT_LE(at_most_one(taken), std::min(1.0f, taken) + 1e-6f);
+  }
+}
+
+TEST(Reflection, SendsNoMoreThanArrives) {
+  // A white surface under light from everywhere: for each cosine of the eye (a column) and each
+  // roughness (a row), the shader itself sums what it mirrors of a lamp in each direction, and what
+  // is left for the colour.
+  constexpr const char* sum_source = R"(
+out vec4 colour;
+void main() {
+  float nv = gl_FragCoord.x / 32.0;
+  float roughness = 0.1 + 0.9 * gl_FragCoord.y / 32.0;
+  vec3 v = vec3(sqrt(1.0 - nv * nv), 0.0, nv);
+  float sum = 0.0;
+  for (int i = 0; i < 64; ++i) {
+    for (int j = 0; j < 128; ++j) {
+      float nl = (float(i) + 0.5) / 64.0;
+      float angle = 6.2831853 * (float(j) + 0.5) / 128.0;
+      vec3 l = vec3(sqrt(1.0 - nl * nl) * vec2(cos(angle), sin(angle)), nl);
+      vec3 h = normalize(l + v);
+      sum += nl * (highlight(nl, nv, h.z, dot(v, h), roughness) +
+                   entering * (1.0 - fresnel(nv, roughness)));
+    }
+  }
+  colour = vec4(0.5 * sum * 2.0 / (64.0 * 128.0));  // half of it, so that more than 1 is seen
+}
+)";
+  Context context;
+  Target target(32, 32);
+  const FullScreen sum("reflection", "", look_source() + sum_source);
+  target.begin();
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  sum.program().use();
+  sum.draw();
+  Image image;
+  target.read(image);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      // A hundredth for the quadrature, a byte for rounding.
+      EXPECT_LE(pixel_at(image, x, y)[0], 128 + 2) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(BetweenBodies, AWhiteBallTakesTheColourOfARedWall) {
+  Frame frame = empty_frame();
+  frame.light = {.direction = {-1, 0.3f, -1}};
+  frame.meshes = {make_ball({0, 0, 0}, 1.0f, {0.9f, 0.9f, 0.9f}, 24),
+                  make_box({-1.6f, 0, 0}, {0.2f, 4, 4}, {0.9f, 0.05f, 0.05f})};
+  const Image image = draw_once(frame, small_picture());
+  frame.light.between_bodies = false;
+  const Image alone = draw_once(frame, small_picture());
+  const Vec3f beside = Vec3f(-0.8f, -0.6f, 0);
+  const Pixel near_wall = pixel_of(image, frame.camera, beside);
+  const Pixel without = pixel_of(alone, frame.camera, beside);
+  EXPECT_GT(near_wall[0] - near_wall[1], without[0] - without[1] + 8);
+}
+
+TEST(BetweenBodies, TheGroundDarkensAroundABallThatStandsOnIt) {
+  Frame frame;
+  frame.camera = {{0, -12, 8}, Vec3f::Zero(), 40.0f};
+  frame.light.direction = {0, 0, -1};
+  frame.meshes = {make_ball({0, 0, 1}, 1.0f, {0.8f, 0.8f, 0.8f}, 16)};
+  const Image image = draw_once(frame, small_picture());
+  frame.light.between_bodies = false;
+  const Image alone = draw_once(frame, small_picture());
+  const auto darkness = [&](const Vec3f& point) {
+    return pixel_of(alone, frame.camera, point)[1] - pixel_of(image, frame.camera, point)[1];
+  };
+  EXPECT_GT(darkness({1.25f, 0, 0}), darkness({1.7f, 0, 0}));
+  EXPECT_GT(darkness({1.25f, 0, 0}), 3);
+  EXPECT_EQ(darkness({6, 0, 0}), 0);
+}
+
+}  // namespace
+}  // namespace pneuma::render
