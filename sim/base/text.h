@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -12,6 +13,19 @@ inline std::string text(double value) {
   std::array<char, 32> buffer;
   std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
   return buffer.data();
+}
+
+/// With three digits, of a value above zero. What is written is not above it, so that a limit may
+/// be given back as it reads.
+inline std::string text_below(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return text(unit * std::floor(value / unit * (1.0 - 1e-12)));
+}
+
+/// Likewise not below the value.
+inline std::string text_above(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return text(unit * std::ceil(value / unit * (1.0 + 1e-12)));
 }
 
 }  // namespace pneuma::base

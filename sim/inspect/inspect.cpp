@@ -97,11 +97,14 @@ std::uint64_t state_hash(const World& world) {
     add(hash, box.angular_velocity);
     for (const double q : box.orientation.coeffs()) hash.add(q);
   }
-  for (const ParticlePair& pair : world.particles) {
-    add_list(hash, {pair.first, pair.second});
-    add_list(hash, pair.first_features);
-    add_list(hash, pair.second_features);
-    hash.add(static_cast<std::uint64_t>(pair.near));
+  // Beside swept contacts they are only shown.
+  if (world.settings.contact == ContactMethod::impulses) {
+    for (const ParticlePair& pair : world.particles) {
+      add_list(hash, {pair.first, pair.second});
+      add_list(hash, pair.first_features);
+      add_list(hash, pair.second_features);
+      hash.add(static_cast<std::uint64_t>(pair.near));
+    }
   }
   for (const WarmStartImpulse& impulse : world.warm_start_impulses) {
     add_list(hash, {impulse.first, impulse.second});

@@ -1,4 +1,8 @@
 // A bounding hierarchy of a surface's triangles: which of them lie near a box of space.
+//
+// The simulation has another one, sim/swept/surface_tree.h, which follows a body as it moves. This
+// one is built from nothing for each look, and is apart from that on purpose: what is measured
+// here, crossings and depths, is what the contacts found there are judged by.
 #pragma once
 
 #include <algorithm>

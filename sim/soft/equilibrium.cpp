@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "sim/base/text.h"
@@ -113,50 +114,80 @@ Tensions solve(const Sparse& directions, const Eigen::VectorXd& force, double so
   return result;
 }
 
-double rest_length(const MeshTopology& topology, int edge, double length, double tension,
-                   double k) {
-  const double rest = length - tension / k;
-  if (rest > 0.0) return rest;
-  const auto& [a, b] = topology.edges()[at(edge)];
-  throw EquilibriumError("edge " + std::to_string(a) + "-" + std::to_string(b) + ", " +
-                         base::text(length) + " m long, would need a rest length of " +
-                         base::text(rest) + " m, which must be above zero: it bears " +
-                         base::text(tension) + " N at k = " + base::text(k) +
-                         " N/m. Use a greater k or less gas (a smaller n)");
+Tensions find_tensions(const MeshTopology& topology, const VertexArray& positions,
+                       const SoftMaterial& material, const EquilibriumOptions& options) {
+  if (!(material.k > 0.0)) {
+    throw EquilibriumError("k = " + base::text(material.k) +
+                           " N/m: without springs nothing balances the gas; k must be above zero");
+  }
+  const Eigen::VectorXd force = pressure_force(topology, positions, material);
+  check_balance(positions, force);
+  Tensions tensions = solve(spring_directions(topology, positions), force, options.softening);
+  if (tensions.residual <= options.max_residual) return tensions;
+  throw EquilibriumError("the springs leave " + base::text(tensions.residual) +
+                         " of the pressure force unbalanced, " + base::text(options.max_residual) +
+                         " is allowed: the shape is too flat to be held by its springs. Use a "
+                         "thicker shape, or springs at rest in the shape (rest = \"shape\")");
+}
+
+struct Strain {
+  int edge = -1;       // -1: none is stretched
+  double value = 0.0;  // (l - L) / l; from 1 on L would not be above zero
+};
+
+Strain greatest_strain(const std::vector<double>& lengths, const Tensions& tensions, double k) {
+  Strain greatest;
+  for (int e = 0; e < tensions.values.size(); ++e) {
+    const double strain = tensions.values[e] / (k * lengths[at(e)]);
+    if (strain > greatest.value) greatest = {e, strain};
+  }
+  return greatest;
+}
+
+void check_strain(const MeshTopology& topology, const Strain& strain,
+                  const SoftMaterial& material) {
+  if (strain.value < 1.0) return;
+  const auto& [a, b] = topology.edges()[at(strain.edge)];
+  throw EquilibriumError(
+      "n = " + base::text(material.n) + " mol of gas is more than the springs can hold: at k = " +
+      base::text(material.k) + " N/m and " + base::text(material.temperature) +
+      " K at most n = " + base::text_below(material.n / strain.value) +
+      " mol, where the spring of edge " + std::to_string(a) + "-" + std::to_string(b) +
+      " would have no rest length left. Use no more gas than that, or at least k = " +
+      base::text_above(material.k * strain.value) + " N/m");
+}
+
+std::vector<double> edge_lengths(const MeshTopology& topology, const VertexArray& positions) {
+  std::vector<double> lengths;
+  for (const auto& [a, b] : topology.edges()) {
+    lengths.push_back(edge_length(positions[b] - positions[a]));
+  }
+  return lengths;
 }
 
 }  // namespace
 
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
                              const SoftMaterial& material, const EquilibriumOptions& options) {
-  Tensions tensions{Eigen::VectorXd::Zero(topology.edge_count()), 0.0};
-  if (gas_strength(material) > 0.0) {
-    if (!(material.k > 0.0)) {
-      throw EquilibriumError(
-          "k = " + base::text(material.k) +
-          " N/m: without springs nothing balances the gas; k must be above zero");
-    }
-    const Eigen::VectorXd force = pressure_force(topology, positions, material);
-    check_balance(positions, force);
-    tensions = solve(spring_directions(topology, positions), force, options.softening);
-  }
-  if (!(tensions.residual <= options.max_residual)) {
-    throw EquilibriumError("the springs leave " + base::text(tensions.residual) +
-                           " of the pressure force unbalanced, " +
-                           base::text(options.max_residual) +
-                           " is allowed: the shape is too flat to be held by its springs. Use a "
-                           "thicker shape, or springs "
-                           "at rest in the shape (rest = \"shape\")");
-  }
-  Equilibrium result{{}, tensions.residual};
+  Equilibrium result{edge_lengths(topology, positions), 0.0};
+  if (!(gas_strength(material) > 0.0)) return result;
+  const Tensions tensions = find_tensions(topology, positions, material, options);
+  check_strain(topology, greatest_strain(result.rest_lengths, tensions, material.k), material);
   for (int e = 0; e < topology.edge_count(); ++e) {
-    const auto& [a, b] = topology.edges()[at(e)];
-    const double length = edge_length(positions[b] - positions[a]);
-    const double tension = tensions.values[e];
-    result.rest_lengths.push_back(
-        tension == 0.0 ? length : rest_length(topology, e, length, tension, material.k));
+    result.rest_lengths[at(e)] -= tensions.values[e] / material.k;
   }
+  result.residual = tensions.residual;
   return result;
+}
+
+double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
+                    const SoftMaterial& material, const EquilibriumOptions& options) {
+  SoftMaterial gas = material;
+  gas.n = 1.0;  // tensions are in proportion to it
+  const Tensions tensions = find_tensions(topology, positions, gas, options);
+  const double strain =
+      greatest_strain(edge_lengths(topology, positions), tensions, material.k).value;
+  return strain > 0.0 ? gas.n / strain : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace pneuma::sim

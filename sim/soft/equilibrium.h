@@ -52,4 +52,10 @@ class EquilibriumError : public std::runtime_error {
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
                              const SoftMaterial& material, const EquilibriumOptions& options = {});
 
+/// The amount of gas in mol at the material's temperature, whatever its n, from which on a rest
+/// length would not be above zero; infinite when no spring is stretched. Throws EquilibriumError
+/// for the other reasons of find_equilibrium. The temperature must be above 0.
+double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
+                    const SoftMaterial& material, const EquilibriumOptions& options = {});
+
 }  // namespace pneuma::sim

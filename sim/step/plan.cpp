@@ -19,10 +19,15 @@ Item& item(Plan& plan, ContactKind kind) {
   return plan.contact_kinds[static_cast<std::size_t>(kind)];
 }
 
-void leave_out_what_swept_contacts_do(Plan& plan) {
-  item(plan, Stage::broad_phase) = {false, "swept contacts are found over the whole step"};
-  item(plan, Stage::move_particles) = {false, "swept contacts are found by bounding hierarchies"};
-  item(plan, Stage::depenetrate) = {false, "swept soft bodies do not overlap"};
+void leave_out_what_swept_contacts_do(bool shows_particles, Plan& plan) {
+  const auto leave_out = [&](Stage stage, const char* reason) {
+    if (plan.runs(stage)) item(plan, stage) = {false, reason};
+  };
+  if (!(shows_particles && plan.runs(Stage::move_particles))) {
+    leave_out(Stage::broad_phase, "swept contacts are found over the whole step");
+    leave_out(Stage::move_particles, "swept contacts are found by bounding hierarchies");
+  }
+  leave_out(Stage::depenetrate, "swept soft bodies do not overlap");
 }
 
 }  // namespace
@@ -75,7 +80,9 @@ Plan make_plan(const World& world) {
   if (is_as_printed(world.settings)) {
     item(plan, Stage::depenetrate) = {false, "the paper moves features apart, not whole bodies"};
   }
-  if (world.settings.contact == ContactMethod::swept) leave_out_what_swept_contacts_do(plan);
+  if (world.settings.contact == ContactMethod::swept) {
+    leave_out_what_swept_contacts_do(world.settings.particles.shown, plan);
+  }
   return plan;
 }
 

@@ -1,8 +1,6 @@
-#include "sim/response/keep_volume.h"
 #include "sim/response/printed_response.h"
-#include "sim/response/vertex_on_ground.h"
-#include "sim/soft/pressure_force.h"
 #include "sim/step/find_divergence.h"
+#include "sim/step/ground_contact.h"
 #include "sim/step/resolve_island.h"
 #include "sim/step/stages.h"
 
@@ -20,23 +18,15 @@ void prepare(const World& world, std::span<const Contact> contacts, ResolveConta
   }
 }
 
-void resolve_alone(World& world, const MotionStart& motion, const Contact& contact) {
-  SoftBody& body = world.soft[at(contact.first.body)];
-  const SoftState& start = motion.soft[at(contact.first.body)];
-  const int v = contact.first.feature.index;
-  const ContactMaterial pair = combine(body.material.surface, *world.settings.ground);
-  Vec3 velocity = body.velocities[v];
-  const bool sticks = meet_ground(-start.velocities[v].z(), pair, velocity);
-  body.velocities[v] = velocity;
-  put_onto_ground(world, start, contact, sticks);
-}
-
 /// No island touches what another does.
 void resolve_all(World& world, const MotionStart& start, std::span<const Contact> contacts,
                  ResolveContactsMemory& memory, Workers& workers) {
   const std::span<const int> alone = memory.islands.alone();
   workers.for_blocks(static_cast<int>(alone.size()), [&](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) resolve_alone(world, start, contacts[at(alone[at(i)])]);
+    for (int i = begin; i < end; ++i) {
+      const Contact& contact = contacts[at(alone[at(i)])];
+      resolve_alone(world, start.soft[at(contact.first.body)], contact);
+    }
   });
   workers.for_blocks(memory.islands.count(), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) resolve_island(world, start, contacts, i, memory);
@@ -48,13 +38,9 @@ void keep_positions(const World& world, std::vector<VertexArray>& before_contact
   for (std::size_t i = 0; i < world.soft.size(); ++i) before_contacts[i] = world.soft[i].positions;
 }
 
-/// What an implicit integrator promises, contacts keep: a body that holds gas has a volume.
 void keep_volumes(World& world, const std::vector<VertexArray>& before_contacts) {
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    SoftBody& body = world.soft[i];
-    if (gas_strength(body.material) == 0.0) continue;
-    keep_volume(body.mesh->topology, before_contacts[i], body.positions);
-  }
+  for (std::size_t i = 0; i < world.soft.size(); ++i)
+    keep_volume(world.soft[i], before_contacts[i]);
 }
 
 /// In the order in which the contacts were found, whichever islands they are in.

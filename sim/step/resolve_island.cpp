@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "sim/mesh/vec4d.h"
+#include "sim/step/ground_contact.h"
 
 namespace pneuma::sim {
 namespace {
@@ -199,18 +200,6 @@ void separate(World& world, const MotionStart& motion, const Island& island) {
 }
 
 }  // namespace
-
-void put_onto_ground(World& world, const SoftState& start, const Contact& contact, bool sticks) {
-  VertexArray& positions = world.soft[at(contact.first.body)].positions;
-  const int v = contact.first.feature.index;
-  Vec3 position = positions[v];
-  // Implicit integrators apply friction to what is on or below the ground themselves.
-  if (sticks && !is_implicit(world.settings.integrator)) {
-    position = start.positions[v] + 0.5 * time_step(world.settings) * Vec3(start.velocities[v]);
-  }
-  position.z() = 0.0;
-  positions[v] = position;
-}
 
 void resolve_island(World& world, const MotionStart& start, std::span<const Contact> contacts,
                     int number, ResolveContactsMemory& memory) {

@@ -37,10 +37,4 @@ inline Vec3 point_on_first(const World& world, const Contact& contact) {
 void resolve_island(World& world, const MotionStart& start, std::span<const Contact> contacts,
                     int number, ResolveContactsMemory& memory);
 
-/// Puts the vertex of a contact back onto the ground (3.1.4). A vertex that friction holds is also
-/// put where it would be if it had slowed down evenly over the step: left where the step's forces
-/// carried it, it would creep down the gentlest slope (ERRATA row 30). `start`: as the step found
-/// the vertex's body.
-void put_onto_ground(World& world, const SoftState& start, const Contact& contact, bool sticks);
-
 }  // namespace pneuma::sim

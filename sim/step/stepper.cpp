@@ -3,6 +3,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "sim/inspect/inspect.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
 #include "sim/step/swept_step.h"
@@ -20,6 +21,26 @@ void restore(World& world, const StepWorkspace& workspace, Stage failed) {
   world.particles = workspace.pair_start.particles;
   world.depenetrating = workspace.pair_start.depenetrating;
   world.warm_start_impulses = workspace.pair_start.warm_start_impulses;
+}
+
+/// A soft body on the ground needs no sweep: its vertices meet the ground each for itself.
+bool may_touch_more_than_ground(const Plan& plan) {
+  return plan.runs(Stage::resolve_contacts) &&
+         (plan.runs(ContactKind::rigid_ground) || plan.runs(ContactKind::soft_soft) ||
+          plan.runs(ContactKind::soft_rigid) || plan.runs(ContactKind::rigid_rigid));
+}
+
+/// Particles that nothing depends on.
+void walk_to_be_shown(World& world, StepWorkspace& w) {
+  const StageRunner run(w);
+  run(Stage::broad_phase,
+      [&] { broad_phase(world, w.plan, w.pair_start, w.near_bodies, w.broad_phase, w.workers); });
+  run(Stage::move_particles,
+      [&] { move_particles(world, w.near_bodies, w.move_particles, w.workers); });
+}
+
+double energy_if(bool is_measured, const World& world) {
+  return is_measured ? energy(world).total() : 0.0;
 }
 
 }  // namespace
@@ -64,7 +85,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       move_particles{std::vector<ParticleScratch>(at(options.threads))},
       find_contacts(options.threads),
       resolve_contacts(world) {
-  if (world.settings.contact == ContactMethod::swept && plan.runs(Stage::resolve_contacts)) {
+  if (world.settings.contact == ContactMethod::swept && may_touch_more_than_ground(plan)) {
     swept.emplace(world);
   }
 }
@@ -87,6 +108,7 @@ std::optional<Divergence> Stepper::step(World& world) {
   if (!divergence) {
     run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, w.motion_start.rigid); });
   }
+  const double before_contacts = energy_if(w.options.measure_work, world);
   if (!divergence) {
     run(Stage::broad_phase,
         [&] { broad_phase(world, w.plan, w.pair_start, w.near_bodies, w.broad_phase, w.workers); });
@@ -107,18 +129,25 @@ std::optional<Divergence> Stepper::step(World& world) {
     restore(world, w, divergence->stage);
     return divergence;
   }
+  w.contact_work = energy_if(w.options.measure_work, world) - before_contacts;
 
   ++world.steps;
   return std::nullopt;
 }
 
 std::optional<Divergence> Stepper::step_swept(World& world) {
-  auto divergence = swept_step(world, *workspace_);
-  if (!divergence) ++world.steps;
-  return divergence;
+  StepWorkspace& w = *workspace_;
+  if (auto divergence = swept_step(world, w)) return divergence;
+  if (world.settings.particles.shown) walk_to_be_shown(world, w);
+  ++world.steps;
+  return std::nullopt;
 }
 
-double Stepper::contact_work() const { return workspace_->swept ? workspace_->swept->work : 0.0; }
+double Stepper::contact_work() const {
+  const StepWorkspace& w = *workspace_;
+  if (!w.options.measure_work) return 0.0;
+  return w.swept ? w.swept->work : w.contact_work;
+}
 const Plan& Stepper::plan() const { return workspace_->plan; }
 std::span<const Contact> Stepper::contacts() const { return workspace_->contacts; }
 const StageTimes& Stepper::stage_times() const { return workspace_->stage_times; }

@@ -31,8 +31,9 @@ struct Divergence {
 
 struct StepperOptions {
   int threads = 1;
-  bool profile = false;      // measure StageTimes
-  std::optional<Plan> plan;  // in place of the world's own: for tests
+  bool profile = false;       // measure StageTimes
+  bool measure_work = false;  // measure Stepper::contact_work
+  std::optional<Plan> plan;   // in place of the world's own: for tests
 };
 
 struct StepWorkspace;
@@ -56,8 +57,10 @@ class Stepper {
   /// The contacts that the last step found and resolved.
   std::span<const Contact> contacts() const;
   const StageTimes& stage_times() const;
-  /// J, the work of all impulses of the last step, and of what shifted boxes; of swept contacts
-  /// only.
+  /// J, what the contacts of the last step have added to the energy of the bodies. Of swept
+  /// contacts the work of each impulse at the mean velocity of where it acts, and of what shifted
+  /// boxes; otherwise, and of bodies that only meet the ground, the change of energy by contacts. 0
+  /// unless the options have measure_work.
   double contact_work() const;
 
  private:

@@ -17,6 +17,11 @@ namespace {
 constexpr double skin_of_edge = 0.01;
 constexpr double skin_of_side = 0.0025;
 
+/// Of these: thinner than this the solver's tolerance and the room to move in are rounding.
+constexpr double thinnest = 0.1;
+
+double thin_skin(double wanted, double most) { return std::clamp(wanted, thinnest * most, most); }
+
 /// A way's box is this many skins larger: surfaces are found before they are too near.
 constexpr double skins_around = 1.5;
 
@@ -39,7 +44,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
       tree = std::make_shared<SurfaceTree>(body.mesh->topology, body.mesh->rest_positions, false);
     }
     surfaces_.emplace_back().tree = tree;
-    skins_.push_back(std::min(skin, skin_of_edge * tree->mean_edge()));
+    skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
     changes_.emplace_back(body.positions.size());
   }
   for (const RigidBox& box : world.rigid) {
@@ -51,8 +56,11 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     MovingSurface& surface = surfaces_.emplace_back();
     surface.tree = std::move(tree);
     surface.start = surface.end = VertexArray(corners_.back().size());
-    skins_.push_back(std::min(skin, skin_of_side * box.size.minCoeff()));
+    skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
   }
+  is_followed_.assign(surfaces_.size(), 1);
+  is_lone_.assign(surfaces_.size(), 0);
+  kicked_.resize(world.soft.size());
   allowances_.resize(surfaces_.size());
   searched_ends_.resize(surfaces_.size());
 }
@@ -66,9 +74,8 @@ void SweptBodies::place_corners(int box, const Vec3& position,
 
 void SweptBodies::set_start(const World& world, const MotionStart& start) {
   moved_again_.assign(world.soft.size(), 0);
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    surfaces_[i].start = start.soft[i].positions;
-  }
+  std::fill_n(is_followed_.begin(), soft_count_, std::uint8_t{0});
+  std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     const RigidStart& box = start.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
@@ -76,7 +83,9 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
 }
 
 void SweptBodies::set_end(const World& world) {
-  for (std::size_t i = 0; i < world.soft.size(); ++i) surfaces_[i].end = world.soft[i].positions;
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (is_followed_[i] != 0) surfaces_[i].end = world.soft[i].positions;
+  }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     const RigidBox& box = world.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].end);
@@ -101,22 +110,52 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
   }
 }
 
-void SweptBodies::find_near_bodies(std::vector<BodyPair>& pairs) {
+BoundingSphere SweptBodies::sphere_about_way(const World& world, const MotionStart& start,
+                                             int soft) const {
+  const VertexArray& from = start.soft[at(soft)].positions;
+  const VertexArray& to = world.soft[at(soft)].positions;
+  Bounds way = bounds(from);
+  way.include(bounds(to));
+  const double margin =
+      allowed_of_way * greatest_distance(from, to) + (1.0 + skins_around) * skin(soft);
+  return {way.centre(), 0.5 * (way.high - way.low + Vec3::Constant(2.0 * margin)).norm()};
+}
+
+void SweptBodies::follow(const World& world, const MotionStart& start, int soft) {
+  is_followed_[at(soft)] = 1;
+  surfaces_[at(soft)].start = start.soft[at(soft)].positions;
+  surfaces_[at(soft)].end = world.soft[at(soft)].positions;
+  refit_way(soft);
+}
+
+BoundingSphere SweptBodies::refit_way(int body) {
+  MovingSurface& surface = surfaces_[at(body)];
+  allowances_[at(body)] =
+      allowed_of_way * greatest_distance(surface.start, surface.end) + skin(body);
+  searched_ends_[at(body)] = surface.end;
+  refit(surface, skins_around * skin(body) + allowance(body));
+  const WayBox& around = surface.nodes.front();
+  return {to_vec3(0.5 * (around.low + around.high)),
+          0.5 * to_vec3(around.high - around.low).norm()};
+}
+
+void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
+                                   std::vector<BodyPair>& pairs) {
   spheres_.clear();
   for (int i = 0; i < count(); ++i) {
-    MovingSurface& surface = surfaces_[at(i)];
-    allowances_[at(i)] = allowed_of_way * greatest_distance(surface.start, surface.end) + skin(i);
-    searched_ends_[at(i)] = surface.end;
-    refit(surface, skins_around * skin(i) + allowance(i));
-    const WayBox& around = surface.nodes.front();
-    spheres_.push_back({to_vec3(0.5 * (around.low + around.high)),
-                        0.5 * to_vec3(around.high - around.low).norm()});
+    spheres_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : sphere_about_way(world, start, i));
   }
   sweep_and_prune_.find(spheres_, pairs);
+  for (const BodyPair& pair : pairs) {
+    for (const int body : {pair.first, pair.second}) {
+      if (is_followed_[at(body)] == 0) follow(world, start, body);
+    }
+  }
 }
 
 bool SweptBodies::search_is_valid() const {
   for (int i = 0; i < count(); ++i) {
+    if (is_followed_[at(i)] == 0) continue;
     if (greatest_distance(surface(i).end, searched_ends_[at(i)]) > allowance(i)) return false;
   }
   return true;
@@ -211,10 +250,10 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
   for (int i = 0; i < soft_count_; ++i) {
     if (moved_again_[at(i)] == 0 && changes_[at(i)].rows().isZero(0.0)) continue;
     moved_again_[at(i)] = 1;
-    kicked_.positions = start.soft[at(i)].positions;
-    kicked_.velocities = start.soft[at(i)].velocities;
-    kicked_.velocities.rows() += changes_[at(i)].rows();
-    if (auto failed = integrate_soft_again(world, i, kicked_, integrate_soft, 0)) return failed;
+    SoftState& kicked = kicked_[at(i)];
+    kicked = start.soft[at(i)];
+    kicked.velocities.rows() += changes_[at(i)].rows();
+    if (auto failed = integrate_soft_again(world, i, kicked, integrate_soft, 0)) return failed;
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     RigidStart kicked = start.rigid[i];

@@ -40,7 +40,8 @@ class SweptBodies {
   double skin(int body) const { return skins_[at(body)]; }
   double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
 
-  /// Where the surfaces are at the start of a step, and at its end.
+  /// Where the surfaces are at the start of a step, and at its end; of a soft body from when
+  /// another body's way may come near its own.
   void set_start(const World& world, const MotionStart& start);
   void set_end(const World& world);
 
@@ -51,7 +52,13 @@ class SweptBodies {
 
   /// Fills `pairs` with the bodies whose ways come near each other, in ascending order. Their ways
   /// may then end elsewhere by the allowance of each body without another search.
-  void find_near_bodies(std::vector<BodyPair>& pairs);
+  void find_near_bodies(const World& world, const MotionStart& start, std::vector<BodyPair>& pairs);
+  void may_meet(const BodyPair& bodies) {
+    is_lone_[at(bodies.first)] = is_lone_[at(bodies.second)] = 0;
+  }
+  /// Whether a soft body may meet no other body in this step: then its vertices meet the ground
+  /// each for itself, once it has moved.
+  bool is_lone(int body) const { return is_lone_[at(body)] != 0; }
   /// m.
   double allowance(int body) const { return allowances_[at(body)]; }
   /// Whether all ends are still within the allowances.
@@ -84,6 +91,10 @@ class SweptBodies {
   void add_changes(World& world) const;
 
  private:
+  /// What refit_way would give, of a body that is not followed.
+  BoundingSphere sphere_about_way(const World& world, const MotionStart& start, int soft) const;
+  BoundingSphere refit_way(int body);
+  void follow(const World& world, const MotionStart& start, int soft);
   std::span<const int> vertices(const SurfacePoint& point) const;
   /// `motion(i)` of each box.
   template <class MotionOf>
@@ -96,6 +107,8 @@ class SweptBodies {
 
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
+  std::vector<std::uint8_t> is_lone_;      // per body
+  std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
   std::vector<double> skins_;
   std::vector<double> allowances_;
   std::vector<VertexArray> searched_ends_;                  // the ends that the last search was for
@@ -105,7 +118,7 @@ class SweptBodies {
   std::vector<BoxChange> box_changes_;
   std::vector<BoxChange> shifts_;          // of the boxes, or empty
   std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
-  SoftState kicked_;
+  std::vector<SoftState> kicked_;          // per soft body
   std::vector<BoundingSphere> spheres_;
   SweepAndPrune sweep_and_prune_;
 };

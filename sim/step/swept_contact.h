@@ -13,12 +13,14 @@ namespace pneuma::sim {
 struct SweptContact {
   SurfacePoint first;
   SurfacePoint second;
-  Vec3 normal = Vec3::Zero();  // unit, from second to first
-  double distance = 0.0;       // m
-  double wanted = 0.0;         // m, the distance that the bodies keep
-  bool is_near = false;        // at this distance, give or take half of it
-  double approach = 0.0;       // m/s, at which the sides meet
-  double drift = 0.0;          // m/s, of the motion beyond the mean of the velocities at both ends
+  Vec3 normal = Vec3::Zero();   // unit, from second to first
+  double distance = 0.0;        // m
+  double wanted = 0.0;          // m, the distance that the bodies keep
+  bool is_near = false;         // at this distance, give or take half of it
+  double approach = 0.0;        // m/s, at which the sides meet
+  double drift = 0.0;           // m/s, of the motion beyond the mean of the velocities at both ends
+  double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
+  bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
   bool is_of_near_boxes = false;
   int previous = -1;  // the contact that the same features made before this one
 };

@@ -35,18 +35,24 @@ void SweptSearch::start() {
 
 void SweptSearch::find_candidates() {
   m_.candidates.clear();
-  bodies_.find_near_bodies(m_.near_bodies);
+  bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
-    if (offer_near_boxes(pair)) continue;
-    m_.found.clear();
-    find_near_features(bodies_.surface(pair.first), bodies_.surface(pair.second), m_.found);
-    for (const NearFeatures& features : m_.found) offer(pair, features);
+    const std::size_t before = m_.candidates.size();
+    if (!offer_near_boxes(pair)) offer_near_features(pair);
+    if (m_.candidates.size() > before) bodies_.may_meet(pair);
   }
   if (world_.settings.ground) find_near_ground();
 }
 
+void SweptSearch::offer_near_features(const BodyPair& bodies) {
+  m_.found.clear();
+  find_near_features(bodies_.surface(bodies.first), bodies_.surface(bodies.second), m_.found);
+  for (const NearFeatures& features : m_.found) offer(bodies, features);
+}
+
 void SweptSearch::find_near_ground() {
   for (int i = 0; i < bodies_.count(); ++i) {
+    if (bodies_.is_lone(i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
     for (int v = 0; v < surface.start.size(); ++v) {

@@ -11,7 +11,7 @@
 
 namespace pneuma::sim {
 
-/// Before a step or a part of it: what is taken back if it fails.
+/// What a step or a part of it began with, that has failed and is to be halved.
 struct SweptStart {
   MotionStart motion;
   std::vector<WarmStartImpulse> warm_start_impulses;
@@ -19,6 +19,13 @@ struct SweptStart {
 
 /// How often a step may be halved: to a 256th.
 inline constexpr int max_halvings = 8;
+
+/// Memory of limit_returned_energy.
+struct ReturnedEnergyMemory {
+  std::vector<double> work;           // J, per island
+  std::vector<std::uint8_t> returns;  // per island
+  std::vector<Vec3> given;            // N s, per contact
+};
 
 struct SweptMemory {
   explicit SweptMemory(const World& world)
@@ -36,7 +43,12 @@ struct SweptMemory {
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
   std::vector<SweptContact> first_contacts;  // those of the start, once the end is solved for
   std::vector<SweptImpulse> first_impulses;
-  double work = 0.0;  // J, by all impulses of the last step
+  std::vector<double> work_of_start;  // J, of each of those
+  std::vector<Vec3>
+      end_velocities;  // m/s, per contact: of the sides before the impulses of the end
+  ReturnedEnergyMemory returned_energy;
+  VertexArray before_ground;  // of a soft body that meets nothing else
+  double work = 0.0;          // J, of all contacts of the last step
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.
@@ -89,6 +101,7 @@ class SweptSearch {
   OrientedBox end_box(int body) const;
   bool turn_into_each_other(const BodyPair& bodies) const;
   double greatest_relative_way(int first, int second) const;
+  void offer_near_features(const BodyPair& bodies);
   void offer(const BodyPair& bodies, const NearFeatures& features);
   void recall_contacts();
   SweptCandidate& candidate_of(const SweptContact& contact);

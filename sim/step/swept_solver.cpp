@@ -63,12 +63,14 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                         double tolerance) {
   divide(contacts, impulses);
-  for (std::size_t i = 0; i + 1 < begin_.size(); ++i) {
-    if (has_boxes_[i]) {
-      solve_with_boxes(island(i), tolerance);
-    } else {
-      correct_in_turn(island(i), tolerance, many_iterations);
-    }
+  for (int i = 0; i < island_count(); ++i) solve_island(i, tolerance);
+}
+
+void SweptSolver::solve_island(int island, double tolerance) {
+  if (has_boxes_[at(island)]) {
+    solve_with_boxes(impulses_of(island), tolerance);
+  } else {
+    correct_in_turn(impulses_of(island), tolerance, many_iterations);
   }
 }
 

@@ -21,14 +21,21 @@ class SweptSolver {
   /// if that can help.
   void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance);
+  /// The same for one of the islands that the last call has found.
+  void solve_island(int island, double tolerance);
+  int island_count() const { return static_cast<int>(begin_.size()) - 1; }
+  /// Those of an island that the last call has found.
+  std::span<SweptImpulse* const> impulses_of(int island) const {
+    const std::size_t begin = begin_[at(island)];
+    return std::span(ordered_).subspan(begin, begin_[at(island) + 1] - begin);
+  }
+  /// -1: in none. `body` has been in a contact of the last call, or in none at all.
+  int island_of(int body) { return islands_[at(root(body))]; }
 
  private:
   /// Contacts that share a body, and those that share one with these, are an island.
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses);
   int root(int body);
-  std::span<SweptImpulse* const> island(std::size_t i) const {
-    return std::span(ordered_).subspan(begin_[i], begin_[i + 1] - begin_[i]);
-  }
   void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
 
   bool is_box(int body) const { return body >= soft_bodies_; }

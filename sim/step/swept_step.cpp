@@ -5,7 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "sim/inspect/inspect.h"
 #include "sim/step/find_divergence.h"
+#include "sim/step/ground_contact.h"
+#include "sim/step/returned_energy.h"
 #include "sim/step/shift_boxes.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
@@ -35,17 +38,19 @@ class SweptStep {
 
   /// Half steps, if the whole one fails.
   std::optional<Divergence> advance(int halvings) {
-    keep(m_.starts[at(halvings)]);
+    SweptStart& start = m_.starts[at(halvings)];
+    start.warm_start_impulses = world_.warm_start_impulses;
     const double work = m_.work;
     const std::size_t contacts = w_.contacts.size();
     const auto take_all_back = [&] {
-      take_back(m_.starts[at(halvings)]);
+      take_back(start);
       m_.work = work;
       w_.contacts.resize(contacts);
     };
     fraction_ = std::ldexp(1.0, -halvings);
     auto failure = try_step();
     if (!failure) return std::nullopt;
+    start.motion = w_.motion_start;  // which half steps change
     take_all_back();
     if (failure->stage != Stage::resolve_contacts || halvings == max_halvings) return failure;
     world_.settings.steps_per_second *= 2;
@@ -57,12 +62,6 @@ class SweptStep {
   }
 
  private:
-  void keep(SweptStart& start) const {
-    keep_soft(world_, start.motion.soft);
-    keep_rigid(world_, start.motion.rigid);
-    start.warm_start_impulses = world_.warm_start_impulses;
-  }
-
   void take_back(const SweptStart& start) {
     restore_soft(world_, start.motion.soft);
     restore_rigid(world_, start.motion.rigid);
@@ -105,19 +104,20 @@ class SweptStep {
   }
 
   std::optional<Divergence> move_freely() {
-    std::optional<Divergence> failed;
+    std::optional<Divergence> of_soft, of_rigid;
     run_(Stage::integrate_soft,
-         [&] { failed = integrate_soft(world_, start().soft, w_.integrate_soft, w_.workers); });
-    if (failed) return failed;
-    run_(Stage::integrate_rigid, [&] { failed = integrate_rigid(world_, start().rigid); });
-    return failed;
+         [&] { of_soft = integrate_soft(world_, start().soft, w_.integrate_soft, w_.workers); });
+    run_(Stage::integrate_rigid, [&] { of_rigid = integrate_rigid(world_, start().rigid); });
+    return of_soft ? of_soft : of_rigid;  // both have kept what they started from
   }
 
   void solve_all() {
     if (m_.contacts.empty()) return;
-    m_.solver.solve(m_.contacts, m_.impulses, solver_tolerance * bodies_.thinnest_skin() / step());
+    m_.solver.solve(m_.contacts, m_.impulses, tolerance());
   }
 
+  /// m/s.
+  double tolerance() const { return solver_tolerance * bodies_.thinnest_skin() / step(); }
   MotionStart& start() { return w_.motion_start; }
   double step() const { return time_step(world_.settings); }
 
@@ -146,24 +146,33 @@ class SweptStep {
   }
 
   std::optional<Divergence> finish() {
-    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      m_.work += m_.impulses[i].work(search_.start_velocity(m_.contacts[i]));
-    }
+    count_work_of_start();
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
     m_.impulses.clear();
+    m_.end_velocities.clear();
     bodies_.begin_at_end(world_);
     for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
     warm_start();
     solve_all();
+    limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      m_.work += m_.impulses[i].work(search_.end_velocity(m_.contacts[i]));
+      m_.work += m_.impulses[i].work(m_.end_velocities[i]);
     }
     bodies_.add_changes(world_);
     remember();
     report();
+    if (world_.settings.ground) meet_ground();
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
+  }
+
+  void count_work_of_start() {
+    m_.work_of_start.clear();
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      m_.work_of_start.push_back(m_.impulses[i].work(search_.start_velocity(m_.contacts[i])));
+      m_.work += m_.work_of_start.back();
+    }
   }
 
   /// What a pair of features has been given at the start.
@@ -194,27 +203,32 @@ class SweptStep {
   void touch(const SweptCandidate& candidate) {
     const Given before = given_at_start(candidate);
     const bool acted = before.normal > 0.0;
-    const auto contact = search_.place_at_end(candidate, acted);
+    auto contact = search_.place_at_end(candidate, acted);
     if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = search_.impulse(*contact, rubs ? both.friction : 0.0);
     if (acted) impulse.start_from(before.normal, before.friction);
-    double parting = 0.0;
-    const double bounce = both.restitution * before.approach;
-    if (!contact->is_near) {
-      parting = -before.approach;
-      impulse.only_give_back();
-    } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
-      parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
-    }
-    if (contact->is_near && search_.is_rigid(*contact) && parting == 0.0) {
-      parting = std::min(0.0, closing_rate * missing_distance(*contact));  // to stand flat
-    }
+    if (!contact->is_near) impulse.only_give_back();
+    set_parting(before, both.restitution, *contact);
     const Vec3 velocity = search_.end_velocity(*contact);
-    impulse.aim(parting - contact->normal.dot(velocity), velocity);
+    impulse.aim(contact->parting - contact->normal.dot(velocity), velocity);
     m_.contacts.push_back(*contact);
     m_.impulses.push_back(impulse);
+    m_.end_velocities.push_back(velocity);
+  }
+
+  void set_parting(const Given& before, double restitution, SweptContact& contact) const {
+    const double bounce = restitution * before.approach;
+    if (!contact.is_near) {
+      contact.parting = -before.approach;
+      contact.returns_energy = true;
+    } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
+      contact.parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
+      contact.returns_energy = true;
+    } else if (search_.is_rigid(contact)) {
+      contact.parting = std::min(0.0, closing_rate * missing_distance(contact));  // to stand flat
+    }
   }
 
   /// Gives the impulse that held a point of a box in the last step to the nearest contact of the
@@ -275,16 +289,35 @@ class SweptStep {
     }
   }
 
+  /// Those that nothing else can touch.
+  void meet_ground() {
+    for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
+      if (!bodies_.is_lone(i)) continue;
+      const double before = energy_if_measured(i);
+      meet_ground_alone(world_, i, start().soft[at(i)], w_.contacts, m_.before_ground);
+      m_.work += energy_if_measured(i) - before;
+    }
+  }
+
+  double energy_if_measured(int soft) const {
+    if (!w_.options.measure_work) return 0.0;
+    return energy(world_.soft[at(soft)], world_.settings.gravity).total();
+  }
+
   std::string name(int body) const {
     if (body == swept_ground) return "the ground";
     return bodies_.is_rigid(body) ? world_.rigid[at(bodies_.box(body))].name
                                   : world_.soft[at(body)].name;
   }
 
+  /// Without words, which need memory, where the step can still be halved.
   Divergence blocked() const {
-    return {Stage::resolve_contacts, world_.steps + 1, name(search_.blocked()->first),
-            "it cannot be kept from passing through " + name(search_.blocked()->second) +
-                ", whatever the step"};
+    Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
+    if (fraction_ > std::ldexp(1.0, -max_halvings)) return divergence;
+    divergence.body = name(search_.blocked()->first);
+    divergence.what = "it cannot be kept from passing through " + name(search_.blocked()->second) +
+                      ", whatever the step";
+    return divergence;
   }
 
   World& world_;

@@ -22,6 +22,7 @@ struct StepWorkspace {
   PairStart pair_start;
   NearBodies near_bodies;
   std::vector<Contact> contacts;
+  double contact_work = 0.0;  // J, if it is measured
 
   IntegrateSoftMemory integrate_soft;
   BroadPhaseMemory broad_phase;

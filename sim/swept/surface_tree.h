@@ -13,7 +13,8 @@ namespace pneuma::sim {
 /// Immutable and shared by bodies of one mesh.
 ///
 /// The hierarchy is a binary tree of boxes about triangles, in depth-first order: the first child
-/// follows its parent. It is built from the shape at rest and refitted in every step.
+/// follows its parent. It is built from the shape at rest and refitted in every step. What judges
+/// the contacts has its own (sim/inspect/triangle_tree.h).
 ///
 /// Every vertex and edge belongs to one of its triangles, the first one (Curtis et al. 2008, "Fast
 /// collision detection for deformable models using representative-triangles"), so that going

@@ -46,6 +46,7 @@ struct ParticleSettings {
   double attraction = 2.0;  // of the other body's particles, in units of the own ones' repulsion
   int max_sweeps = 10;      // of the refinement loop per step
   int settled_below = 4;    // the loop ends when fewer than this many particles move
+  bool shown = false;       // they walk to be looked at, also where contacts are found without them
 };
 
 struct Settings {
@@ -55,7 +56,7 @@ struct Settings {
   Vec3 gravity = {0.0, 0.0, -9.81};  // m/s^2
   std::optional<ContactMaterial> ground =
       ContactMaterial{};  // the plane z = 0; none: bodies fall for ever
-  ContactMethod contact = ContactMethod::impulses;
+  ContactMethod contact = ContactMethod::swept;
   // m; features nearer than twice this are in contact (5.2.1.1). Swept contacts keep at most twice
   // this, and no more than a fiftieth of an edge.
   double skin_thickness = 0.5;

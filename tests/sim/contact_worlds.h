@@ -70,7 +70,7 @@ inline World sphere_on_box() {
 
 inline World sphere_in_torus() {
   World world;
-  add(world, torus(6.5, {0.0, 0.0, 2.6}));
+  add(world, torus(5.5, {0.0, 0.0, 2.6}));
   world.soft[0].material.vertex_mass = 0.2;
   add(world, sphere({0.0, 0.0, 6.5}));
   world.soft[1].material.vertex_mass = 0.1;

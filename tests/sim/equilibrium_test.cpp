@@ -134,12 +134,43 @@ std::string refusal(const TriangleMesh& mesh, const SoftMaterial& material,
   return "accepted";
 }
 
+/// The number that follows `name` in a text.
+double number_after(const std::string& text, const std::string& name) {
+  return std::stod(text.substr(text.find(name) + name.size()));
+}
+
+TEST(Equilibrium, ItsRefusalNamesWhatCanBeHeld) {
+  for (const TriangleMesh& mesh : {make_sphere(2.0, 8, 8), make_torus(4.0, 1.5, 16, 16)}) {
+    SoftMaterial material;
+    const std::string message = refusal(mesh, material, {});
+    SoftMaterial less = material, stiffer = material;
+    less.n = number_after(message, "at most n = ");
+    stiffer.k = number_after(message, "at least k = ");
+    EXPECT_EQ(refusal(mesh, less, {}), "accepted") << message;
+    EXPECT_EQ(refusal(mesh, stiffer, {}), "accepted") << message;
+    less.n *= 1.011;  // a unit of the third digit more
+    stiffer.k /= 1.011;
+    EXPECT_NE(refusal(mesh, less, {}), "accepted") << message;
+    EXPECT_NE(refusal(mesh, stiffer, {}), "accepted") << message;
+  }
+}
+
+TEST(Equilibrium, TheMostGasHeldIsThatBetweenAcceptedAndRefused) {
+  const TriangleMesh mesh = make_icosphere(1.0, 2);
+  const SoftBody body = make_body(mesh);
+  SoftMaterial material;
+  const double most = max_held_gas(body.mesh->topology, body.positions, material);
+  material.n = 0.999 * most;
+  EXPECT_EQ(refusal(mesh, material, {}), "accepted");
+  material.n = 1.001 * most;
+  EXPECT_NE(refusal(mesh, material, {}), "accepted");
+}
+
 TEST(Equilibrium, RefusesWhatHasNone) {
   const TriangleMesh sphere = make_sphere(3.0, 8, 8);
   SoftMaterial material = inflated(sphere, 100.0, 1.0);
-  EXPECT_NE(refusal(sphere, material).find("rest length of -"), std::string::npos)
+  EXPECT_NE(refusal(sphere, material).find("more than the springs can hold"), std::string::npos)
       << refusal(sphere, material);
-  EXPECT_NE(refusal(sphere, material).find("edge "), std::string::npos);
   material.k = 0.0;
   EXPECT_NE(refusal(sphere, material).find("k = 0"), std::string::npos);
 

@@ -1,4 +1,5 @@
-// The implicit integrators: accuracy, and what sim/soft/implicit_step.h guarantees.
+// The implicit integrators: accuracy and bookkeeping. What sim/soft/implicit_step.h guarantees is
+// in implicit_extremes_test.cpp, rest and friction on the ground in implicit_ground_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,17 +8,12 @@
 #include "sim/inspect/inspect.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/implicit_step.h"
+#include "tests/sim/implicit_integrators.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
 namespace {
-
-constexpr std::array implicit_integrators = {Integrator::implicit_euler, Integrator::sdirk2};
-
-std::string name(Integrator integrator) {
-  return integrator == Integrator::sdirk2 ? "sdirk2" : "implicit_euler";
-}
 
 class Implicit : public testing::TestWithParam<Integrator> {};
 INSTANTIATE_TEST_SUITE_P(Both, Implicit, testing::ValuesIn(implicit_integrators),
@@ -171,191 +167,6 @@ TEST_P(Implicit, FallsLikeAPoint) {
   const double extra = GetParam() == Integrator::sdirk2 ? 0.0 : 0.5 * 9.81 / 60.0;
   EXPECT_NEAR(mean(world.soft[0].positions).z() - start, -0.5 * 9.81 - extra, 1e-7);
   EXPECT_NEAR(mean(world.soft[0].velocities).z(), -9.81, 1e-9);
-}
-
-// --- What is guaranteed
-// ---------------------------------------------------------------------------
-
-struct Extreme {
-  std::string name;
-  double k = 50.0, n = 10.0, mass = 0.35;
-  double noise = 0.0;         // m and m/s, of every coordinate
-  double flatness = 1.0;      // times z
-  Vec3 speed = Vec3::Zero();  // m/s
-  double spin = 0.0;          // rad/s
-  int steps_per_second = 60;
-};
-
-const std::vector<Extreme> extremes = {
-    {.name = "no_springs", .k = 0.0},
-    {.name = "no_gas", .n = 0.0},
-    {.name = "nothing", .k = 0.0, .n = 0.0},
-    {.name = "stiff", .k = 1e8},
-    {.name = "full", .n = 1e6},
-    {.name = "stiff_and_full", .k = 1e8, .n = 1e6},
-    {.name = "light", .mass = 1e-6},
-    {.name = "heavy", .mass = 1e3},
-    {.name = "displaced", .noise = 1.5},
-    {.name = "displaced_and_stiff", .k = 1e8, .n = 1e6, .noise = 1.5},
-    {.name = "displaced_without_gas", .k = 1e4, .n = 0.0, .noise = 1.5},
-    {.name = "nearly_flat", .flatness = 1e-12},
-    {.name = "nearly_flat_and_full", .k = 1e8, .n = 1e6, .flatness = 1e-12},
-    {.name = "falling_at_1000_m_per_s", .k = 1e4, .speed = {0, 0, -1000}},
-    {.name = "grazing_at_1000_m_per_s", .k = 1e4, .speed = {1000, 0, -10}},
-    {.name = "spinning", .k = 1e4, .spin = 500.0},
-    {.name = "a_step_a_second", .k = 1e6, .n = 1e4, .noise = 0.5, .steps_per_second = 1},
-};
-
-World make_world(const Extreme& extreme, Integrator integrator) {
-  SoftBody body = make_body(make_sphere(3.0, 8, 8));
-  body.material.k = extreme.k;
-  body.material.n = extreme.n;
-  body.material.vertex_mass = extreme.mass;
-  perturb(body, extreme.noise, 5);
-  for (int v = 0; v < body.positions.size(); ++v) {
-    body.velocities[v] +=
-        extreme.speed + extreme.spin * Vec3::UnitX().cross(Vec3(body.positions[v]));
-    body.positions[v].z() *= extreme.flatness;
-  }
-  for (int v = 0; v < body.positions.size(); ++v) body.positions[v].z() += 5.0;
-  World world;
-  world.soft.push_back(std::move(body));
-  world.settings.integrator = integrator;
-  world.settings.steps_per_second = extreme.steps_per_second;
-  return world;
-}
-
-/// J: all terms of the energy, of which rounding is a share.
-double magnitude(const World& world) {
-  const Energy e = energy(world);
-  return e.kinetic + e.spring + std::abs(e.gas) + std::abs(e.gravity);
-}
-
-class Guarantee : public testing::TestWithParam<std::tuple<Extreme, Integrator>> {};
-INSTANTIATE_TEST_SUITE_P(Extremes, Guarantee,
-                         testing::Combine(testing::ValuesIn(extremes),
-                                          testing::ValuesIn(implicit_integrators)),
-                         [](const auto& tested) {
-                           return std::get<0>(tested.param).name + "_by_" +
-                                  name(std::get<1>(tested.param));
-                         });
-
-TEST_P(Guarantee, VolumeStaysAboveZeroAndEnergyDoesNotGrow) {
-  const auto& [extreme, integrator] = GetParam();
-  World world = make_world(extreme, integrator);
-  Stepper stepper(world);
-  double last = energy(world).total();
-  for (int i = 0; i < 120; ++i) {
-    ASSERT_FALSE(stepper.step(world)) << i;
-    if (extreme.n > 0.0) {
-      ASSERT_GT(volume(world.soft[0].mesh->topology, world.soft[0].positions), 0.0) << i;
-    }
-    const double now = energy(world).total();
-    // Rounding: 1e-13 of the terms is allowed to the step itself, as much again to these sums.
-    ASSERT_LE(now, last + 3e-13 * magnitude(world)) << i;
-    ASSERT_GE(bounds(world).low.z(), 0.0) << i;
-    last = now;
-  }
-}
-
-TEST(Implicit, StiffFirmSphereRunsAMinuteAtTheUsualStep) {
-  for (const Integrator integrator : implicit_integrators) {
-    World world;
-    world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 3.2}));
-    SoftMaterial& material = world.soft[0].material;
-    material.k = 1e6;
-    material.n = 1e4;
-    material.temperature = 4.4;
-    material.vertex_mass = 0.36;
-    World by_rk4 = world;
-    EXPECT_TRUE(run(by_rk4, 1.0)) << "an explicit integrator must fail at this";
-    world.settings.integrator = integrator;
-    ASSERT_FALSE(run(world, 60.0)) << name(integrator);
-    const Vec3 size = bounds(world).size();
-    EXPECT_NEAR(size.minCoeff(), 6.0, 0.1);  // a ball of 6 m, dented where it stands
-    EXPECT_NEAR(size.maxCoeff(), 6.0, 0.1);
-    EXPECT_LT(energy(world).kinetic, 1e-6);
-  }
-}
-
-/// The scene pressure_soft after ten seconds.
-Vec3 size_at_rest(Integrator integrator, int steps_per_second) {
-  World world;
-  world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 4.0}));
-  SoftMaterial& material = world.soft[0].material;
-  material.k = 10.0;
-  material.n = 1.0;
-  material.vertex_mass = 0.36;
-  world.settings.integrator = integrator;
-  world.settings.steps_per_second = steps_per_second;
-  EXPECT_FALSE(run(world, 10.0));
-  EXPECT_EQ(bounds(world).low.z(), 0.0);
-  return bounds(world).size();
-}
-
-TEST_P(Implicit, RestsOnTheGroundAsByRk4) {
-  const Vec3 expected = size_at_rest(Integrator::rk4, 240);
-  const auto error = [&](int rate) {
-    return (size_at_rest(GetParam(), rate) - expected).norm() / expected.norm();
-  };
-  // Friction holds the vertices where they came to stand, and so the error of the way there: of
-  // first order for both, since contacts are.
-  const double coarse = error(60);
-  EXPECT_LT(coarse, GetParam() == Integrator::sdirk2 ? 0.01 : 0.03);
-  EXPECT_LT(error(240), coarse / 2.0);
-}
-
-/// A soft cube of 2 m on a slope with mu = 0.5, whose angle's tangent is `share` of that.
-World cube_on_slope(Integrator integrator, double share) {
-  World world;
-  world.soft.push_back(make_body(make_box({2.0, 2.0, 2.0}, 2), {0.0, 0.0, 1.0}));
-  SoftMaterial& material = world.soft[0].material;
-  material.k = 5000.0;
-  material.n = 0.0;
-  world.settings.integrator = integrator;
-  const double angle = std::atan(share * 0.5);
-  world.settings.gravity = 9.81 * Vec3(std::sin(angle), 0.0, -std::cos(angle));
-  return world;
-}
-
-TEST_P(Implicit, FrictionHoldsBelowItsAngle) {
-  World world = cube_on_slope(GetParam(), 0.9);
-  ASSERT_FALSE(run(world, 5.0));
-  const Vec3 before = mean(world.soft[0].positions);
-  ASSERT_FALSE(run(world, 5.0));
-  // m: what is left of its swinging. Nothing creeps: sliding at anchor_speed it would be 5e-4.
-  EXPECT_LT((mean(world.soft[0].positions) - before).norm(), 5e-5);
-}
-
-TEST_P(Implicit, FrictionLetsSlideAboveItsAngle) {
-  World world = cube_on_slope(GetParam(), 2.0);
-  world.soft[0].material.rho_g = 0.0;
-  ASSERT_FALSE(run(world, 1.0));
-  const double before = mean(world.soft[0].velocities).x();
-  ASSERT_FALSE(run(world, 2.0));
-  const double angle = std::atan(2.0 * 0.5);
-  const double a = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
-  // Friction may be off by friction_bound_change, 5 %, while the ground's forces change; it is half
-  // of g here.
-  EXPECT_NEAR((mean(world.soft[0].velocities).x() - before) / (2.0 * a), 1.0, 0.05);
-}
-
-TEST_P(Implicit, ReboundsOfAVertexAreTheGroundsRestitution) {
-  // Without springs and gas every vertex is for itself.
-  SoftBody body = make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 3.5});
-  body.material.k = 0.0;
-  body.material.n = 0.0;
-  undamp(body.material);
-  body.material.surface.restitution = 0.6;
-  for (int v = 0; v < body.positions.size(); ++v) body.velocities[v].z() = -5.0;
-  World world;
-  world.soft.push_back(std::move(body));
-  world.settings.gravity.setZero();
-  world.settings.integrator = GetParam();
-  ASSERT_FALSE(run(world, 2.0));
-  for (int v = 0; v < world.soft[0].velocities.size(); ++v) {
-    EXPECT_NEAR(world.soft[0].velocities[v].z(), 0.6 * 5.0, 1e-9);
-  }
 }
 
 TEST_P(Implicit, StartsThatMeanNothingAreReported) {

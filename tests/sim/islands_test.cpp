@@ -136,7 +136,7 @@ TEST(ContactIslands, AreWhatHangsTogether) {
 
 TEST(ContactIslands, DoNotFeelEachOther) {
   // Two boxes that fall on each other end in the same bits with another heap beside them.
-  World alone;
+  World alone = by_impulses();
   alone.settings.ground = ContactMaterial{0.3, 0.5};
   alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.6}));
   alone.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.3, 0.1, 2.0}));

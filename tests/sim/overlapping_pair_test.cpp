@@ -181,7 +181,7 @@ TEST(DepenetratePairs, LeavesBodiesThatPartAloneTheirVelocities) {
 // The stage.
 
 World in_one_place(int bodies, double height) {
-  World world;
+  World world = by_impulses();
   for (int i = 0; i < bodies; ++i) add(world, sphere({0.0, 0.0, height}));
   return world;
 }
@@ -228,7 +228,7 @@ TEST(Depenetrate, NeverAddsEnergyToWhatItParts) {
 }
 
 TEST(Depenetrate, OnesOfVeryDifferentSizeAndMass) {
-  World world;
+  World world = by_impulses();
   add(world, make_body(make_icosphere(10.0, 2), {0.0, 0.0, 10.0}));
   add(world, make_body(make_icosphere(1.0, 1), {0.0, 0.0, 10.0}));
   world.soft[1].material.n = 0.1;
@@ -240,7 +240,7 @@ TEST(Depenetrate, OnesOfVeryDifferentSizeAndMass) {
 }
 
 TEST(Depenetrate, LeavesTorusesAlone) {
-  World world;
+  World world = by_impulses();
   add(world, torus(6.5, {0.0, 0.0, 2.6}));
   add(world, torus(6.5, {0.0, 0.0, 2.7}));
   EXPECT_FALSE(make_plan(world).runs(Stage::depenetrate));
@@ -267,7 +267,7 @@ TEST(Depenetrate, WithoutRoomDoesNoHarm) {
 
 TEST(Depenetrate, IsLeftOutWhereNothingIsDeepWithoutChangingABit) {
   StepperOptions without;
-  World world = meeting_spheres(4.0, 1);
+  World world = by_impulses(meeting_spheres(4.0, 1));
   without.plan = make_plan(world);
   without.plan->stages[static_cast<std::size_t>(Stage::depenetrate)] = {false, "a test"};
   World other = world;

@@ -49,7 +49,7 @@ TEST(PaperMethod, SetsThePapersIntegratorWeightsDampingAndContacts) {
 }
 
 TEST(PaperMethod, MovesNoBodiesApartAsWholes) {
-  World world;
+  World world = by_impulses();
   add(world, sphere({0.0, 0.0, 3.0}));
   add(world, sphere({7.0, 0.0, 3.0}));
   EXPECT_TRUE(make_plan(world).runs(Stage::depenetrate));

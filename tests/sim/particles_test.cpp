@@ -281,7 +281,7 @@ TEST(Particles, OnOneFeatureCostAFiniteAmount) {
 }
 
 World two_spheres(double distance) {
-  World world = make_free_world(make_body(make_sphere(3.0, 8, 8)));
+  World world = by_impulses(make_free_world(make_body(make_sphere(3.0, 8, 8))));
   world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {distance, 0.0, 0.0}));
   return world;
 }

@@ -109,6 +109,7 @@ World any_world(std::uint64_t seed, int bodies) {
   settings.ground.reset();
   if (random.chance(0.7)) settings.ground = {random.uniform(0.0, 1.0), random.any_size(0.01, 3.0)};
   if (random.chance(0.4)) settings.gravity = random.zero_or_vector(0.3, 0.1, 1000.0);
+  settings.contact = ContactMethod::impulses;  // which part what starts in each other
   settings.skin_thickness = random.zero_or(0.1, random.any_size(1e-3, 1.0));
   for (int i = 0; i < bodies; ++i) {
     world.soft.push_back(any_body(random, settings.ground.has_value()));

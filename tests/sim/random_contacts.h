@@ -159,4 +159,15 @@ inline ContactMaterial pair_surface(const World& world, const Contact& contact) 
   return {std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction)};
 }
 
+inline bool has_box(const Contact& contact) {
+  return contact.first.kind == SideKind::rigid || contact.second.kind == SideKind::rigid;
+}
+
+/// What a step does with a contact: stops the sides, then lets them bounce.
+inline void resolve(ContactImpulse& impulse, int corrections = 1) {
+  for (int i = 0; i < corrections; ++i) impulse.correct();
+  if (!impulse.bounce()) return;
+  for (int i = 0; i < corrections; ++i) impulse.correct();
+}
+
 }  // namespace pneuma::sim

@@ -116,7 +116,7 @@ TEST(RigidRest, ABoxDroppedOnACornerComesToRest) {
 
 TEST(RigidRest, ACubeReboundsWithTheRestitution) {
   for (const double epsilon : {0.0, 0.3, 0.8, 1.0}) {
-    World world = boxes_on_ground(0.5, epsilon);
+    World world = by_impulses(boxes_on_ground(0.5, epsilon));
     world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 3.0}));
     world.rigid[0].surface.restitution = 0.0;
     const double impact = step_until_contact(world, 0).velocity.z();

@@ -54,6 +54,12 @@ inline World make_free_world(SoftBody body) {
   return world;
 }
 
+/// Bodies kept apart by the paper's impulses, after they have moved.
+inline World by_impulses(World world = {}) {
+  world.settings.contact = ContactMethod::impulses;
+  return world;
+}
+
 /// A box at rest with its sides along the axes.
 inline RigidBox make_rigid(const Vec3& size, const Vec3& position, double mass = 1.0) {
   RigidBox box;

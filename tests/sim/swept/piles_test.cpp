@@ -89,7 +89,7 @@ TEST(Piles, TumblingCubesComeToRestBesideEachOther) {
 TEST(Piles, BoxesThatStartInEachOtherPartWithoutAJump) {
   World world = make_tower({1.0, 1.0});
   world.rigid[1].position.z() = 2.5;  // half a metre in the other
-  Stepper stepper(world);
+  Stepper stepper(world, {.measure_work = true, .plan = {}});
   double work = 0.0, fastest = 0.0;
   const double before = energy(world).total();
   for (int i = 0; i < 120; ++i) {

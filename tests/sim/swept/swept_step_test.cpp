@@ -228,7 +228,7 @@ TEST(Swept, ContactsChangeTheEnergyByTheWorkOfTheirImpulses) {
   world.rigid[1].velocity = {-20.0, 0.0, 0.0};
   world.rigid[0].angular_velocity = {1.0, -2.0, 3.0};
 
-  Stepper stepper(world);
+  Stepper stepper(world, {.measure_work = true, .plan = {}});
   const double start = energy(world).kinetic;
   double booked = 0.0;
   for (int i = 0; i < 40; ++i) {

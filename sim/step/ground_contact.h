@@ -1,0 +1,29 @@
+// Vertices of soft bodies on the ground. Private to sim/step.
+#pragma once
+
+#include <vector>
+
+#include "sim/collision/contact.h"
+#include "sim/step/motion_start.h"
+
+namespace pneuma::sim {
+
+/// Puts the vertex of a contact back onto the ground (3.1.4). A vertex that friction holds is also
+/// put where it would be if it had slowed down evenly over the step: left where the step's forces
+/// carried it, it would creep down the gentlest slope (ERRATA row 30). `start`: as the step found
+/// the vertex's body.
+void put_onto_ground(World& world, const SoftState& start, const Contact& contact, bool sticks);
+
+/// Resolves the contact of a vertex that touches the ground and nothing else (ERRATA row 31).
+void resolve_alone(World& world, const SoftState& start, const Contact& contact);
+
+/// What an implicit integrator promises, contacts keep: a body that holds gas has a volume
+/// (sim/response/keep_volume.h). `before`: the positions before its contacts were resolved.
+void keep_volume(SoftBody& body, const VertexArray& before);
+
+/// Finds and resolves the contacts of a soft body that touches the ground and nothing else.
+/// Appends them to `contacts`. `before`: memory.
+void meet_ground_alone(World& world, int soft, const SoftState& start,
+                       std::vector<Contact>& contacts, VertexArray& before);
+
+}  // namespace pneuma::sim

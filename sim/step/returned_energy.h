@@ -1,0 +1,19 @@
+// What contacts give back of the energy that they took. Private to sim/step.
+#pragma once
+
+#include "sim/step/swept_search.h"
+
+namespace pneuma::sim {
+
+/// Newton's restitution can create energy, of bodies that turn or rub while they bounce: the speed
+/// of one point does not say what two bodies have lost. So the contacts of an island do no work
+/// above zero in a step in which any of them returns energy (restitution as a ratio of energies:
+/// Stronge 1990). An island that would is solved again with nothing returned, and both solutions
+/// are mixed. The energy is a convex function of the impulses, so that on the chord it is at most
+/// what the chord says; Coulomb's cone is convex too.
+///
+/// `memory`: the contacts and impulses of the end of the step, solved for to `tolerance` (m/s), and
+/// of its start, with their work.
+void limit_returned_energy(SweptMemory& memory, double tolerance);
+
+}  // namespace pneuma::sim
