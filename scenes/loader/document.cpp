@@ -107,6 +107,12 @@ struct Describe {
 Member* find(Table& table, std::string_view key) { return find_member(table, key); }
 const Member* find(const Table& table, std::string_view key) { return find_member(table, key); }
 
+bool holds_tables(const Value& value) {
+  if (std::holds_alternative<Table>(value.data)) return true;
+  const auto* array = std::get_if<Array>(&value.data);
+  return array != nullptr && !array->empty() && std::ranges::all_of(*array, holds_tables);
+}
+
 std::string describe(const Value& value) { return std::visit(Describe{}, value.data); }
 
 Table parse_document(std::string_view text, int override_index) {

@@ -35,6 +35,9 @@ struct Member {
 Member* find(Table& table, std::string_view key);
 const Member* find(const Table& table, std::string_view key);
 
+/// Written under a header of its own, [NAME] or [[NAME]], or as such.
+bool holds_tables(const Value& value);
+
 /// For messages: `string "x"`, `integer 5`, `an array of 3`.
 std::string describe(const Value& value);
 

@@ -127,10 +127,13 @@ std::string type_text(const Slot& slot) { return std::visit(TypeText{}, slot); }
 
 std::string value_text(const Slot& slot) { return std::visit(ValueText{}, slot); }
 
+std::string header_of(std::string_view table) {
+  return table == "body" ? "[[body]]" : fmt::format("[{}]", table);
+}
+
 std::string place_of(std::string_view table) {
   if (table.empty()) return "at the top, above the first [table]";
-  if (table == "body") return "in [[body]]";
-  return fmt::format("in [{}]", table);
+  return "in " + header_of(table);
 }
 
 }  // namespace pneuma::scenes

@@ -85,9 +85,10 @@ class Loader {
     for (std::size_t i = 0; i < bodies->size(); ++i) {
       const Value& value = (*bodies)[i];
       headers.push_back(value.at);
-      scene_.bodies[i].name = default_name(i);
-      scene_.bodies[i].line = value.at.line;
-      read_body(std::get<Table>(value.data), scene_.bodies[i]);
+      BodyScene& body = scene_.bodies[i] = default_body(i);
+      read_body(std::get<Table>(value.data), body);
+      body.place = report_.place(value.at);
+      body.rest_place = report_.place(reader_.origin({&body.rest}, value.at));
     }
     return headers;
   }
@@ -193,6 +194,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     report.add(error.at, error.what());
   }
   report.throw_errors();
+  scene.warnings = report.warnings();
   return scene;
 }
 

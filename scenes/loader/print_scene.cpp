@@ -54,12 +54,10 @@ std::string scene_text(Scene scene, bool comments) {
     text += section_text(sections[i], defaults[i], comments, as_printed);
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    BodyScene default_body;
-    default_body.name = default_name(i);
-    if (scene.bodies[i].kind == BodyKind::rigid) default_body.shape = Shape::box;
+    BodyScene unsaid = default_body(i);
+    if (scene.bodies[i].kind == BodyKind::rigid) unsaid.shape = Shape::box;
     text += "\n[[body]]\n";
-    text += section_text(body_section(scene.bodies[i]), body_section(default_body), comments,
-                         as_printed);
+    text += section_text(body_section(scene.bodies[i]), body_section(unsaid), comments, as_printed);
   }
   return text;
 }
@@ -100,13 +98,8 @@ std::string shape_text(const BodyScene& body) {
 }
 
 std::string scene_reference() {
-  Scene scene;
-  BodyScene body;
-  body.name = default_name(0);
-  std::vector<Section> sections = fixed_sections(scene);
-  sections.push_back(body_section(body));
   std::string text;
-  for (const Section& section : sections) {
+  for (const Section& section : default_sections()) {
     if (!text.empty()) text += '\n';
     text += place_of(section.table);
     text += '\n';

@@ -9,6 +9,7 @@
 #include "scenes/loader/nearest.h"
 #include "scenes/loader/other_names.h"
 #include "scenes/loader/sections.h"
+#include "scenes/loader/tables.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -32,11 +33,7 @@ const RenamedKey* find_renamed(std::string_view table, std::string_view key) {
 
 /// For a key that is known, but in another table: "; it belongs in [camera]", or nothing.
 std::string belongs_elsewhere(std::string_view key) {
-  Scene scene;
-  BodyScene body;
-  std::vector<Section> sections = fixed_sections(scene);
-  sections.push_back(body_section(body));
-  for (const Section& section : sections) {
+  for (const Section& section : default_sections()) {
     const bool here = std::any_of(section.keys.begin(), section.keys.end(),
                                   [&](const Key& known) { return known.name == key; });
     if (!here) continue;
@@ -44,6 +41,9 @@ std::string belongs_elsewhere(std::string_view key) {
   }
   return {};
 }
+
+/// "simulation" of "simulation.particles"; of a table at the top itself.
+std::string_view table_around(std::string_view table) { return table.substr(0, table.find('.')); }
 
 bool overridden(const Table& table, const Section& section) {
   return std::any_of(section.keys.begin(), section.keys.end(), [&](const Key& key) {
@@ -63,7 +63,11 @@ void Reader::read_selectors(const Table& table, const Section& section) {
 
 void Reader::read_others(const Table& table, const Section& section,
                          const std::vector<std::string_view>& children) {
-  const bool selectors_overridden = overridden(table, section);
+  const bool overridden_here = overridden(table, section);
+  if (overridden_here) selected_by_override_.insert(section.table);
+  const std::string_view around = table_around(section.table);
+  const bool selectors_overridden =
+      overridden_here || (around != section.table && selected_by_override_.contains(around));
   for (const Member& member : table) {
     if (std::find(children.begin(), children.end(), member.key) != children.end()) continue;
     const auto key = std::find_if(section.keys.begin(), section.keys.end(),
@@ -72,7 +76,8 @@ void Reader::read_others(const Table& table, const Section& section,
       refuse_unknown(section, member, children);
     } else if (!key->applies) {
       const bool from_file = member.value.at.override_index < 0;
-      if (!(selectors_overridden && from_file)) refuse_inapplicable(section, *key, member);
+      if (selectors_overridden && from_file) continue;
+      if (!is_idle(section, *key, member)) refuse_inapplicable(section, *key, member);
     } else if (!key->selects) {
       read_key(*key, member);
     }
@@ -87,6 +92,14 @@ void Reader::read_key(const Key& key, const Member& member) {
     report_.add(complaint->at, complaint->message);
     refused_.insert(target);
   }
+}
+
+bool Reader::is_idle(const Section& section, const Key& key, const Member& member) {
+  const bool from_file = member.value.at.override_index < 0;
+  if (!from_file || key.decided_by == nullptr || origins_.contains(key.decided_by)) return false;
+  report_.warn(member.at, fmt::format("{} has no effect: it applies to {} only; this is {}",
+                                      key.name, key.only_for, section.what));
+  return true;
 }
 
 void Reader::refuse_inapplicable(const Section& section, const Key& key, const Member& member) {
@@ -104,6 +117,11 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
   if (const RenamedKey* renamed = find_renamed(section.table, member.key)) {
     report_.add(member.at, fmt::format("{0}.{1} is now {0}.{2}", renamed->table, renamed->before,
                                        renamed->now));
+    return;
+  }
+  if (section.table.empty() && holds_tables(member.value)) {
+    report_.add(member.at, fmt::format("unknown table {}{}", in_quotes(member.key),
+                                       table_suggestion(member.key)));
     return;
   }
   std::vector<std::string_view> allowed;

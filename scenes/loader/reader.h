@@ -23,7 +23,9 @@ class Reader {
   void read_selectors(const Table& table, const Section& section);
 
   /// All other keys. `children` are the tables within this one. A key that does not apply is an
-  /// error, unless an override of this table's selectors is what made it so.
+  /// error, unless an override of this table's selectors is what made it so, or of those of the
+  /// table around it, which is read before. It is idle, with a warning, where the file does not
+  /// write what decides about it (Key::decided_by).
   void read_others(const Table& table, const Section& section,
                    const std::vector<std::string_view>& children = {});
 
@@ -38,6 +40,8 @@ class Reader {
 
  private:
   void read_key(const Key& key, const Member& member);
+  /// Whether it is a key of the file that the default makes idle; then warns of it.
+  bool is_idle(const Section& section, const Key& key, const Member& member);
   void refuse_inapplicable(const Section& section, const Key& key, const Member& member);
   void refuse_unknown(const Section& section, const Member& member,
                       const std::vector<std::string_view>& children);
@@ -47,6 +51,7 @@ class Reader {
   std::set<const void*> refused_;
   std::map<int, std::string> idle_overrides_;  // the message if it stays idle
   std::set<int> used_overrides_;
+  std::set<std::string_view> selected_by_override_;  // tables
 };
 
 }  // namespace pneuma::scenes

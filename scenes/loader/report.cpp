@@ -78,6 +78,10 @@ std::string to_string(const Diagnostic& diagnostic) {
                      diagnostic.message);
 }
 
+Diagnostic diagnostic_at(const Place& place, std::string message) {
+  return {place.file, place.line, place.column, std::move(message), place.source_line};
+}
+
 SceneError::SceneError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
@@ -86,6 +90,10 @@ Report::Report(std::string file, std::string_view text, std::span<const std::str
 
 void Report::add(Origin origin, std::string message) {
   entries_.push_back({origin, std::move(message)});
+}
+
+void Report::warn(const Origin& origin, std::string message) {
+  warnings_.push_back(to_string(diagnostic_at(place(origin), std::move(message))));
 }
 
 bool Report::blames_override(int override_index) const {
@@ -118,19 +126,16 @@ void Report::throw_errors() {
       diagnostics.push_back({file_, 0, 0, fmt::format("{} more errors are not shown", more)});
       break;
     }
-    diagnostics.push_back(diagnostic(entry));
+    diagnostics.push_back(diagnostic_at(place(entry.origin), entry.message));
   }
   throw SceneError(std::move(diagnostics));
 }
 
-Diagnostic Report::diagnostic(const Entry& entry) const {
-  const Origin& at = entry.origin;
+Place Report::place(const Origin& at) const {
   if (at.override_index < 0) {
-    const std::string source_line = at.of_whole_file ? "" : line_of(text_, at.line);
-    return {file_, at.line, at.column, entry.message, source_line};
+    return {file_, at.line, at.column, at.of_whole_file ? "" : line_of(text_, at.line)};
   }
-  const std::string& text = overrides_[static_cast<std::size_t>(at.override_index)];
-  return {"--set " + text, 0, 0, entry.message};
+  return {"--set " + overrides_[static_cast<std::size_t>(at.override_index)], 0, 0, ""};
 }
 
 }  // namespace pneuma::scenes

@@ -35,8 +35,13 @@ class Report {
   Report(std::string file, std::string_view text, std::span<const std::string> overrides);
 
   void add(Origin origin, std::string message);
+  /// What is no error.
+  void warn(const Origin& origin, std::string message);
+  /// As "file:line:column: message", in the order in which they came.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   bool empty() const { return entries_.empty(); }
   bool blames_override(int override_index) const;
+  Place place(const Origin& origin) const;
 
   /// Throws SceneError with everything added, in order, the first of each override, if anything
   /// was.
@@ -47,12 +52,12 @@ class Report {
     Origin origin;
     std::string message;
   };
-  Diagnostic diagnostic(const Entry& entry) const;
 
   std::string file_;
   std::string_view text_;
   std::span<const std::string> overrides_;
   std::vector<Entry> entries_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace pneuma::scenes

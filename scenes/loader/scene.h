@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/loader/palette.h"
 #include "sim/world/world.h"
 
 namespace pneuma::scenes {
@@ -35,9 +36,18 @@ struct ModelScene {
   bool centre = true;            // the middle of its bounding box is its centre, else its origin
 };
 
+/// Where something was written, for errors that only show when the world is built.
+struct Place {
+  std::string file;  // or "--set PATH=VALUE"; empty: it is of no file
+  int line = 0;      // from 1; 0: the file as a whole
+  int column = 0;
+  std::string source_line;
+};
+
 /// One body, or a block of copies of it.
 struct BodyScene {
-  int line = 0;      // of its [[body]] in the scene file, from 1; 0: it is of no file
+  Place place;       // of its [[body]]
+  Place rest_place;  // of its key `rest`; where that is left out, of its [[body]]
   std::string name;  // unique; by default "body1", "body2", ...
   BodyKind kind = BodyKind::soft;
 
@@ -69,8 +79,9 @@ struct BodyScene {
   bool tumble = false;  // each copy starts turned at random, from the seed
 
   // "#rrggbb". One: plain; two: along colour_axis; three: along body x, y and z.
-  std::vector<std::string> colours = {"#6b8e23", "#d9381e"};
+  std::vector<std::string> colours = palette_colours(0);
   Vec3 colour_axis = {0.3, 0.0, 1.0};
+  double roughness = 0.35;  // of the drawn surface
 };
 
 /// Without an eye and a target the camera is placed so that every body is in view over the whole
@@ -116,7 +127,8 @@ inline constexpr double max_scene_file_mib = 1024.0;
 
 struct Scene {
   std::string name;  // the file's name without its ending: frames are called NAME_00042.png
-  std::filesystem::path folder;  // of the scene file
+  std::filesystem::path folder;       // of the scene file
+  std::vector<std::string> warnings;  // of the loader: "file:line:column: message"
   std::string title;
   std::string figure;               // the paper's figure or benchmark row, as people call it
   std::optional<double> paper_fps;  // what the paper measured

@@ -25,7 +25,14 @@ std::vector<Section> fixed_sections(Scene& scene);
 
 Section body_section(BodyScene& body);
 
+/// All there are, with the values of a scene and of a first body as they are made: [[body]] is
+/// last.
+const std::vector<Section>& default_sections();
+
 /// "body1" for index 0.
 std::string default_name(std::size_t index);
+
+/// A body of which the file says nothing: its name and its colours follow from its index.
+BodyScene default_body(std::size_t index);
 
 }  // namespace pneuma::scenes

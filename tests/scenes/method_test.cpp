@@ -102,7 +102,7 @@ TEST(Method, PrintsWhatItSetsAsComments) {
 
 /// Every key whose value the method changes is one that it refuses.
 TEST(Method, SetsNoKeyThatItDoesNotRefuse) {
-  Scene scene = load("[[body]]\n");
+  Scene scene = load("simulation.contact = \"impulses\"\n[[body]]\n");
   Scene set = scene;
   set.settings.relaxation_time = 3.0;
   sim::use_paper_method(set.settings);

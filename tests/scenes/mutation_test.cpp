@@ -17,6 +17,8 @@ std::string everything() {
   const Scene rich = parse_scene(R"(
 title = "x"
 paper_fps = 3.5
+[simulation]
+contact = "impulses"
 [simulation.particles]
 per_vertex = 0.5
 [camera]

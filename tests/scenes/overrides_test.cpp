@@ -41,8 +41,9 @@ void expect_refusal(const std::string& override_text, const std::vector<std::str
 TEST(Overrides, SetKeysOfTables) {
   const Scene scene =
       scene_with({"duration=2", "simulation.integrator=martin", "simulation.gravity=[0,0,-1.62]",
-                  "simulation.particles.max_sweeps=3", "picture.width=640", "ground.present=false",
-                  "title=Three bodies on the moon", "figure='6.5'", "limits.frames=60"});
+                  "simulation.contact=impulses", "simulation.particles.max_sweeps=3",
+                  "picture.width=640", "ground.present=false", "title=Three bodies on the moon",
+                  "figure='6.5'", "limits.frames=60"});
   EXPECT_EQ(scene.duration, 2.0);
   EXPECT_EQ(scene.settings.integrator, sim::Integrator::martin);
   EXPECT_EQ(scene.settings.gravity, Vec3(0.0, 0.0, -1.62));

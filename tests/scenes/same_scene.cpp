@@ -73,10 +73,10 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
-  const auto& [line, name, kind, shape, radius, tube_radius, stacks, slices, subdivisions,
-               divisions, size, model, rest, material, mass, rho_g, surface, position, rotation,
-               velocity, angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis] =
-      a;
+  const auto& [place, rest_place, name, kind, shape, radius, tube_radius, stacks, slices,
+               subdivisions, divisions, size, model, rest, material, mass, rho_g, surface, position,
+               rotation, velocity, angular_velocity, copies, spacing, jitter, tumble, colours,
+               colour_axis, roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -103,12 +103,14 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("tumble", tumble, b.tumble);
   c.member("colours", colours, b.colours);
   c.member("colour_axis", colour_axis, b.colour_axis);
+  c.member("roughness", roughness, b.roughness);
 }
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   const auto& [method, steps_per_second, integrator, gravity, ground, contact, skin_thickness,
                soft_search, particles, relaxation_time, contact_iterations, seed] = a;
-  const auto& [per_vertex, attraction, max_sweeps, settled_below] = particles;
+  const auto& [per_vertex, attraction, max_sweeps, settled_below, shown] = particles;
+  c.member("particles.shown", shown, b.particles.shown);
   c.member("method", method, b.method);
   c.member("steps_per_second", steps_per_second, b.steps_per_second);
   c.member("integrator", integrator, b.integrator);
@@ -163,9 +165,9 @@ void compare(Comparison& c, const Limits& a, const Limits& b) {
 }  // namespace
 
 std::string difference(const Scene& a, const Scene& b) {
-  // Where a scene's file lies is no part of what it says.
-  const auto& [name, folder, title, figure, paper_fps, duration, settings, bodies, camera, picture,
-               limits] = a;
+  // Where a scene's file lies and what the loader said of it is no part of what it says.
+  const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings, bodies, camera,
+               picture, limits] = a;
   Comparison c;
   c.member("scene name", name, b.name);
   c.member("title", title, b.title);

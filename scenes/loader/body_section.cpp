@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include "scenes/loader/make_keys.h"
+#include "scenes/loader/palette.h"
+#include "scenes/loader/sections.h"
+#include "scenes/loader/text_checks.h"
+
+namespace pneuma::scenes {
+namespace {
+
+constexpr std::array pressures = {
+    Named<sim::PressureWeighting>{sim::PressureWeighting::uniform, "uniform"},
+    Named<sim::PressureWeighting>{sim::PressureWeighting::valence, "valence"},
+};
+constexpr std::array dampings = {
+    Named<sim::Damping>{sim::Damping::dashpot, "dashpot"},
+    Named<sim::Damping>{sim::Damping::literal, "literal"},
+};
+constexpr std::array kinds = {
+    Named<BodyKind>{BodyKind::soft, "soft"},
+    Named<BodyKind>{BodyKind::rigid, "rigid"},
+};
+constexpr std::array rests = {
+    Named<Rest>{Rest::shape, "shape"},
+    Named<Rest>{Rest::equilibrium, "equilibrium"},
+};
+constexpr std::array shapes = {
+    Named<Shape>{Shape::sphere, "sphere"}, Named<Shape>{Shape::torus, "torus"},
+    Named<Shape>{Shape::box, "box"},       Named<Shape>{Shape::icosphere, "icosphere"},
+    Named<Shape>{Shape::model, "model"},
+};
+
+}  // namespace
+
+Section body_section(BodyScene& body) {
+  const bool soft = body.kind == BodyKind::soft;
+  const bool sphere = soft && body.shape == Shape::sphere;
+  const bool torus = soft && body.shape == Shape::torus;
+  const bool icosphere = soft && body.shape == Shape::icosphere;
+  const bool box = !soft || body.shape == Shape::box;
+  const bool model = soft && body.shape == Shape::model;
+
+  const Applicability round{"spheres, icospheres and tori", sphere || torus || icosphere, true};
+  const Applicability tori{"tori", torus, true};
+  const Applicability stacked{"spheres and tori", sphere || torus, true};
+  const Applicability icospheres{"icospheres", icosphere, true};
+  const Applicability soft_boxes{"soft boxes", soft && box, true};
+  const Applicability boxes{"boxes", box, true};
+  const Applicability models{"models", model, true};
+  const Applicability soft_bodies{"soft bodies", soft};
+  const Applicability rigid_bodies{"rigid bodies", !soft};
+  const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
+
+  const Word kind = word(body.kind, kinds);
+  const Word shape = word(body.shape, shapes);
+  sim::SoftMaterial& material = body.material;
+  sim::ContactMaterial& surface = soft ? material.surface : body.surface;
+  double& rho_g = soft ? material.rho_g : body.rho_g;
+  return {
+      .table = "body",
+      .what = fmt::format("a {} {}", kind.words[kind.get()], shape.words[shape.get()]),
+      .keys = {
+          {"name", &body.name, any(), "", "of this body alone", check_body_name},
+          selector({"kind", kind, any(), "", "gas-filled membrane, or box that keeps its shape"}),
+          of_shape(selector({"shape", shape, any(), "", "a rigid body is always a box"})),
+          only(round, {"radius", &body.radius, length(), "m",
+                       "of a sphere; of the centre line of a torus"}),
+          only(tori, {"tube_radius", &body.tube_radius, length(), "m", "less than radius"}),
+          only(stacked,
+               {"stacks", &body.stacks, between(torus ? 3 : 2, 10'000), "",
+                "circles; of a sphere one fewer, between its poles; of a torus 3 or more"}),
+          only(stacked,
+               {"slices", &body.slices, between(3, 10'000), "", "vertices of each circle"}),
+          only(icospheres, {"subdivisions", &body.subdivisions, between(0, 11), "",
+                            "10 * 4^subdivisions + 2 vertices"}),
+          only(soft_boxes, {"divisions", &body.divisions, between(1, 4'000), "",
+                            "squares along each side of a face"}),
+          only(boxes, {"size", &body.size, length(), "m", "full lengths along x, y, z"}),
+          only(models, {"model.file", &body.model.file, any(), "",
+                        "a triangle model, beside the scene file or in assets/", check_file}),
+          only(models, or_number({"model.component", &body.model.component, any(), "",
+                                  "of several in the file, by name or number", check_line})),
+          only(models,
+               {"model.scale", &body.model.scale, above_to(0, 1e30), "m", "per unit of the file"}),
+          only(models, {"model.rotation", &body.model.rotation, between(-360, 360), "degrees",
+                        "sets the model upright: about x, then y, then z"}),
+          only(models, {"model.centre", &body.model.centre, any(), "",
+                        "its middle is the body's position, not the file's origin"}),
+
+          only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
+                             "of the springs: in the shape, or so that it holds its gas"}),
+          only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
+          only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),
+          only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K", "of the gas"}),
+          only(soft_bodies, {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
+          only(soft_bodies,
+               of_method({"pressure_weighting", word(material.pressure_weighting, pressures), any(),
+                          "", "uniform: conservative; valence: the paper's"})),
+          only(soft_bodies, of_method({"damping", word(material.damping, dampings), any(), "",
+                                       "dashpot: continuous; literal: the paper's"})),
+          only(soft_bodies, {"k_max", &material.k_max, above(0), "N/m",
+                             "springs of this k or more are damped most"}),
+          only(rigid_bodies, {"mass", &body.mass, above(0), "kg", "of the whole box"}),
+          {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"},
+          {"restitution", &surface.restitution, between(0, 1), "",
+           "0 keeps no normal velocity, 1 keeps all"},
+          {"friction", &surface.friction, at_least(0), "", "Coulomb's coefficient"},
+
+          {"position", &body.position, place(), "m", "of the shape's centre"},
+          {"rotation", &body.rotation, between(-360, 360), "degrees",
+           "about world x, then y, then z"},
+          {"velocity", &body.velocity, place(), "m/s", "at the start"},
+          {"angular_velocity", &body.angular_velocity, place(), "rad/s", "about world axes"},
+
+          {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
+          {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},
+          {"jitter", &body.jitter, between(0, farthest), "m",
+           "each copy is moved at random by up to this"},
+          {"tumble", &body.tumble, any(), "", "each copy starts turned at random"},
+          selector({"colours", &body.colours, any(), "",
+                    "one to three: plain, along colour_axis, along x, y, z; else of a palette",
+                    check_colour}),
+          only(two_colours,
+               {"colour_axis", &body.colour_axis, any(), "", "of two colours' gradient"}),
+          {"roughness", &body.roughness, between(0.1, 1), "",
+           "of the drawn surface: 0.1 shines like glass, 1 is dull"},
+      }};
+}
+
+std::string default_name(std::size_t index) { return fmt::format("body{}", index + 1); }
+
+BodyScene default_body(std::size_t index) {
+  BodyScene body;
+  body.name = default_name(index);
+  body.colours = palette_colours(index);
+  return body;
+}
+
+}  // namespace pneuma::scenes

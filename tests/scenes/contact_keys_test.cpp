@@ -1,0 +1,91 @@
+// Keys that one of the two forms of contact has, and the other has no use for.
+#include <gtest/gtest.h>
+
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "tests/scenes/same_scene.h"
+
+namespace pneuma::scenes {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+std::string refusal(const std::string& text, const Overrides& overrides = {}) {
+  try {
+    parse_scene(text, "x.toml", overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::vector<std::string> of_impulses = {"simulation.soft_search=\"exact\"",
+                                              "simulation.relaxation_time=0.2",
+                                              "simulation.contact_iterations=7"};
+
+std::string scene_with(const std::string& setting, const std::string& contact) {
+  return "simulation.contact = \"" + contact + "\"\n" + setting + "\n[[body]]\n";
+}
+
+TEST(ContactKeys, OfImpulsesAreRefusedBesideSweptContacts) {
+  for (const std::string& setting : of_impulses) {
+    const std::string message = refusal(scene_with(setting, "swept"));
+    EXPECT_TRUE(message.starts_with("x.toml:2:")) << message;
+    EXPECT_NE(message.find(" applies to contact = \"impulses\" only; this is a simulation with "
+                           "contact = \"swept\""),
+              std::string::npos)
+        << message;
+    EXPECT_EQ(refusal(scene_with(setting, "impulses")), "");
+  }
+}
+
+TEST(ContactKeys, OfTheFileAreIdleWithAWarningUnderTheDefault) {
+  const bool idle = sim::Settings{}.contact == sim::ContactMethod::swept;
+  for (const std::string& setting : of_impulses) {
+    const std::string text = setting + "\n[[body]]\n";
+    const Scene scene = parse_scene(text, "x.toml");
+    ASSERT_EQ(scene.warnings.size(), idle ? 1u : 0u) << setting;
+    if (idle) {
+      EXPECT_TRUE(scene.warnings[0].starts_with("x.toml:1:")) << scene.warnings[0];
+      EXPECT_NE(scene.warnings[0].find("has no effect"), std::string::npos) << scene.warnings[0];
+    }
+    const Overrides impulses = {"simulation.contact=impulses"};
+    const Scene chosen = parse_scene(text, "x.toml", impulses);
+    EXPECT_TRUE(chosen.warnings.empty());
+    EXPECT_EQ(difference(chosen, parse_scene(scene_with(setting, "impulses"), "x.toml")), "");
+  }
+}
+
+TEST(ContactKeys, OfTheFileGiveWayToAnOverrideOfTheContact) {
+  for (const std::string& setting : of_impulses) {
+    const std::string impulses = scene_with(setting, "impulses");
+    const Scene swept = parse_scene(impulses, "x.toml", Overrides{"simulation.contact=swept"});
+    EXPECT_EQ(difference(swept, parse_scene(scene_with("", "swept"), "x.toml")), "") << setting;
+  }
+}
+
+TEST(ContactKeys, OfAnOverrideAreRefusedBesideOneOfTheContact) {
+  for (const std::string& setting : of_impulses) {
+    const std::string message =
+        refusal("[[body]]\n", Overrides{"simulation.contact=swept", setting});
+    EXPECT_TRUE(message.starts_with("--set " + setting + ": ")) << message;
+  }
+}
+
+TEST(ContactKeys, BesideThePapersMethodItIsWhatRefusesThem) {
+  for (const std::string& setting : of_impulses) {
+    const std::string message =
+        refusal("simulation.method = \"paper\"\n" + setting + "\n[[body]]\n");
+    EXPECT_NE(message.find("simulation.method = \"paper\" sets it"), std::string::npos) << message;
+  }
+}
+
+TEST(ContactKeys, AreNotPrintedWhereTheyDoNotApply) {
+  const std::string text = print_scene(parse_scene(scene_with("", "swept"), "x.toml"));
+  for (const char* key : {"soft_search", "relaxation_time", "contact_iterations"}) {
+    EXPECT_EQ(text.find(key), std::string::npos) << key;
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::scenes
