@@ -13,6 +13,7 @@
 #include "app/picture/place_camera.h"
 #include "app/world/build_world.h"
 #include "app/world/replay.h"
+#include "app/world/start_overlap.h"
 #include "scenes/loader/apply_method.h"
 #include "scenes/loader/load_scene.h"
 
@@ -152,6 +153,7 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
       std::max(1, static_cast<int>(std::lround(per_second / paper_frames_per_second)));
 
   const sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
   times.bodies = static_cast<std::int64_t>(start.soft.size() + start.rigid.size());
   const Part part = measured_part(scene, options.warm_up);
   times.measured_from = static_cast<double>(part.begin) / per_second;

@@ -17,6 +17,7 @@
 #include "app/world/build_world.h"
 #include "app/world/find_model.h"
 #include "app/world/find_scene.h"
+#include "app/world/start_overlap.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
@@ -69,6 +70,20 @@ ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
   return ExitCode::check_failed;
 }
 
+void warn(const CheckReport& report) {
+  const auto say = [&](const std::string& what) {
+    fmt::print(stderr, "{}: warning: {}\n", report.scene.name, what);
+  };
+  for (const std::string& warning : report.scene.warnings)
+    fmt::print(stderr, "warning: {}\n", warning);
+  for (const StepAdvice& advice : report.steps) {
+    if (advice.too_long()) say(step_warning(advice));
+  }
+  for (const GasAdvice& advice : report.gas) {
+    if (advice.blown_up()) say(gas_warning(advice));
+  }
+}
+
 ExitCode check(const CheckOptions& options) {
   if (options.keys) {
     fmt::print("{}", options.json ? keys_json().dump(2) + "\n" : scenes::scene_reference());
@@ -81,14 +96,12 @@ ExitCode check(const CheckOptions& options) {
   CheckReport report;
   report.scene = scenes::load_scene(find_scene(options.scene), options.overrides);
   const sim::World world = build_world(report.scene);
+  refuse_start_overlap(report.scene, world);
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
   report.steps = step_advices(world);
-  for (const StepAdvice& advice : report.steps) {
-    if (advice.too_long()) {
-      fmt::print(stderr, "{}: warning: {}\n", report.scene.name, step_warning(advice));
-    }
-  }
+  report.gas = gas_advices(world);
+  warn(report);
   if (options.run) report.run = run_statistics(report.scene, options.threads);
 
   fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));

@@ -43,6 +43,21 @@ json steps_json(const std::vector<StepAdvice>& steps) {
   return result;
 }
 
+json gas_json(const std::vector<GasAdvice>& gas) {
+  json result = json::array();
+  for (const GasAdvice& advice : gas) {
+    const auto number = [](const std::optional<double>& value) {
+      return value ? number_json(*value) : json();
+    };
+    result.push_back({{"body", advice.body},
+                      {"volume_m3", advice.volume},
+                      {"settled_volume_m3", number(advice.settled)},
+                      {"blown_up", advice.blown_up()},
+                      {"max_held_mol", number(advice.max_held)}});
+  }
+  return result;
+}
+
 json crossings_json(const CrossingStatistics& crossings) {
   return {{"frames", crossings.frames},
           {"max_edges", crossings.edges.value},
@@ -99,6 +114,7 @@ json check_json(const CheckReport& report) {
           {"plan", plan_json(report.plan)},
           {"size", size_json(report.size)},
           {"steps", steps_json(report.steps)},
+          {"gas", gas_json(report.gas)},
           {"run", report.run ? run_statistics_json(*report.run) : json(nullptr)}};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/check/run_statistics.h"
+#include "app/world/gas_advice.h"
 #include "app/world/step_advice.h"
 #include "app/world/world_size.h"
 #include "scenes/loader/scene.h"
@@ -19,6 +20,7 @@ struct CheckReport {
   sim::Plan plan;
   WorldSize size;
   std::vector<StepAdvice> steps;
+  std::vector<GasAdvice> gas;
   std::optional<RunStatistics> run;
 };
 

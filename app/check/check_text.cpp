@@ -82,6 +82,15 @@ std::string steps_text(const std::vector<StepAdvice>& steps) {
   return text;
 }
 
+std::string gas_text(const std::vector<GasAdvice>& gas) {
+  if (gas.empty()) return "";
+  std::string text = "\nVolumes of soft bodies\n";
+  for (const GasAdvice& advice : gas) {
+    text += named_line(advice.body, volumes_text(advice) + (advice.blown_up() ? ": BLOWN UP" : ""));
+  }
+  return text;
+}
+
 std::string crossings_text(const std::string& name, const CrossingStatistics& crossings,
                            int frames) {
   if (crossings.frames == 0) return named_line(name, "none");
@@ -115,7 +124,10 @@ std::string energy_text(const RunStatistics& run) {
           ? fmt::format("{:.4g} J at {:.2f} s, {:.2g} % of the {:.4g} J it varies by",
                         run.energy_rise.value, run.energy_rise.time, 100.0 * part, run.energy_span)
           : "none";
-  return text + named_line("", "greatest rise from one frame to the next: " + rise);
+  text += named_line("", "greatest rise from one frame to the next: " + rise);
+  return text + named_line("",
+                           "the gas counts as 0 J at 1 m^3 and less in any greater volume, weight "
+                           "as 0 J at the origin: only differences mean anything");
 }
 
 std::string contacts_text(const ContactTally& contacts) {
@@ -187,7 +199,7 @@ std::string run_statistics_text(const RunStatistics& run, double skin_thickness)
 
 std::string check_text(const CheckReport& report) {
   std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
-                     steps_text(report.steps);
+                     steps_text(report.steps) + gas_text(report.gas);
   if (report.run) {
     text += '\n' + run_statistics_text(*report.run, report.scene.settings.skin_thickness);
   }

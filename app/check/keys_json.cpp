@@ -49,13 +49,8 @@ json key_json(std::string_view table, const scenes::Key& key) {
 }  // namespace
 
 json keys_json() {
-  scenes::Scene scene;
-  scenes::BodyScene body;
-  body.name = scenes::default_name(0);
-  std::vector<scenes::Section> sections = scenes::fixed_sections(scene);
-  sections.push_back(scenes::body_section(body));
   json keys = json::array();
-  for (const scenes::Section& section : sections) {
+  for (const scenes::Section& section : scenes::default_sections()) {
     for (const scenes::Key& key : section.keys) keys.push_back(key_json(section.table, key));
   }
   return keys;

@@ -73,13 +73,13 @@ std::unique_ptr<FrameSink> open_sink(const ExportJob& job) {
 }
 
 constexpr std::array<ExportFormat, 7> formats = {
-    {{"ply", false, false, R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
-     {"obj", false, false, R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
-     {"glb", false, false, R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
-     {"vtp", false, false, R"(_[0-9]{5,}\.vtp|\.pvd)", open_sink<VtkSeries>},
-     {"html", false, true, R"(\.html)", open_replay},
-     {"obj", true, true, R"(\.obj|\.pc2)", open_sink<PointCache>},
-     {"glb", true, true, R"(\.glb)", open_sink<AnimatedGlb>}}};
+    {{"ply", false, false, false, R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
+     {"obj", false, false, false, R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
+     {"glb", false, false, false, R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
+     {"vtp", false, false, false, R"(_[0-9]{5,}\.vtp|\.pvd)", open_sink<VtkSeries>},
+     {"html", false, true, true, R"(\.html)", open_replay},
+     {"obj", true, true, false, R"(\.obj|\.pc2)", open_sink<PointCache>},
+     {"glb", true, true, false, R"(\.glb)", open_sink<AnimatedGlb>}}};
 
 }  // namespace
 

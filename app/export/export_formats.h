@@ -27,6 +27,7 @@ struct ExportFormat {
   std::string_view name;
   bool animated;           // what --animated chooses: all frames in one file, or in two
   bool written_last;       // all files at once, from finish()
+  bool shows_particles;    // which then walk in every step
   std::string_view files;  // of a scene: what follows its name, as a regular expression
   /// Throws UsageError when they are too much for it.
   std::unique_ptr<FrameSink> (*open)(const ExportJob& job);

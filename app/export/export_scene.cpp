@@ -13,6 +13,7 @@
 #include "app/world/build_world.h"
 #include "app/world/find_scene.h"
 #include "app/world/simulation.h"
+#include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/file.h"
 
@@ -73,7 +74,9 @@ void print_path(const fs::path& path) { fmt::print("{}\n", path.string()); }
 void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
                   const ExportRequest& request) {
   Progress progress(progress_style(request.quiet));
-  const sim::World start = build_world(scene);
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  start.settings.particles.shown = request.format.shows_particles;
   const auto sink = request.format.open(
       {scene, start, frames.last - frames.first + 1, folder, request.threads, progress});
   make_room(folder, scene.name, request);

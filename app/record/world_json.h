@@ -16,7 +16,8 @@ namespace pneuma::app {
 
 /// Of everything below.
 inline constexpr std::string_view json_units =
-    "metre, kilogram, second, kelvin, mole, joule; the gas energy is -nRT ln(V / 1 m^3)";
+    "metre, kilogram, second, kelvin, mole, joule; the gas energy is -nRT ln(V / 1 m^3), "
+    "that of gravity 0 at the origin";
 
 /// "0x0123456789abcdef", of hashes and fingerprints: JSON's numbers do not hold 64 bits everywhere.
 inline std::string hex(std::uint64_t value) { return fmt::format("{:#018x}", value); }

@@ -17,6 +17,8 @@
 #include "app/render/video.h"
 #include "app/world/build_world.h"
 #include "app/world/find_scene.h"
+#include "app/world/gas_advice.h"
+#include "app/world/start_overlap.h"
 #include "app/world/step_advice.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/step/plan.h"
@@ -39,18 +41,27 @@ render::RenderOptions picture_options(const scenes::PictureScene& picture,
   return options;
 }
 
-/// Steps may be too long, and particles are asked for in vain where no two soft bodies can meet.
+bool shows_particles(const Pictures& pictures) {
+  return pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
+}
+
+/// Steps may be too long, gas may blow bodies up, and particles are asked for in vain where no two
+/// soft bodies can meet.
 void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const sim::World& world,
                      Progress& progress) {
+  for (const std::string& warning : scene.warnings) progress.say(warning);
   for (const StepAdvice& advice : step_advices(world)) {
     if (advice.too_long()) {
       progress.say(fmt::format("{}: warning: {}", scene.name, step_warning(advice)));
     }
   }
-  const bool particles =
-      pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
+  for (const GasAdvice& advice : gas_advices(world)) {
+    if (advice.blown_up()) {
+      progress.say(fmt::format("{}: warning: {}", scene.name, gas_warning(advice)));
+    }
+  }
   const sim::Plan plan = sim::make_plan(world);
-  if (!particles || plan.runs(sim::Stage::move_particles)) return;
+  if (!shows_particles(pictures) || plan.runs(sim::Stage::move_particles)) return;
   const auto stage = static_cast<std::size_t>(sim::Stage::move_particles);
   progress.say(fmt::format("{}: there are no collision particles to draw: {}", scene.name,
                            plan.stages[stage].reason));
@@ -75,7 +86,9 @@ DivergenceError with_advice(const DivergenceError& error, const RenderRequest& r
 /// Scene -> world -> step stages -> frame -> PNG; the last three are in draw_frames.
 void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
                  const RunFolder& folder, Progress& progress) {
-  const sim::World start = build_world(scene);
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  start.settings.particles.shown = shows_particles(request.pictures);
   warn_before_run(request.pictures, scene, start, progress);
   render::Renderer renderer(picture_options(scene.picture, request.backend));
   RunLog log(

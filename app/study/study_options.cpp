@@ -1,11 +1,14 @@
 #include "app/study/study_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/host/command_line.h"
+#include "app/host/errors.h"
 #include "app/record/provenance.h"
 #include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
@@ -24,11 +27,24 @@ void add_study_options(CLI::App& command, StudyOptions& options,
   command.add_flag("--short", options.is_short, what_is_short);
 }
 
+namespace {
+
+void refuse_paper_method(const scenes::Scene& scene) {
+  if (!sim::is_as_printed(scene.settings)) return;
+  throw UsageError(
+      fmt::format("{} has simulation.method = \"paper\", which sets what this study varies; use "
+                  "simulation.method = \"corrected\" (--set simulation.method=corrected)",
+                  scene.name));
+}
+
+}  // namespace
+
 std::vector<scenes::Scene> load_scenes(const std::vector<std::string>& names,
                                        const std::vector<std::string>& overrides) {
   std::vector<scenes::Scene> loaded;
   for (const std::string& name : names) {
     loaded.push_back(scenes::load_scene(find_scene(name), overrides));
+    refuse_paper_method(loaded.back());
   }
   return loaded;
 }

@@ -24,7 +24,9 @@ struct StudyOptions {
 void add_study_options(CLI::App& command, StudyOptions& options,
                        std::span<const std::string> command_line, const std::string& what_is_short);
 
-/// All are loaded first, so that a slip in the last one is seen before anything is measured.
+/// All are loaded first, so that a slip in the last one is seen before anything is measured. Throws
+/// UsageError for a scene by the paper's method: it is one set of choices, and studies vary some of
+/// them, so that they would measure what is neither the paper's method nor ours.
 std::vector<scenes::Scene> load_scenes(const std::vector<std::string>& names,
                                        const std::vector<std::string>& overrides);
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "app/world/find_model.h"
+#include "app/world/refuse_body.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/mesh/hash_vertices.h"
@@ -104,12 +105,7 @@ sim::TriangleMesh make_mesh(const scenes::Scene& scene, const BodyScene& body) {
 
 [[noreturn]] void refuse(const scenes::Scene& scene, const BodyScene& body,
                          const std::string& reason) {
-  scenes::Diagnostic diagnostic;
-  diagnostic.file = (scene.folder / (scene.name + ".toml")).string();
-  diagnostic.line = body.line;
-  diagnostic.column = 1;
-  diagnostic.message = fmt::format("body '{}': {}", body.name, reason);
-  throw scenes::SceneError({diagnostic});
+  refuse_body(scene, body.place, body.name, reason);
 }
 
 std::uint64_t fingerprint(const sim::SoftMesh& mesh) {
@@ -165,7 +161,8 @@ class Builder {
           mesh,
           sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
     } catch (const sim::EquilibriumError& error) {
-      refuse(scene_, body, fmt::format("rest = \"equilibrium\": {}", error.what()));
+      refuse_body(scene_, body.rest_place, body.name,
+                  fmt::format("rest = \"equilibrium\": {}", error.what()));
     }
   }
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
+#include "app/world/distinct_bodies.h"
 #include "scenes/loader/integrator_names.h"
 #include "sim/soft/stability_limit.h"
 
@@ -31,15 +30,6 @@ std::string reason(const sim::World& world, const sim::SoftBody& body,
   }
   return fmt::format("k = {:g} N/m, n = {:g} mol, vertex_mass = {:g} kg {}", material.k, material.n,
                      material.vertex_mass, by);
-}
-
-bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
-  const auto numbers = [](const sim::SoftMaterial& m) {
-    return std::array{m.k, m.n, m.temperature, m.vertex_mass, m.rho_g, m.k_max};
-  };
-  return a.mesh == b.mesh && numbers(a.material) == numbers(b.material) &&
-         a.material.damping == b.material.damping &&
-         a.material.pressure_weighting == b.material.pressure_weighting;
 }
 
 }  // namespace
@@ -80,12 +70,8 @@ std::string remedy(const StepAdvice& advice) {
 
 std::vector<StepAdvice> step_advices(const sim::World& world) {
   std::vector<StepAdvice> advices;
-  std::vector<const sim::SoftBody*> known;
-  for (const sim::SoftBody& body : world.soft) {
-    const auto is_known = [&](const sim::SoftBody* other) { return alike(*other, body); };
-    if (std::any_of(known.begin(), known.end(), is_known)) continue;
-    known.push_back(&body);
-    advices.push_back(step_advice(world, body));
+  for (const sim::SoftBody* body : distinct_bodies(world)) {
+    advices.push_back(step_advice(world, *body));
   }
   return advices;
 }

@@ -28,7 +28,7 @@ StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 /// simulation.steps_per_second=540), or --set simulation.integrator=implicit_euler".
 std::string remedy(const StepAdvice& advice);
 
-/// Of one body for each mesh and material: only those can differ before the first step.
+/// Of one body for each mesh and material.
 std::vector<StepAdvice> step_advices(const sim::World& world);
 
 /// A line about steps that are too long.

@@ -163,6 +163,7 @@ Json meshes_json(const Recording& recording, Streams& streams) {
     if (is_new) add_shape(known->second, *mesh.shape, streams);
     meshes.push_back({{"shape", known->second},
                       {"vertices", mesh.positions.size()},
+                      {"roughness", mesh.roughness},
                       {"smooth", !mesh.normals.empty()}});
   }
   return meshes;

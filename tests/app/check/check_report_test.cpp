@@ -29,6 +29,7 @@ CheckReport report_of(const char* text, bool with_run = false) {
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
   report.steps = step_advices(world);
+  report.gas = gas_advices(world);
   if (with_run) report.run = run_statistics(report.scene, 1);
   return report;
 }
@@ -57,6 +58,23 @@ TEST(CheckText, SaysOfEveryStageWhetherItRuns) {
   for (const char* kind : {"rigid_ground", "soft_soft", "soft_rigid", "rigid_rigid"}) {
     EXPECT_TRUE(after(text, kind).starts_with("left out: ")) << kind;
   }
+}
+
+TEST(CheckText, SaysHowLargeGasMakesABody) {
+  // n = 10 mol, the default, in a ball of 98 m^3.
+  const std::string text = check_text(report_of(sphere_text));
+  EXPECT_NE(text.find("times) at rest without weight: BLOWN UP\n"), std::string::npos) << text;
+  const auto gas = check_json(report_of(sphere_text)).at("gas").at(0);
+  EXPECT_GT(gas.at("settled_volume_m3"), 10.0 * gas.at("volume_m3").get<double>());
+  EXPECT_EQ(gas.at("blown_up"), true);
+  const auto empty = check_json(report_of("[[body]]\nn = 0\n")).at("gas").at(0);
+  EXPECT_EQ(empty.at("settled_volume_m3"), empty.at("volume_m3"));
+  EXPECT_TRUE(empty.at("max_held_mol").is_null());
+}
+
+TEST(CheckText, SaysWhereEnergiesCountFrom) {
+  EXPECT_NE(check_text(report_of(sphere_text, true)).find("the gas counts as 0 J at 1 m^3"),
+            std::string::npos);
 }
 
 TEST(CheckText, IsASceneFileOfTheSameScene) {

@@ -23,7 +23,8 @@ const std::string ball_and_cubes = std::string(falling_ball) + R"(
 name = "cube"
 kind = "rigid"
 copies = [2, 1, 1]
-position = [0.0, 0.0, 4.0]
+position = [6.0, 0.0, 4.0]
+spacing = [4.0, 0.0, 0.0]
 tumble = true
 )";
 

@@ -100,7 +100,9 @@ TEST_F(ReplayTest, HasTheContactsAndParticlesOfEachFrame) {
   const double error = replay.header["lattice"]["max_error"].get<double>() + 1e-6;
 
   const scenes::Scene loaded = scenes::load_scene(scene());
-  Simulation simulation(loaded, build_world(loaded), 1);
+  sim::World world = build_world(loaded);
+  world.settings.particles.shown = true;
+  Simulation simulation(loaded, std::move(world), 1);
   std::size_t at = 0;
   std::size_t particles = 0;
   for (std::size_t frame = 0; frame < counts.size(); ++frame) {

@@ -47,7 +47,7 @@ TEST_F(RenderTest, WhatItAdvisesWorks) {
   const ProgramResult shorter =
       render_into("shorter", too_stiff + "--set simulation.steps_per_second=" + steps);
   EXPECT_EQ(shorter.exit_code, 0) << shorter.output;
-  EXPECT_EQ(shorter.output.find("warning"), std::string::npos) << shorter.output;
+  EXPECT_EQ(shorter.output.find("stay stable"), std::string::npos) << shorter.output;
   const ProgramResult implicit =
       render_into("implicit", too_stiff + "--set simulation.integrator=implicit_euler");
   EXPECT_EQ(implicit.exit_code, 0) << implicit.output;
@@ -58,7 +58,14 @@ TEST_F(RenderTest, WarnsOfStepsThatAreTooLongBeforeItStarts) {
   EXPECT_EQ(warned.exit_code, 0) << warned.output;
   expect_words(warned, {"fall: warning: body ball: steps of 0.0167 s are longer than the ",
                         "small motions stay stable", "with rk4"});
-  EXPECT_EQ(render("--overwrite --frames 0-0").output.find("warning"), std::string::npos);
+  EXPECT_EQ(render("--overwrite --frames 0-0").output.find("stay stable"), std::string::npos);
+}
+
+TEST_F(RenderTest, WarnsOfBodiesThatGasBlowsUpBeforeItStarts) {
+  const ProgramResult warned = render("--frames 0-0");
+  expect_words(warned, {"fall: warning: body ball: its gas blows it up: ", "n of at most "});
+  const ProgramResult held = render("--overwrite --frames 0-0 --set body.rest=equilibrium");
+  EXPECT_EQ(held.output.find("warning"), std::string::npos) << held.output;
 }
 
 TEST_F(RenderTest, ADivergedRunGoesOnWithOtherSteps) {

@@ -68,7 +68,9 @@ TEST(ExtremeRun, SeesEnergyThatRises) {
 }
 
 TEST(ExtremeRun, SeesBodiesInEachOther) {
-  ExtremeCase crowded = sphere_case("n = 1.0\n[[body]]\nposition = [1.0, 0.0, 3.5]\nn = 1.0\n");
+  ExtremeCase crowded = sphere_case(
+      "n = 1.0\n[simulation]\ncontact = \"impulses\"\n[[body]]\nposition = [1.0, 0.0, 3.5]\nn = "
+      "1.0\n");
   crowded.seconds = 0.1;  // too short to part them
   crowded.penetration = 0.1;
   const ExtremeResult result = run_extreme(crowded, "rk4");

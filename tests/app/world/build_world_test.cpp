@@ -200,8 +200,22 @@ TEST(BuildWorld, NamesKeyAndLineWhereTheSpringsCannotHoldTheShape) {
     ADD_FAILURE();
   } catch (const scenes::SceneError& error) {
     const std::string message = error.what();
-    EXPECT_TRUE(message.starts_with("there/weak.toml:2:1: body 'weak': rest = \"equilibrium\": "))
+    EXPECT_TRUE(message.starts_with("there/weak.toml:4:8: body 'weak': rest = \"equilibrium\": "))
         << message;
+    EXPECT_NE(message.find("4 | rest = \"equilibrium\"\n"), std::string::npos) << message;
+  }
+}
+
+TEST(BuildWorld, NamesTheOverrideWithWhichTheSpringsCannotHoldTheShape) {
+  const std::vector<std::string> overrides = {"body.rest=equilibrium"};
+  const scenes::Scene scene = scenes::parse_scene("[[body]]\n", "there/full.toml", overrides);
+  try {
+    build_world(scene);
+    ADD_FAILURE();
+  } catch (const scenes::SceneError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(message.starts_with("--set body.rest=equilibrium: body 'body1': ")) << message;
+    EXPECT_NE(message.find("at most n = "), std::string::npos) << message;
   }
 }
 

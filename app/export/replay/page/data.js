@@ -52,16 +52,21 @@ class Recording {
     return { begins, places: this.stream(name + "_places"), looks: this.stream(name + "_looks") };
   }
 
-  // All meshes as one: smooth and flat triangles, edges, and the vertices' colours.
+  // All meshes as one: smooth and flat triangles, edges, and the vertices' colours with
+  // their roughness.
   joinMeshes() {
     const smooth = [], flat = [], edges = [];
-    this.colours = new Float32Array(3 * this.vertexCount);
+    this.materials = new Float32Array(4 * this.vertexCount);
     let first = 0;
     for (const mesh of this.header.meshes) {
       const triangles = mesh.smooth ? smooth : flat;
       for (const v of this.stream(mesh.shape + "_triangles")) triangles.push(first + v);
       for (const v of this.stream(mesh.shape + "_edges")) edges.push(first + v);
-      this.colours.set(Float32Array.from(this.stream(mesh.shape + "_colours"), toLinear), 3 * first);
+      const colours = Float32Array.from(this.stream(mesh.shape + "_colours"), toLinear);
+      for (let v = 0; v < mesh.vertices; ++v) {
+        this.materials.set(colours.subarray(3 * v, 3 * v + 3), 4 * (first + v));
+        this.materials[4 * (first + v) + 3] = mesh.roughness;
+      }
       first += mesh.vertices;
     }
     this.smooth = Uint32Array.from(smooth);

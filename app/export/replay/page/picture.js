@@ -41,21 +41,24 @@ class Picture {
 
   makeMeshes() {
     const gl = this.gl;
-    const { colours, smooth, flat, vertexCount } = this.recording;
+    const { materials, smooth, flat, vertexCount } = this.recording;
     this.normals = new Float32Array(3 * vertexCount);
     this.meshes = gl.createVertexArray();
     gl.bindVertexArray(this.meshes);
-    const attribute = (location, data) => {
+    const attribute = (location, data, size = 3) => {
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       if (data) gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, 3, gl.FLOAT, false, 0, 0);
+      gl.vertexAttribPointer(location, size, gl.FLOAT, false, 0, 0);
       return buffer;
     };
     this.positionBuffer = attribute(0);
     this.normalBuffer = attribute(1);
-    attribute(2, colours);
+    attribute(2, materials, 4);
+    // Light between bodies is left out: nothing comes from them, and all of sky and ground is seen.
+    gl.vertexAttrib3f(3, 0, 0, 0);
+    gl.vertexAttrib2f(4, 1, 1);
     const indices = new Uint32Array(smooth.length + flat.length);
     indices.set(smooth);
     indices.set(flat, smooth.length);

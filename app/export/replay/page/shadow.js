@@ -64,7 +64,7 @@ void main() {
   vec4 w = texture(wide, at);
   float blocked = mix(texture(narrow, at).r, w.r, w.g / max(w.r, 0.004));
   vec3 direct = sun * light_z;
-  left = vec4(pow(1.0 - clamp(blocked, 0.0, 1.0) * direct / (sky + direct), vec3(1.0 / 2.2)), 1.0);
+  left = vec4(pow(1.0 - clamp(blocked, 0.0, 1.0) * direct / (sky_irradiance(1.0) + direct), vec3(1.0 / 2.2)), 1.0);
 }`;
 
 class Shadows {

@@ -1,0 +1,67 @@
+#include "app/world/gas_advice.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/world/distinct_bodies.h"
+#include "app/world/settled_volume.h"
+#include "sim/base/text.h"
+#include "sim/mesh/measure.h"
+#include "sim/soft/equilibrium.h"
+
+namespace pneuma::app {
+namespace {
+
+/// Times its volume: a body that grows further has no more than its first picture in common with
+/// the shape in the scene file.
+constexpr double most_growth = 2.0;
+
+std::optional<double> max_held(const sim::SoftBody& body) {
+  try {
+    return sim::max_held_gas(body.mesh->topology, body.positions, body.material);
+  } catch (const sim::EquilibriumError&) {
+    return std::nullopt;
+  }
+}
+
+GasAdvice gas_advice(const sim::SoftBody& body) {
+  GasAdvice advice;
+  advice.body = body.name;
+  advice.volume = sim::volume(body.mesh->topology, body.positions);
+  advice.settled = settled_volume(body);
+  advice.k = body.material.k;
+  if (advice.blown_up()) advice.max_held = max_held(body);
+  return advice;
+}
+
+}  // namespace
+
+bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
+
+std::vector<GasAdvice> gas_advices(const sim::World& world) {
+  std::vector<GasAdvice> advices;
+  for (const sim::SoftBody* body : distinct_bodies(world)) advices.push_back(gas_advice(*body));
+  return advices;
+}
+
+std::string volumes_text(const GasAdvice& advice) {
+  const std::string start = base::text(advice.volume) + " m^3 at the start, ";
+  if (!advice.settled) return start + "no balance of springs and gas was found";
+  if (std::isinf(*advice.settled)) return start + "growing for ever: its gas meets no springs";
+  return fmt::format("{}{} m^3 ({:.3g} times) at rest without weight", start,
+                     base::text(*advice.settled), *advice.settled / advice.volume);
+}
+
+std::string gas_warning(const GasAdvice& advice) {
+  const std::string grows =
+      fmt::format("body {}: its gas blows it up: {}", advice.body, volumes_text(advice));
+  if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
+  if (!advice.max_held) return grows + "; less gas (n) keeps it smaller";
+  return fmt::format(
+      "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
+      "springs of k = {:g} N/m hold",
+      grows, base::text_below(*advice.max_held), advice.k);
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,34 @@
+// Whether a scene's bodies keep about the size that they are given.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/world/world.h"
+
+namespace pneuma::app {
+
+struct GasAdvice {
+  std::string body;
+  double volume = 0.0;             // m^3, at the start
+  std::optional<double> settled;   // m^3 at rest and without weight (settled_volume.h)
+  std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
+                                   // can hold in its shape; none: it cannot hold it at all
+  double k = 0.0;                  // N/m, of its springs
+
+  bool blown_up() const;  // to more than twice its volume
+};
+
+/// Of one body for each mesh and material. There is no advice against bodies that shrink: springs
+/// are at rest in the shape or stretched by its gas, so that only weight and contacts press a body
+/// together.
+std::vector<GasAdvice> gas_advices(const sim::World& world);
+
+/// "27.7 m^3 at the start, 94.1 m^3 (3.4 times) at rest without weight".
+std::string volumes_text(const GasAdvice& advice);
+
+/// A line about a body that is blown up, with what keeps its size.
+std::string gas_warning(const GasAdvice& advice);
+
+}  // namespace pneuma::app

@@ -1,0 +1,52 @@
+#include "app/world/gas_advice.h"
+
+#include <gtest/gtest.h>
+
+#include "app/world/build_world.h"
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+std::vector<GasAdvice> advices_on(const std::string& text) {
+  return gas_advices(build_world(scenes::parse_scene(text, "test.toml")));
+}
+
+/// The number that follows `name` in a text.
+std::string number_after(const std::string& text, const std::string& name) {
+  const std::size_t begin = text.find(name) + name.size();
+  return text.substr(begin, text.find(' ', begin) - begin);
+}
+
+TEST(GasAdvice, WhatItSaysKeepsTheSize) {
+  const std::string body = "[[body]]\nradius = 2\nn = ";
+  const std::vector<GasAdvice> blown_up = advices_on(body + "0.5\n");
+  ASSERT_EQ(blown_up.size(), 1u);
+  ASSERT_TRUE(blown_up[0].blown_up());
+  const std::string warning = gas_warning(blown_up[0]);
+  EXPECT_TRUE(warning.starts_with("body body1: its gas blows it up: ")) << warning;
+  const std::string n = number_after(warning, "n of at most ");
+  const GasAdvice held = advices_on(body + n + "\nrest = \"equilibrium\"\n").at(0);
+  EXPECT_FALSE(held.blown_up()) << warning;
+  EXPECT_NEAR(held.settled.value() / held.volume, 1.0, 0.01) << warning;
+}
+
+TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
+  EXPECT_EQ(advices_on("[[body]]\ncopies = [2, 2, 1]\n[[body]]\n[[body]]\nn = 1\n").size(), 2u);
+  EXPECT_TRUE(advices_on("[[body]]\nkind = \"rigid\"\n").empty());
+}
+
+TEST(GasAdvice, HasWordsForBodiesThatNothingHolds) {
+  const GasAdvice free = advices_on("[[body]]\nk = 0\n").at(0);
+  EXPECT_TRUE(free.blown_up());
+  EXPECT_NE(volumes_text(free).find("for ever"), std::string::npos) << volumes_text(free);
+  EXPECT_NE(gas_warning(free).find("k above 0"), std::string::npos) << gas_warning(free);
+  // A box's faces are flat: springs within them balance no pressure.
+  const GasAdvice flat = advices_on("[[body]]\nshape = \"box\"\n").at(0);
+  EXPECT_TRUE(flat.blown_up());
+  EXPECT_FALSE(flat.max_held.has_value());
+  EXPECT_NE(gas_warning(flat).find("less gas"), std::string::npos) << gas_warning(flat);
+}
+
+}  // namespace
+}  // namespace pneuma::app

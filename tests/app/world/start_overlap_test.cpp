@@ -1,0 +1,50 @@
+#include "app/world/start_overlap.h"
+
+#include <gtest/gtest.h>
+
+#include "app/world/build_world.h"
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+std::string refusal_of(const std::string& text) {
+  try {
+    const scenes::Scene scene = scenes::parse_scene(text, "x.toml");
+    refuse_start_overlap(scene, build_world(scene));
+  } catch (const scenes::SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
+  const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\n";
+  const std::string rod =
+      "[[body]]\nname = \"rod\"\nkind = \"rigid\"\nsize = [20, 0.1, 0.1]\nposition = ";
+  const std::string pea = "[[body]]\nname = \"pea\"\nradius = 0.1\nposition = [0, 0, 4]\n";
+  const std::string box =
+      "[[body]]\nname = \"box\"\nkind = \"rigid\"\nsize = [2, 2, 2]\nposition = ";
+  struct Case {
+    std::string scene;
+    const char* says;
+  };
+  for (const Case& wrong :
+       {Case{ball + rod + "[0, 0, 4]\n", "x.toml:4:1: body 'rod': starts "},
+        Case{ball + pea, "x.toml:4:1: body 'pea': starts "},
+        Case{box + "[0, 0, 0.9]\n", "body 'box': starts 0.1 m deep in the ground"},
+        Case{ball + "[[body]]\nname = \"low\"\nposition = [9, 0, 2]\n",
+             "body 'low': starts 1 m deep in the ground"}}) {
+    const std::string message = refusal_of(wrong.scene);
+    EXPECT_NE(message.find(wrong.says), std::string::npos) << message;
+    EXPECT_NE(message.find("simulation.contact = \"impulses\""), std::string::npos) << message;
+    EXPECT_EQ(refusal_of("simulation.contact = \"impulses\"\n" + wrong.scene), "");
+  }
+  EXPECT_NE(refusal_of(ball + rod + "[0, 0, 4]\n").find("in body 'ball'"), std::string::npos);
+  // What touches does not overlap.
+  EXPECT_EQ(refusal_of(box + "[0, 0, 1]\n" + "copies = [1, 1, 3]\nspacing = [0, 0, 2]\n"), "");
+  EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
+}
+
+}  // namespace
+}  // namespace pneuma::app
