@@ -121,9 +121,12 @@ int count_edges_through(const Searchable& first, const Searchable& other, bool o
 }  // namespace
 
 Crossings crossings(const World& world) {
+  return crossings(closed_surfaces(world), static_cast<int>(world.soft.size()));
+}
+
+Crossings crossings(std::vector<ClosedSurface> surfaces, int soft) {
   std::vector<Searchable> bodies;
-  for (ClosedSurface& surface : closed_surfaces(world)) bodies.emplace_back(std::move(surface));
-  const int soft = static_cast<int>(world.soft.size());
+  for (ClosedSurface& surface : surfaces) bodies.emplace_back(std::move(surface));
   const int count = static_cast<int>(bodies.size());
 
   Crossings result;

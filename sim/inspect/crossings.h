@@ -34,6 +34,8 @@ struct Crossings {
 /// with faces in common planes may cross nowhere: overlaps() tells. A body whose positions are not
 /// all finite crosses nothing.
 Crossings crossings(const World& world);
+/// The same of any surfaces; those within a surface are looked for in the first `soft` of them.
+Crossings crossings(std::vector<ClosedSurface> surfaces, int soft);
 
 /// The first pair of different bodies that cross, none if no such do.
 const CrossingPair* first_crossing_bodies(const Crossings& crossings);

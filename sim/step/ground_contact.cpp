@@ -1,8 +1,13 @@
 #include "sim/step/ground_contact.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "sim/collision/find_body_contacts.h"
+#include "sim/inspect/inspect.h"
 #include "sim/response/keep_volume.h"
 #include "sim/response/vertex_on_ground.h"
+#include "sim/response/vibration.h"
 #include "sim/soft/pressure_force.h"
 
 namespace pneuma::sim {
@@ -34,16 +39,64 @@ void keep_volume(SoftBody& body, const VertexArray& before) {
   keep_volume(body.mesh->topology, before, body.positions);
 }
 
+namespace {
+
+struct Bounce {
+  Vec3 velocity;  // m/s, at the end of the step
+  double height;  // m, likewise
+};
+
+/// Of a vertex below the ground, if it bounces there.
+std::optional<Bounce> bounce_of(const World& world, const SoftState& start, const Contact& contact,
+                                const ContactMaterial& pair) {
+  const SoftBody& body = world.soft[at(contact.first.body)];
+  const int v = contact.first.feature.index;
+  Vec3 velocity = body.velocities[v];
+  const GroundImpact impact = ground_impact(start.positions[v].z(), start.velocities[v].z(),
+                                            body.positions[v].z(), velocity.z());
+  const auto height = bounce(impact, pair, time_step(world.settings), velocity);
+  if (!height) return std::nullopt;
+  return Bounce{velocity, *height};
+}
+
+void bounce_or_rest(World& world, int soft, const SoftState& start,
+                    std::span<const Contact> contacts) {
+  SoftBody& body = world.soft[at(soft)];
+  const ContactMaterial pair = combine(body.material.surface, *world.settings.ground);
+  const bool any = std::ranges::any_of(contacts, [&](const Contact& contact) {
+    return bounce_of(world, start, contact, pair).has_value();
+  });
+  const Vec3& gravity = world.settings.gravity;
+  const double before = any ? energy(body, gravity).total() : 0.0;
+  for (const Contact& contact : contacts) {
+    const auto bounced = bounce_of(world, start, contact, pair);
+    if (!bounced) {
+      resolve_alone(world, start, contact);
+      continue;
+    }
+    body.velocities[contact.first.feature.index] = bounced->velocity;
+    body.positions[contact.first.feature.index].z() = bounced->height;
+  }
+  if (any) take_from_vibration(body, energy(body, gravity).total() - before);
+}
+
+}  // namespace
+
+void resolve_on_ground(World& world, int soft, const SoftState& start,
+                       std::span<const Contact> contacts, VertexArray& before) {
+  if (contacts.empty()) return;
+  if (!is_implicit(world.settings.integrator)) return bounce_or_rest(world, soft, start, contacts);
+  SoftBody& body = world.soft[at(soft)];
+  before = body.positions;
+  for (const Contact& contact : contacts) resolve_alone(world, start, contact);
+  keep_volume(body, before);
+}
+
 void meet_ground_alone(World& world, int soft, const SoftState& start,
                        std::vector<Contact>& contacts, VertexArray& before) {
-  SoftBody& body = world.soft[at(soft)];
   const std::size_t first = contacts.size();
   find_soft_ground(world, soft, contacts);
-  if (contacts.size() == first) return;
-  const bool keeps_volume = is_implicit(world.settings.integrator);
-  if (keeps_volume) before = body.positions;
-  for (std::size_t i = first; i < contacts.size(); ++i) resolve_alone(world, start, contacts[i]);
-  if (keeps_volume) keep_volume(body, before);
+  resolve_on_ground(world, soft, start, std::span(contacts).subspan(first), before);
 }
 
 }  // namespace pneuma::sim

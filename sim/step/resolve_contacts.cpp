@@ -84,6 +84,11 @@ std::optional<Divergence> resolve_contacts(World& world, const MotionStart& star
     return std::nullopt;
   }
   if (is_as_printed(world.settings)) return resolve_as_printed(world, contacts, memory, workers);
+  if (world.settings.contact == ContactMethod::swept) {  // a soft body on the ground, nothing else
+    memory.before_contacts.resize(1);
+    resolve_on_ground(world, 0, start.soft.front(), contacts, memory.before_contacts.front());
+    return find_first_divergence(world, memory.outcomes, workers);
+  }
   const bool keeps_volume = is_implicit(world.settings.integrator);
   if (keeps_volume) keep_positions(world, memory.before_contacts);
   prepare(world, contacts, memory);

@@ -1,6 +1,9 @@
 #include "sim/step/returned_energy.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "sim/response/vibration.h"
 
 namespace pneuma::sim {
 namespace {
@@ -11,13 +14,16 @@ class ReturnedEnergy {
       : m_(memory), r_(memory.returned_energy), tolerance_(tolerance) {}
 
   void limit() {
-    if (m_.contacts.empty() || !find_islands_that_return()) return;
-    r_.work.assign(r_.returns.size(), 0.0);
-    for (std::size_t i = 0; i < m_.contacts.size(); ++i) r_.work[island(i)] += work(i);
+    m_.work_of_islands.clear();
+    if (m_.contacts.empty()) return;
+    find_islands_that_return();
+    m_.work_of_islands.assign(r_.returns.size(), 0.0);
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) m_.work_of_islands[island(i)] += work(i);
     add_work_of_start();
     r_.given.resize(m_.contacts.size());
-    for (std::size_t i = 0; i < r_.work.size(); ++i) {
-      if (r_.returns[i] != 0 && r_.work[i] > 0.0) limit(static_cast<int>(i), r_.work[i]);
+    for (std::size_t i = 0; i < r_.returns.size(); ++i) {
+      double& of_island = m_.work_of_islands[i];
+      if (r_.returns[i] != 0 && of_island > 0.0) limit(static_cast<int>(i), of_island);
     }
   }
 
@@ -29,22 +35,18 @@ class ReturnedEnergy {
     return m_.impulses[contact].work(m_.end_velocities[contact]);
   }
 
-  bool find_islands_that_return() {
+  void find_islands_that_return() {
     r_.returns.assign(at(m_.solver.island_count()), 0);
-    bool found = false;
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      if (!m_.contacts[i].returns_energy) continue;
-      r_.returns[island(i)] = 1;
-      found = true;
+      if (m_.contacts[i].returns_energy) r_.returns[island(i)] = 1;
     }
-    return found;
   }
 
   /// What acted at the start is a contact at the end.
   void add_work_of_start() {
     for (std::size_t i = 0; i < m_.first_contacts.size(); ++i) {
       const int of_first = m_.solver.island_of(m_.first_contacts[i].first.body);
-      if (of_first >= 0) r_.work[at(of_first)] += m_.work_of_start[i];
+      if (of_first >= 0) m_.work_of_islands[at(of_first)] += m_.work_of_start[i];
     }
   }
 
@@ -52,8 +54,10 @@ class ReturnedEnergy {
     return static_cast<std::size_t>(impulse - m_.impulses.data());
   }
 
-  void limit(int island, double with) {
+  /// `work_of_island`: J, which is then that of the mixture.
+  void limit(int island, double& work_of_island) {
     const auto impulses = m_.solver.impulses_of(island);
+    const double with = work_of_island;
     double without = with;
     for (SweptImpulse* impulse : impulses) {
       const std::size_t i = contact_of(impulse);
@@ -63,6 +67,7 @@ class ReturnedEnergy {
       const double parting = contact.returns_energy ? 0.0 : contact.parting;
       impulse->aim(parting - contact.normal.dot(m_.end_velocities[i]), m_.end_velocities[i]);
     }
+    work_of_island = without;  // that of the start
     m_.solver.solve_island(island, tolerance_);
     for (const SweptImpulse* impulse : impulses) without += work(contact_of(impulse));
     const double share = without < 0.0 ? without / (without - with) : 0.0;
@@ -70,6 +75,7 @@ class ReturnedEnergy {
       const Vec3 mixed = share * r_.given[contact_of(impulse)] + (1.0 - share) * impulse->given();
       impulse->replace_given(to_vec4d(mixed));
     }
+    for (const SweptImpulse* impulse : impulses) work_of_island += work(contact_of(impulse));
   }
 
   SweptMemory& m_;
@@ -77,10 +83,39 @@ class ReturnedEnergy {
   double tolerance_;  // m/s
 };
 
+template <class Visit>
+void for_each_soft_body(World& world, SweptMemory& memory, int island, const Visit& visit) {
+  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
+    if (memory.solver.island_of(i) == island) visit(world.soft[at(i)]);
+  }
+}
+
+/// Returns what was taken, J: no more than there is.
+double slow_vibrations(World& world, SweptMemory& memory, int island, double excess) {
+  double there_is = 0.0;
+  for_each_soft_body(world, memory, island,
+                     [&](const SoftBody& body) { there_is += energy_of_vibration(body); });
+  const double taken = std::min(excess, there_is);
+  if (!(taken > 0.0)) return 0.0;
+  const double factor = std::sqrt(1.0 - taken / there_is);
+  for_each_soft_body(world, memory, island, [&](SoftBody& body) { slow_vibration(body, factor); });
+  return taken;
+}
+
 }  // namespace
 
 void limit_returned_energy(SweptMemory& memory, double tolerance) {
   ReturnedEnergy(memory, tolerance).limit();
+}
+
+double take_back_excess_work(World& world, SweptMemory& memory) {
+  double taken = 0.0;
+  if (is_implicit(world.settings.integrator)) return taken;
+  for (std::size_t i = 0; i < memory.work_of_islands.size(); ++i) {
+    const double work = memory.work_of_islands[i];
+    if (work > 0.0) taken += slow_vibrations(world, memory, static_cast<int>(i), work);
+  }
+  return taken;
 }
 
 }  // namespace pneuma::sim

@@ -1,4 +1,4 @@
-// What contacts give back of the energy that they took. Private to sim/step.
+// Contacts add no energy to what they took. Private to sim/step.
 #pragma once
 
 #include "sim/step/swept_search.h"
@@ -15,5 +15,17 @@ namespace pneuma::sim {
 /// `memory`: the contacts and impulses of the end of the step, solved for to `tolerance` (m/s), and
 /// of its start, with their work.
 void limit_returned_energy(SweptMemory& memory, double tolerance);
+
+/// The impulses at both ends of a step do no work together if what presses bodies on each other is
+/// the same at both ends. Where it grows they take energy and where it falls they add some, of
+/// second order in the step: an island whose contacts have added energy gives it up again from the
+/// motion of its soft bodies that is not that of a rigid body, so that momentum and angular
+/// momentum stay as they are.
+///
+/// Not of implicit steps, which damp what impulses at their start move.
+///
+/// The velocities must be those of the end, and the memory know the work of its islands. Returns
+/// the energy taken (J, >= 0).
+double take_back_excess_work(World& world, SweptMemory& memory);
 
 }  // namespace pneuma::sim

@@ -130,6 +130,7 @@ std::optional<Divergence> Stepper::step(World& world) {
     return divergence;
   }
   w.contact_work = energy_if(w.options.measure_work, world) - before_contacts;
+  if (w.options.after_part) w.options.after_part(world);
 
   ++world.steps;
   return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -34,6 +35,9 @@ struct StepperOptions {
   bool profile = false;       // measure StageTimes
   bool measure_work = false;  // measure Stepper::contact_work
   std::optional<Plan> plan;   // in place of the world's own: for tests
+  /// Called with the world after each part of a step that contacts divide, or after the whole one
+  /// if they do not: between these calls surfaces of swept contacts move along straight ways.
+  std::function<void(const World&)> after_part = nullptr;
 };
 
 struct StepWorkspace;

@@ -22,7 +22,6 @@ inline constexpr int max_halvings = 8;
 
 /// Memory of limit_returned_energy.
 struct ReturnedEnergyMemory {
-  std::vector<double> work;           // J, per island
   std::vector<std::uint8_t> returns;  // per island
   std::vector<Vec3> given;            // N s, per contact
 };
@@ -47,8 +46,9 @@ struct SweptMemory {
   std::vector<Vec3>
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
   ReturnedEnergyMemory returned_energy;
-  VertexArray before_ground;  // of a soft body that meets nothing else
-  double work = 0.0;          // J, of all contacts of the last step
+  std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
+  VertexArray before_ground;            // of a soft body that meets nothing else
+  double work = 0.0;                    // J, of all contacts of the last step
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.

@@ -49,7 +49,10 @@ class SweptStep {
     };
     fraction_ = std::ldexp(1.0, -halvings);
     auto failure = try_step();
-    if (!failure) return std::nullopt;
+    if (!failure) {
+      if (w_.options.after_part) w_.options.after_part(world_);
+      return std::nullopt;
+    }
     start.motion = w_.motion_start;  // which half steps change
     take_all_back();
     if (failure->stage != Stage::resolve_contacts || halvings == max_halvings) return failure;
@@ -161,6 +164,7 @@ class SweptStep {
       m_.work += m_.impulses[i].work(m_.end_velocities[i]);
     }
     bodies_.add_changes(world_);
+    m_.work -= take_back_excess_work(world_, m_);
     remember();
     report();
     if (world_.settings.ground) meet_ground();

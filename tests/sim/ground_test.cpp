@@ -107,7 +107,8 @@ TEST(Ground, VerticesBounceWithTheRestitution) {
     ASSERT_FALSE(run(world, 1.0 / 60.0));
     EXPECT_NEAR(world.soft[0].velocities[57].z(), 6.0 * epsilon, 1e-14);
     EXPECT_EQ(world.soft[0].velocities[0].z(), -6.0) << "the upper pole is in the air";
-    EXPECT_EQ(world.soft[0].positions[57].z(), 0.0);
+    EXPECT_NEAR(world.soft[0].positions[57].z(), 0.05 * epsilon, 1e-14)
+        << "it met at half the step";
   }
 }
 

@@ -57,7 +57,7 @@ const PaperScene paper_scenes[] = {
     {"pressure_firm", one_body, 0.0, 2e-4, 0.05, false},
     {"pressure_soft", one_body, 0.0, 1e-5, 0.2, false},
     {"sphere_in_torus", soft_bodies, 0.011, 2e-4, 0.05, true},
-    {"stiff_torus", one_body, 0.0, 1e-5, 1.5, false},  // five seconds, in which it does not settle
+    {"stiff_torus", one_body, 0.0, 1e-5, 2.5, false},  // five seconds, in which it bounces
     {"three_spheres", soft_bodies, 0.0, 1e-5, 0.3, false},
     {"three_spheres_contact", soft_bodies, 0.006, 1e-4, 0.15, true},
     {"torus_four_cubes", soft_body_and_boxes, 0.005, 1e-4, 0.12, true},

@@ -1,0 +1,70 @@
+#include "sim/response/vibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/mesh/vec4d.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// The velocities of a rigid body with a soft body's momentum and angular momentum.
+struct RigidMotion {
+  Vec4d centre{};
+  Vec4d velocity{};
+  Vec4d angular_velocity{};
+
+  explicit RigidMotion(const SoftBody& body) {
+    const VertexReader x(body.positions), v(body.velocities);
+    const int count = body.positions.size();
+    for (int i = 0; i < count; ++i) {
+      centre += x[i];
+      velocity += v[i];
+    }
+    centre = centre / count;
+    velocity = velocity / count;
+    Vec4d turning{};
+    Mat3 inertia = Mat3::Zero();  // of masses of one kilogram
+    for (int i = 0; i < count; ++i) {
+      const Vec4d arm = x[i] - centre;
+      turning += cross(arm, v[i] - velocity);
+      const Vec3 r = to_vec3(arm);
+      inertia += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+    }
+    angular_velocity = to_vec4d(inertia.ldlt().solve(to_vec3(turning)));
+  }
+
+  Vec4d at_point(Vec4d point) const { return velocity + cross(angular_velocity, point - centre); }
+};
+
+}  // namespace
+
+double energy_of_vibration(const SoftBody& body) {
+  const RigidMotion rigid(body);
+  const VertexReader x(body.positions), v(body.velocities);
+  double sum = 0.0;
+  for (int i = 0; i < body.positions.size(); ++i) {
+    const Vec4d own = v[i] - rigid.at_point(x[i]);
+    sum += dot(own, own);
+  }
+  return 0.5 * body.material.vertex_mass * sum;
+}
+
+void slow_vibration(SoftBody& body, double factor) {
+  const RigidMotion rigid(body);
+  const VertexReader x(body.positions);
+  for (int i = 0; i < body.positions.size(); ++i) {
+    const Vec3 of_rigid = to_vec3(rigid.at_point(x[i]));
+    body.velocities[i] = of_rigid + factor * (body.velocities[i] - of_rigid);
+  }
+}
+
+double take_from_vibration(SoftBody& body, double energy) {
+  const double there_is = energy_of_vibration(body);
+  const double taken = std::min(energy, there_is);
+  if (!(taken > 0.0)) return 0.0;
+  slow_vibration(body, std::sqrt(1.0 - taken / there_is));
+  return taken;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,18 @@
+// The motion of a soft body that is not that of a rigid one: from there energy can be taken without
+// a change of momentum or angular momentum.
+#pragma once
+
+#include "sim/world/soft_body.h"
+
+namespace pneuma::sim {
+
+/// J.
+double energy_of_vibration(const SoftBody& body);
+
+/// Multiplies its velocities by a factor.
+void slow_vibration(SoftBody& body, double factor);
+
+/// Takes so much energy (J, >= 0) from it, or all that there is. Returns what was taken.
+double take_from_vibration(SoftBody& body, double energy);
+
+}  // namespace pneuma::sim
