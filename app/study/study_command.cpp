@@ -16,6 +16,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_collision_study(*study, action, command_line);
   add_growth_study(*study, action, command_line);
   add_extreme_study(*study, action, command_line);
+  add_impact_study(*study, action, command_line);
   add_stability_study(*study, action, command_line);
   // Last, because commands below another begin with its examples.
   add_examples(*study, {"pneuma study error one_sphere --short", "pneuma study extremes"});
@@ -30,6 +31,8 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
                {"pneuma study growth", "pneuma study growth --short --out out/growth"});
   add_examples(*study->get_subcommand("extremes"),
                {"pneuma study extremes", "pneuma study extremes --short --out out/extremes"});
+  add_examples(*study->get_subcommand("impacts"),
+               {"pneuma study impacts", "pneuma study impacts --runs 100 --seed 2"});
   add_examples(*study->get_subcommand("stability"),
                {"pneuma study stability", "pneuma study stability one_sphere --short"});
 }

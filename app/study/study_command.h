@@ -20,7 +20,8 @@ void add_growth_study(CLI::App& study_command, Action& action,
                       std::span<const std::string> command_line);
 void add_extreme_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
-
+void add_impact_study(CLI::App& study_command, Action& action,
+                      std::span<const std::string> command_line);
 void add_stability_study(CLI::App& study_command, Action& action,
                          std::span<const std::string> command_line);
 
