@@ -132,7 +132,8 @@ Show parse_show(const std::string& option, const std::string& list) {
 FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
                            const render::Camera& camera)
     : title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
-      caption_(scene.picture.caption) {
+      caption_(scene.picture.caption),
+      rounded_(scene.picture.rounded) {
   scenery_.camera = camera;
   scenery_.light.shadows = scene.picture.shadows;
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
@@ -158,13 +159,15 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
     frame.meshes.back().roughness = soft_looks_[i].roughness;
+    if (!rounded_) frame.meshes.back().normals.clear();  // each triangle has its own
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_looks_[i].shape));
     frame.meshes.back().roughness = rigid_looks_[i].roughness;
   }
   // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
-  if (!show.wireframe && !show.particles && !show.contacts) set_rounding_room(frame.meshes);
+  const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts;
+  if (rounded_ && only_surfaces) set_rounding_room(frame.meshes);
   if (show.particles) add_particles(world, contacts, frame);
   if (show.contacts) add_contacts(contacts, frame);
   if (caption_) frame.caption = caption(title_, world);

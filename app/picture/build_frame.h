@@ -52,6 +52,7 @@ class FrameBuilder {
 
   std::string title_;
   bool caption_ = false;
+  bool rounded_ = true;
   render::Frame scenery_;          // all that is the same in every frame
   std::vector<Look> soft_looks_;   // as World::soft
   std::vector<Look> rigid_looks_;  // as World::rigid

@@ -85,7 +85,8 @@ class Checks {
 
   void check_camera() {
     const CameraScene& camera = scene_.camera;
-    if (!reader_.valid({&camera.eye, &camera.target})) return;
+    // A misspelt key beside one of them may be meant as the other.
+    if (reader_.has_unknown("camera") || !reader_.valid({&camera.eye, &camera.target})) return;
     const Origin at = reader_.origin({&camera.eye, &camera.target}, whole_file);
     if (camera.eye.has_value() != camera.target.has_value()) {
       report_.add(at, camera.eye ? "eye without target; give both, or neither for an automatic "
@@ -112,10 +113,6 @@ class Checks {
 
   void check_body(const BodyScene& body, Origin header) {
     const bool soft = body.kind == BodyKind::soft;
-    if (!soft && body.shape != Shape::box) {
-      report_.add(reader_.origin({&body.shape}, header),
-                  "a rigid body is always a box; leave shape out or make the body soft");
-    }
     if (soft && body.shape == Shape::torus && body.tube_radius >= body.radius &&
         reader_.valid({&body.tube_radius, &body.radius})) {
       report_.add(

@@ -66,7 +66,11 @@ class Loader {
   std::vector<Origin> read_bodies() {
     const Member* member = find(document_, "body");
     if (member == nullptr) {
-      report_.add(whole_file, "a scene needs at least one [[body]]");
+      // A misspelt [[body]] was refused with its right name already.
+      const bool misspelt = std::ranges::any_of(document_, [](const Member& other) {
+        return std::holds_alternative<Array>(other.value.data) && holds_tables(other.value);
+      });
+      if (!misspelt) report_.add(whole_file, "a scene needs at least one [[body]]");
       return {};
     }
     const Array* bodies = std::get_if<Array>(&member->value.data);
@@ -86,17 +90,32 @@ class Loader {
       const Value& value = (*bodies)[i];
       headers.push_back(value.at);
       BodyScene& body = scene_.bodies[i] = default_body(i);
-      read_body(std::get<Table>(value.data), body);
+      read_body(std::get<Table>(value.data), body, value.at);
       body.place = report_.place(value.at);
-      body.rest_place = report_.place(reader_.origin({&body.rest}, value.at));
+      const auto place_of_key = [&](const void* key) {
+        return report_.place(reader_.origin({key}, value.at));
+      };
+      body.rest_place = place_of_key(&body.rest);
+      body.position_place = place_of_key(&body.position);
+      body.model_place = place_of_key(&body.model.file);
     }
     return headers;
   }
 
-  void read_body(const Table& table, BodyScene& body) {
+  void read_body(const Table& table, BodyScene& body, Origin header) {
     reader_.read_selectors(table, body_section(body));
-    if (body.kind == BodyKind::rigid && find(table, "shape") == nullptr) body.shape = Shape::box;
+    if (body.kind == BodyKind::rigid) make_box(table, body, header);
     reader_.read_others(table, body_section(body));
+  }
+
+  /// Its other keys are then judged as a box's.
+  void make_box(const Table& table, BodyScene& body, Origin header) {
+    const bool is_given = find(table, "shape") != nullptr && reader_.valid({&body.shape});
+    if (is_given && body.shape != Shape::box) {
+      report_.add(reader_.origin({&body.shape}, header),
+                  "a rigid body is always a box; leave shape out or make the body soft");
+    }
+    body.shape = Shape::box;
   }
 
   const Table& document_;

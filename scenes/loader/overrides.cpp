@@ -1,6 +1,7 @@
 #include "scenes/loader/overrides.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -168,8 +169,14 @@ class Override {
       candidates.push_back("body");
       candidates.insert(candidates.end(), body_tables().begin(), body_tables().end());
       candidates.insert(candidates.end(), names.begin(), names.end());
-      throw RefusedOverride{fmt::format("there is no table or body {}{}", in_quotes(path[0]),
-                                        suggestion(path[0], candidates))};
+      constexpr std::size_t most_named = 10;
+      const auto end =
+          names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most_named));
+      throw RefusedOverride{
+          fmt::format("there is no table or body {}{}; bodies: {}{}", in_quotes(path[0]),
+                      suggestion(path[0], candidates),
+                      printable(fmt::format("{}", fmt::join(names.begin(), end, ", "))),
+                      names.size() > most_named ? ", ..." : "")};
     }
     const auto key = key_at(path, 1);
     if (!key) throw RefusedOverride{"expected NAME.KEY=VALUE"};

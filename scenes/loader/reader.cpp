@@ -119,6 +119,7 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
                                        renamed->now));
     return;
   }
+  with_unknown_.insert(section.table);
   if (section.table.empty() && holds_tables(member.value)) {
     report_.add(member.at, fmt::format("unknown table {}{}", in_quotes(member.key),
                                        table_suggestion(member.key)));
@@ -130,6 +131,12 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
   }
   allowed.insert(allowed.end(), children.begin(), children.end());
   std::string hint = belongs_elsewhere(member.key);
+  const std::vector<std::string_view>& tables = table_names();
+  if (hint.empty() && section.table == "body" &&
+      std::ranges::find(tables, member.key) != tables.end()) {
+    hint = fmt::format("; a table of the scene: write it above the first [[body]], or as [{}]",
+                       member.key);
+  }
   if (hint.empty()) hint = meant_key(member.key);
   if (hint.empty()) hint = suggestion_and_all(member.key, allowed);
   report_.add(member.at, fmt::format("unknown key {} {}{}", in_quotes(member.key),

@@ -35,6 +35,9 @@ class Reader {
   /// False when the value of one of the members was refused: checks across keys then say nothing.
   bool valid(std::initializer_list<const void*> members) const;
 
+  /// Whether a key of the table was refused because there is none of its name.
+  bool has_unknown(std::string_view table) const { return with_unknown_.contains(table); }
+
   /// Where the first of the members that was given a value got it; `otherwise` when none was.
   Origin origin(std::initializer_list<const void*> members, Origin otherwise) const;
 
@@ -52,6 +55,7 @@ class Reader {
   std::map<int, std::string> idle_overrides_;  // the message if it stays idle
   std::set<int> used_overrides_;
   std::set<std::string_view> selected_by_override_;  // tables
+  std::set<std::string_view> with_unknown_;          // tables
 };
 
 }  // namespace pneuma::scenes

@@ -46,8 +46,9 @@ struct Place {
 
 /// One body, or a block of copies of it.
 struct BodyScene {
-  Place place;       // of its [[body]]
-  Place rest_place;  // of its key `rest`; where that is left out, of its [[body]]
+  Place place;  // of its [[body]]
+  // Of its keys; where one is left out, of its [[body]].
+  Place rest_place, position_place, model_place;
   std::string name;  // unique; by default "body1", "body2", ...
   BodyKind kind = BodyKind::soft;
 
@@ -101,7 +102,8 @@ struct PictureScene {
   int samples = 4;
   bool shadows = true;
   bool caption = true;
-  bool grid = true;  // draw the ground plane with its grid, where the scene has a ground
+  bool grid = true;     // draw the ground plane with its grid, where the scene has a ground
+  bool rounded = true;  // draw coarse soft bodies round, not as the flat triangles they are
 };
 
 /// What a scene may ask for at most, so that a slip of the pen does not fill the memory or run for

@@ -161,6 +161,8 @@ Section picture_section(Scene& scene) {
           {"shadows", &picture.shadows, any(), "", "draw shadows"},
           {"caption", &picture.caption, any(), "", "draw the caption"},
           {"grid", &picture.grid, any(), "", "draw the ground with its grid, where there is one"},
+          {"rounded", &picture.rounded, any(), "",
+           "draw coarse soft bodies round; false: as the flat triangles that are simulated"},
       }};
 }
 

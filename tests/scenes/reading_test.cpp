@@ -68,6 +68,7 @@ samples = 2
 shadows = false
 caption = false
 grid = false
+rounded = false
 
 [limits]
 bodies = 31
@@ -110,7 +111,8 @@ Scene every_member() {
                       .samples = 2,
                       .shadows = false,
                       .caption = false,
-                      .grid = false};
+                      .grid = false,
+                      .rounded = false};
   expected.limits = {.bodies = 31,
                      .vertices_per_body = 1001,
                      .vertices = 1002,

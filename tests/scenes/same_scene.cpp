@@ -73,10 +73,10 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
-  const auto& [place, rest_place, name, kind, shape, radius, tube_radius, stacks, slices,
-               subdivisions, divisions, size, model, rest, material, mass, rho_g, surface, position,
-               rotation, velocity, angular_velocity, copies, spacing, jitter, tumble, colours,
-               colour_axis, roughness] = a;
+  const auto& [place, rest_place, position_place, model_place, name, kind, shape, radius,
+               tube_radius, stacks, slices, subdivisions, divisions, size, model, rest, material,
+               mass, rho_g, surface, position, rotation, velocity, angular_velocity, copies,
+               spacing, jitter, tumble, colours, colour_axis, roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -139,7 +139,7 @@ void compare(Comparison& c, const CameraScene& a, const CameraScene& b) {
 }
 
 void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {
-  const auto& [width, height, frames_per_second, samples, shadows, caption, grid] = a;
+  const auto& [width, height, frames_per_second, samples, shadows, caption, grid, rounded] = a;
   c.member("width", width, b.width);
   c.member("height", height, b.height);
   c.member("frames_per_second", frames_per_second, b.frames_per_second);
@@ -147,6 +147,7 @@ void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {
   c.member("shadows", shadows, b.shadows);
   c.member("caption", caption, b.caption);
   c.member("grid", grid, b.grid);
+  c.member("rounded", rounded, b.rounded);
 }
 
 void compare(Comparison& c, const Limits& a, const Limits& b) {

@@ -92,5 +92,40 @@ TEST(OtherNames, LeadToTheKeyThatIsMeant) {
   }
 }
 
+std::size_t count_errors(const std::string& text) {
+  try {
+    parse_scene(text, "x.toml");
+  } catch (const SceneError& error) {
+    return error.diagnostics().size();
+  }
+  return 0;
+}
+
+TEST(SeveralErrors, OneSlipIsOneError) {
+  EXPECT_EQ(count_errors("[[bodies]]\nn = 1\n"), 1u);
+  EXPECT_EQ(count_errors("[camera]\neye = [0, -9, 3]\ntargt = [0, 0, 3]\n[[body]]\n"), 1u);
+  EXPECT_EQ(count_errors("[[body]]\nkind = \"rigid\"\nshape = \"sphere\"\n"), 1u);
+  const std::string box = errors_of("[[body]]\nkind = \"rigid\"\nshape = \"sphere\"\nradius = 1\n");
+  EXPECT_EQ(box.find("rigid sphere"), std::string::npos) << box;
+}
+
+TEST(SeveralErrors, ATableOfTheSceneBelowABodyIsToldToGoAbove) {
+  const std::string camera =
+      errors_of("[[body]]\ncamera = {eye = [0, -9, 3], target = [0, 0, 3]}\n");
+  EXPECT_NE(camera.find("x.toml:2:1: unknown key 'camera'"), std::string::npos) << camera;
+  EXPECT_NE(camera.find("above the first [[body]]"), std::string::npos) << camera;
+}
+
+TEST(SeveralErrors, AMissingBodyOfAnOverrideListsThoseThereAre) {
+  const std::vector<std::string> overrides = {"box.k=200"};
+  try {
+    parse_scene("[[body]]\nname = \"ball\"\n[[body]]\n", "x.toml", overrides);
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("bodies: ball, body2"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace pneuma::scenes

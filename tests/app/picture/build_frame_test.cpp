@@ -115,6 +115,9 @@ TEST(BuildFrame, SharesShapesBetweenCopiesAndFrames) {
 TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
   EXPECT_TRUE(build().frame.ground);
   EXPECT_FALSE(build({"picture.grid=false"}).frame.ground);
+  // Without normals of vertices every triangle is drawn flat.
+  EXPECT_FALSE(build({}).frame.meshes.at(0).normals.empty());
+  EXPECT_TRUE(build({"picture.rounded=false"}).frame.meshes.at(0).normals.empty());
   EXPECT_FALSE(build({"ground.present=false"}).frame.ground);
 }
 
