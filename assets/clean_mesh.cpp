@@ -83,8 +83,10 @@ class Cleaner {
     work_.vertex_number.resize(work_.mesh.vertices.size());
     work_.triangle_number.resize(work_.mesh.triangles.size());
     std::iota(work_.vertex_number.begin(), work_.vertex_number.end(), 0);
+    if (!model_.vertex_numbers.empty()) work_.vertex_number = model_.vertex_numbers;
     std::iota(work_.triangle_number.begin(), work_.triangle_number.end(), 0);
-    result_.vertices_before = static_cast<int>(work_.mesh.vertices.size());
+    result_.vertices_before = static_cast<int>(
+        model_.vertices_in_file > 0 ? at(model_.vertices_in_file) : work_.mesh.vertices.size());
     lonely_vertices_ = compact();
   }
 
@@ -92,6 +94,7 @@ class Cleaner {
     const Weld welded = weld(work_.mesh.vertices, weld_distance_);
     const std::size_t before = work_.mesh.vertices.size();
     const std::size_t after = welded.vertices.size();
+    const std::set<int> in_file(work_.vertex_number.begin(), work_.vertex_number.end());
     std::size_t count = 0;
     for (std::size_t v = 0; v < before; ++v) {
       const bool is_kept = at(welded.new_index[v]) == count;
@@ -103,7 +106,9 @@ class Cleaner {
       for (int& v : triangle) v = welded.new_index[at(v)];
     }
     result_.vertices_welded = static_cast<int>(after);
-    if (after < before) say(fmt::format("{} vertices welded to {}", before, after));
+    if (after < in_file.size()) {
+      say(fmt::format("{} vertices welded to {}", in_file.size(), after));
+    }
   }
 
   /// Those for which `keep` says true, in their order.

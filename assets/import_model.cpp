@@ -15,6 +15,7 @@
 #include <set>
 
 #include "assets/model_file.h"
+#include "assets/obj_numbers.h"
 #include "assets/sandbox.h"
 #include "assets/serialise_model.h"
 
@@ -274,6 +275,11 @@ Model import_model(const std::filesystem::path& path, const ImportLimits& limits
     Model model =
         deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
                                    sandbox_limits(bytes.size(), limits)));
+    if (format == Format::obj) {
+      number_as_in_obj(bytes, model);
+      // The importer's name for faces before the first object.
+      std::ranges::replace(model.part_names, "defaultobject", "");
+    }
     if (model.mesh.triangles.empty()) throw ModelError("the model has no triangles");
     return model;
   } catch (const ModelError& error) {

@@ -49,9 +49,12 @@ ModelCheck check_model(const std::filesystem::path& path) {
 std::string model_check_text(const ModelCheck& check) {
   const ModelReport& report = check.report;
   std::string text = fmt::format("{}: fit for a soft body\n", check.path.string());
-  text += named_line("vertices",
-                     fmt::format("{}; {} as read, {} after welding", grouped(report.vertices),
-                                 grouped(report.vertices_before), grouped(report.vertices_welded)));
+  std::string vertices = grouped(report.vertices);
+  if (report.vertices_before != report.vertices || report.vertices_welded != report.vertices) {
+    vertices += fmt::format("; {} in the file, {} after welding", grouped(report.vertices_before),
+                            grouped(report.vertices_welded));
+  }
+  text += named_line("vertices", vertices);
   text += named_line("springs", fmt::format("{}; per vertex {} to {}, {:.3g} in the mean",
                                             grouped(report.edges), report.fewest_springs,
                                             report.most_springs, report.springs_per_vertex));

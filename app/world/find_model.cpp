@@ -3,16 +3,50 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <set>
 #include <system_error>
 #include <vector>
 
 #include "app/host/interrupt.h"
 #include "app/world/data_folders.h"
+#include "app/world/refuse_body.h"
 #include "assets/load_model.h"
+#include "assets/model_file.h"
+#include "scenes/loader/nearest.h"
 
 namespace pneuma::app {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// "; did you mean 'pear.ply'?", of the models in the folders, or nothing.
+std::string near_name(const std::string& name, const std::vector<fs::path>& folders) {
+  std::set<std::string> files;  // in one order, whatever the disk's
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    const fs::path listed = folder.empty() ? fs::path(".") : folder;
+    for (auto entry = fs::directory_iterator(listed, error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+      if (assets::has_model_ending(entry->path())) files.insert(entry->path().filename().string());
+    }
+  }
+  return scenes::suggestion(name, {files.begin(), files.end()});
+}
+
+/// Each folder once, however it is written.
+std::vector<fs::path> without_repetition(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> once;
+  std::set<fs::path> known;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(fs::absolute(folder / ".", error), error);
+    if (known.insert(real).second) once.push_back(folder);
+  }
+  return once;
+}
+
+}  // namespace
 
 fs::path find_model(const std::string& file, const fs::path& scene_folder) {
   const fs::path path(file);
@@ -20,14 +54,16 @@ fs::path find_model(const std::string& file, const fs::path& scene_folder) {
   std::vector<std::string> searched;
   std::vector<fs::path> folders = {scene_folder, fs::path(), fs::path("assets")};
   for (const fs::path& folder : data_folders("assets")) folders.push_back(folder);
+  folders = without_repetition(folders);
   for (const fs::path& folder : folders) {
     std::error_code ignored;
     const fs::path candidate = folder / path;
     if (fs::exists(candidate, ignored)) return candidate;
     searched.push_back(candidate.string());
   }
-  throw assets::ModelError(
-      fmt::format("{}: no such model file; looked for {}", file, fmt::join(searched, ", ")));
+  throw assets::ModelError(fmt::format("{}: no such model file{}; looked for {}", file,
+                                       near_name(path.filename().string(), folders),
+                                       fmt::join(searched, ", ")));
 }
 
 sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body) {
@@ -40,9 +76,9 @@ sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::Body
   const auto most_bytes = static_cast<std::size_t>(scene.limits.model_file_mib * 1024.0 * 1024.0);
   try {
     return assets::load_model(find_model(body.model.file, scene.folder), options, most_bytes).mesh;
-  } catch (const assets::ModelError&) {
+  } catch (const assets::ModelError& error) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
-    throw;
+    refuse_body(scene, body.model_place, body.name, error.what());
   }
 }
 

@@ -15,8 +15,8 @@ namespace pneuma::app {
 std::filesystem::path find_model(const std::string& file,
                                  const std::filesystem::path& scene_folder);
 
-/// The mesh of a body whose shape is a model. Throws assets::ModelError; Interrupted when the
-/// process was asked to stop during the import.
+/// The mesh of a body whose shape is a model. Throws scenes::SceneError at the body's
+/// model.file; Interrupted when the process was asked to stop during the import.
 sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body);
 
 }  // namespace pneuma::app

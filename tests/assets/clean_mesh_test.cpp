@@ -20,7 +20,7 @@ using sim::at;
 using Strings = std::vector<std::string>;
 
 CleanModel clean(const sim::TriangleMesh& mesh, const CleanOptions& options = {}) {
-  return clean_mesh({mesh, {}, {}}, options);
+  return clean_mesh({mesh, {}, {}, 0, {}}, options);
 }
 
 double volume(const sim::TriangleMesh& mesh) {

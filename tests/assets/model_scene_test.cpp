@@ -76,6 +76,43 @@ TEST_F(ModelScene, IsFoundBesideTheSceneAndAmongTheProgramsModels) {
   }
 }
 
+TEST_F(ModelScene, AMissingFileIsBlamedOnTheScenesLine) {
+  const scenes::Scene scene = load({"model.file=it.pyl"});
+  try {
+    build_world(scene);
+    FAIL() << "built";
+  } catch (const scenes::SceneError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("--set model.file=it.pyl: body '"), std::string::npos) << message;
+    EXPECT_NE(message.find("did you mean 'it.ply'?"), std::string::npos) << message;
+  }
+}
+
+TEST_F(ModelScene, AnObjKeepsItsOwnNumbers) {
+  // An octahedron, and the same without its last face.
+  std::string obj;
+  for (const char* vertex : {"1 0 0", "-1 0 0", "0 1 0", "0 -1 0", "0 0 1", "0 0 -1"}) {
+    obj += std::string("v ") + vertex + "\n";
+  }
+  obj += "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
+  write_text(folder_ / "open.obj", obj);
+  write_text(folder_ / "closed.obj", obj + "f 1 4 6\n");
+  const ProgramResult closed = run_pneuma("check " + (folder_ / "closed.obj").string());
+  EXPECT_EQ(closed.exit_code, 0);
+  EXPECT_NE(closed.output.find("vertices           6\n"), std::string::npos) << closed.output;
+  EXPECT_EQ(closed.output.find("mended"), std::string::npos) << closed.output;
+  EXPECT_EQ(closed.output.find("defaultobject"), std::string::npos) << closed.output;
+  const ProgramResult open = run_pneuma("check " + (folder_ / "open.obj").string() + " 2>&1");
+  EXPECT_EQ(open.exit_code, 3);
+  for (const auto& [edge, turned] :
+       {std::pair("edge 1-4 ", "edge 4-1 "), std::pair("edge 1-6 ", "edge 6-1 "),
+        std::pair("edge 4-6 ", "edge 6-4 ")}) {
+    EXPECT_TRUE(open.output.find(edge) != std::string::npos ||
+                open.output.find(turned) != std::string::npos)
+        << open.output;
+  }
+}
+
 TEST_F(ModelScene, KeepsToTheScenesLimits) {
   const auto refused = [&](const Strings& overrides) {
     const scenes::Scene scene = load(overrides);
@@ -151,7 +188,7 @@ TEST_F(ModelScene, CheckReportsAModelFile) {
   const std::string path = (folder_ / "it.ply").string();
   const ProgramResult text = run_pneuma("check " + path);
   EXPECT_EQ(text.exit_code, 0);
-  for (const char* part : {"fit for a soft body", "8; 8 as read", "genus              0",
+  for (const char* part : {"fit for a soft body", "vertices           8\n", "genus              0",
                            "volume             8 m^3", "12, smallest angle 45 degrees"}) {
     EXPECT_NE(text.output.find(part), std::string::npos) << part << " in: " << text.output;
   }

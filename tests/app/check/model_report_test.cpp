@@ -11,7 +11,7 @@ namespace pneuma::app {
 namespace {
 
 ModelReport report_of(const sim::TriangleMesh& mesh) {
-  return report_on(assets::clean_mesh({mesh, {}, {}}));
+  return report_on(assets::clean_mesh({mesh, {}, {}, 0, {}}));
 }
 
 TEST(ModelReport, OfACube) {
