@@ -60,8 +60,10 @@ std::string what_keeps_apart(const sim::Settings& settings) {
 /// Says it when bodies passed through each other, how far at most, and what helps.
 ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
   const CrossingStatistics& crossings = run.crossings;
-  if (crossings.frames == 0) return ExitCode::done;
+  const StartOverlapStatistics& start = run.start_overlap;
   std::fflush(stdout);
+  if (start.pairs > 0) fmt::print(stderr, "{}: {}\n", scene.name, start_overlap_text(start));
+  if (crossings.frames == 0) return start.left > 0 ? ExitCode::check_failed : ExitCode::done;
   fmt::print(stderr,
              "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s; "
              "penetration at most {:.2g} m; {}\n",

@@ -24,12 +24,15 @@ struct CheckReport {
   std::optional<RunStatistics> run;
 };
 
-/// The effective scene, and the rest as comments, so that the whole is a scene file again.
+/// The summary as comments, then the effective scene, so that the whole is a scene file again.
 std::string check_text(const CheckReport& report);
 nlohmann::json check_json(const CheckReport& report);
 
+/// "torus and cube: overlap from the start, parted by t = 0.40 s".
+std::string start_overlap_text(const StartOverlapStatistics& start);
+
 /// The lines about a run alone.
-std::string run_statistics_text(const RunStatistics& run, double skin_thickness);
+std::string run_statistics_text(const RunStatistics& run, const sim::Settings& settings);
 nlohmann::json run_statistics_json(const RunStatistics& run);
 
 }  // namespace pneuma::app

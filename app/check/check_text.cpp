@@ -62,9 +62,9 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
                      fmt::format("{}; with meshes and pictures about {}",
                                  bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
   text += named_line(
-      "run", fmt::format("{:g} s: {} steps, {} pictures", scene.duration,
+      "run", fmt::format("{:g} s: {} steps, {} frames after the first", scene.duration,
                          grouped(scenes::frame_count(scene) * scenes::steps_per_frame(scene)),
-                         grouped(scenes::frame_count(scene) + 1)));
+                         grouped(scenes::frame_count(scene))));
   return text;
 }
 
@@ -99,15 +99,31 @@ std::string crossings_text(const std::string& name, const CrossingStatistics& cr
                                       crossings.edges.time, crossings.first_bodies));
 }
 
-std::string penetration_text(const RunStatistics& run, double skin_thickness) {
-  if (run.penetration.value == 0.0) return named_line("penetration", "none");
+/// Less than what is written here is a rounding of the positions.
+constexpr double shown_depth = 0.5e-4;
+
+std::string penetration_text(const RunStatistics& run, const sim::Settings& settings) {
+  if (run.penetration.value < shown_depth) return named_line("penetration", "none");
+  std::string last_half =
+      fmt::format("in the last half of the run {:.4f} m", run.settled_penetration);
+  // Swept contacts keep surfaces apart whatever the skin.
+  if (settings.contact == sim::ContactMethod::impulses) {
+    last_half +=
+        fmt::format(", {} the skin thickness of {:g} m",
+                    run.settled_penetration < settings.skin_thickness ? "below" : "NOT below",
+                    settings.skin_thickness);
+  }
   return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
                                                run.penetration.value, run.penetration.time)) +
-         named_line("", fmt::format(
-                            "in the last half of the run {:.4f} m, {} the skin thickness of {:g} m",
-                            run.settled_penetration,
-                            run.settled_penetration < skin_thickness ? "below" : "NOT below",
-                            skin_thickness));
+         named_line("", last_half);
+}
+
+std::string self_crossings_text(const RunStatistics& run) {
+  std::string text = crossings_text("self-crossings", run.self_crossings, run.frames);
+  if (run.self_crossings.frames > 0) {
+    text += named_line("", "a surface folds through itself; the check does not fail for it");
+  }
+  return text;
 }
 
 std::string energy_text(const RunStatistics& run) {
@@ -115,7 +131,7 @@ std::string energy_text(const RunStatistics& run) {
   if (!std::isfinite(start) || !std::isfinite(end))
     return named_line("energy", "not a finite number");
   std::string text =
-      named_line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, drift "
+      named_line("energy", fmt::format("{:.6g} J at the start, {:.6g} J at the end, change "
                                        "{:+.4g} J",
                                        start, end, end - start));
   const double part = run.energy_span > 0.0 ? run.energy_rise.value / run.energy_span : 0.0;
@@ -179,12 +195,32 @@ std::string as_comments(const std::string& text) {
 
 }  // namespace
 
-std::string run_statistics_text(const RunStatistics& run, double skin_thickness) {
+std::string start_overlap_text(const StartOverlapStatistics& start) {
+  const std::string who = start.pairs == 1 ? start.bodies
+                                           : fmt::format("{} pairs of bodies, {} the first",
+                                                         grouped(start.pairs), start.bodies);
+  if (start.left == 0) {
+    return fmt::format("{}: overlap from the start, parted by t = {:.2f} s", who, start.parted);
+  }
+  return fmt::format("{}: overlap from the start, {} still at the end of the run; move them apart",
+                     who, start.pairs == 1 ? "and" : grouped(start.left));
+}
+
+std::string run_statistics_text(const RunStatistics& run, const sim::Settings& settings) {
   std::string text = fmt::format("Run of {} steps, {:g} s\n", grouped(run.steps), run.seconds);
   if (run.divergence) text += named_line("DIVERGED", *run.divergence);
-  text += penetration_text(run, skin_thickness);
+  text += penetration_text(run, settings);
   text += crossings_text("crossings", run.crossings, run.frames);
-  text += crossings_text("self-crossings", run.self_crossings, run.frames);
+  if (run.touching_frames > 0) {
+    text +=
+        named_line("", fmt::format("touches in {} frames: no deeper than weight moves bodies into "
+                                   "each other in a step",
+                                   run.touching_frames));
+  }
+  if (run.start_overlap.pairs > 0) {
+    text += named_line("at the start", start_overlap_text(run.start_overlap));
+  }
+  text += self_crossings_text(run);
   if (run.end_overlap > 0.0) {
     text += named_line("overlap at the end",
                        fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
@@ -200,10 +236,8 @@ std::string run_statistics_text(const RunStatistics& run, double skin_thickness)
 std::string check_text(const CheckReport& report) {
   std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
                      steps_text(report.steps) + gas_text(report.gas);
-  if (report.run) {
-    text += '\n' + run_statistics_text(*report.run, report.scene.settings.skin_thickness);
-  }
-  return scenes::print_scene(report.scene) + '\n' + as_comments(text);
+  if (report.run) text = run_statistics_text(*report.run, report.scene.settings) + '\n' + text;
+  return as_comments(text) + '\n' + scenes::print_scene(report.scene);
 }
 
 }  // namespace pneuma::app

@@ -1,11 +1,15 @@
 #include "app/check/run_statistics.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "app/host/interrupt.h"
 #include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
+#include "app/world/touch.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/measure.h"
@@ -45,6 +49,7 @@ class Observer {
     result_.start_penetration = sim::max_penetration(start);
     result_.penetration = {result_.start_penetration, sim::time(start)};
     result_.free = !start.settings.ground && start.settings.gravity.isZero();
+    find_start_overlaps(start);
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
@@ -70,6 +75,7 @@ class Observer {
     if (2 * world.steps > all_steps_) {
       result_.settled_penetration = std::max(result_.settled_penetration, depth);
     }
+    part_start_overlaps(world);
     look_for_crossings(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       VolumeRange& range = result_.volumes[b];
@@ -97,23 +103,57 @@ class Observer {
   void diverged(std::string how) { result_.divergence = std::move(how); }
 
  private:
+  using Pair = std::pair<int, int>;
+
+  void find_start_overlaps(const sim::World& start) {
+    for (const sim::Overlap& overlap : sim::overlaps(start)) {
+      if (overlap.second == sim::ground_body) continue;
+      if (is_beyond_touch(start, overlap.first, overlap.second)) {
+        start_overlaps_.emplace(overlap.first, overlap.second);
+      }
+    }
+    if (start_overlaps_.empty()) return;
+    const auto& [first, second] = *start_overlaps_.begin();
+    result_.start_overlap.bodies = two_bodies(start, first, second);
+    result_.start_overlap.pairs = static_cast<int>(start_overlaps_.size());
+    result_.start_overlap.left = result_.start_overlap.pairs;
+  }
+
+  /// What came apart once counts as any other pair from then on.
+  void part_start_overlaps(const sim::World& world) {
+    const auto parted = std::erase_if(start_overlaps_, [&](const Pair& pair) {
+      return !is_beyond_touch(world, pair.first, pair.second);
+    });
+    if (parted > 0) result_.start_overlap.parted = sim::time(world);
+    result_.start_overlap.left = static_cast<int>(start_overlaps_.size());
+  }
+
   void look_for_crossings(const sim::World& world) {
     const sim::Crossings found = sim::crossings(world);
     ++result_.frames;
-    const auto add = [&](CrossingStatistics& statistics, int edges, bool of_one_body) {
-      if (edges == 0) return;
-      ++statistics.frames;
-      if (edges <= statistics.edges.value) return;
-      statistics.edges = {static_cast<double>(edges), sim::time(world)};
-      const auto pair = std::ranges::find_if(found.pairs, [&](const sim::CrossingPair& crossing) {
-        return (crossing.first == crossing.second) == of_one_body;
-      });
-      statistics.first_bodies = two_bodies(world, pair->first, pair->second);
-    };
-    add(result_.crossings, found.between_bodies, false);
-    add(result_.self_crossings, found.within_bodies, true);
+    std::vector<sim::CrossingPair> between = crossings_beyond_touch(world, found), within;
+    if (between.empty() && found.between_bodies > 0) ++result_.touching_frames;
+    std::erase_if(between, [&](const sim::CrossingPair& pair) {
+      return start_overlaps_.contains(Pair(pair.first, pair.second));
+    });
+    std::ranges::copy_if(found.pairs, std::back_inserter(within),
+                         [](const sim::CrossingPair& pair) { return pair.first == pair.second; });
+    add(world, between, result_.crossings);
+    add(world, within, result_.self_crossings);
   }
 
+  static void add(const sim::World& world, const std::vector<sim::CrossingPair>& pairs,
+                  CrossingStatistics& statistics) {
+    if (pairs.empty()) return;
+    int edges = 0;
+    for (const sim::CrossingPair& pair : pairs) edges += pair.edges;
+    ++statistics.frames;
+    if (edges <= statistics.edges.value) return;
+    statistics.edges = {static_cast<double>(edges), sim::time(world)};
+    statistics.first_bodies = two_bodies(world, pairs[0].first, pairs[0].second);
+  }
+
+  std::set<Pair> start_overlaps_;  // that did not come apart yet
   RunStatistics result_;
   std::int64_t all_steps_;
   double last_energy_;

@@ -33,6 +33,14 @@ struct CrossingStatistics {
   std::string first_bodies;  // of that moment, "torus and cube 3"; empty: none
 };
 
+/// Bodies that start in each other.
+struct StartOverlapStatistics {
+  int pairs = 0;
+  int left = 0;         // pairs that still are at the end of the run
+  double parted = 0.0;  // s, when the last of the others came apart
+  std::string bodies;   // of the first pair
+};
+
 /// Contacts are looked at in every step; penetration, energy and volumes at the start and in every
 /// frame, since that is how often the scene's pictures are taken.
 struct RunStatistics {
@@ -40,11 +48,13 @@ struct RunStatistics {
   double seconds = 0.0;                   // of the scene's time
   std::optional<std::string> divergence;  // where the run ended early; what follows is up to there
 
-  Peak penetration;                   // m, over the whole run
-  double start_penetration = 0.0;     // m
-  double settled_penetration = 0.0;   // m, over the last half of it
-  int frames = 0;                     // looked at, the start among them
-  CrossingStatistics crossings;       // of different bodies (sim/inspect/crossings.h)
+  Peak penetration;                  // m, over the whole run
+  double start_penetration = 0.0;    // m
+  double settled_penetration = 0.0;  // m, over the last half of it
+  int frames = 0;                    // looked at, the start among them
+  CrossingStatistics crossings;      // of different bodies, beyond a touch (app/world/touch.h)
+  int touching_frames = 0;           // in which bodies cross by no more than a touch
+  StartOverlapStatistics start_overlap;
   CrossingStatistics self_crossings;  // of bodies with themselves
   double end_overlap = 0.0;           // m, of the pair deepest in each other at the end (overlap.h)
   std::string end_overlap_bodies;     // empty: none

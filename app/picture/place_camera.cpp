@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "app/host/errors.h"
 #include "app/world/simulation.h"
+#include "app/world/touch.h"
 #include "render/frame/camera.h"
+#include "sim/inspect/closed_surface.h"
 #include "sim/inspect/inspect.h"
+#include "sim/inspect/solid.h"
 
 namespace pneuma::app {
 namespace {
@@ -85,6 +89,45 @@ std::string flown_away(const Bounds& useful, const Bounds& run) {
       beyond);
 }
 
+/// Whether a ball may be in the cone about the picture's corners.
+bool may_be_seen(const scenes::Scene& scene, const Vec3& centre, double radius) {
+  const Vec3 to_body = centre - *scene.camera.eye;
+  const double distance = to_body.norm();
+  if (distance <= radius) return true;
+  const double aspect = static_cast<double>(scene.picture.width) / scene.picture.height;
+  const double half = 0.5 * scene.camera.field_of_view * std::numbers::pi / 180.0;
+  const double corner = std::atan(std::tan(half) * std::hypot(1.0, aspect));
+  const Vec3 forward = (*scene.camera.target - *scene.camera.eye).normalized();
+  const double angle = std::acos(std::clamp(forward.dot(to_body) / distance, -1.0, 1.0));
+  return angle - std::asin(radius / distance) <= corner;
+}
+
+bool is_inside(const sim::World& world, int body, const Vec3& point) {
+  const std::size_t soft = world.soft.size();
+  const sim::Solid solid = sim::at(body) < soft ? sim::Solid(world.soft[sim::at(body)])
+                                                : sim::Solid(world.rigid[sim::at(body) - soft]);
+  return solid.find_depth(point).has_value();
+}
+
+/// Why a camera of the scene's own shows nothing of it, or nothing to say.
+std::string what_is_hidden(const scenes::Scene& scene, const sim::World& start) {
+  const int count = static_cast<int>(start.soft.size() + start.rigid.size());
+  bool sees_one = false;
+  for (int body = 0; body < count; ++body) {
+    const Bounds bounds = body_bounds(start, body);
+    if (is_inside(start, body, *scene.camera.eye)) {
+      return fmt::format(
+          "warning: the camera's eye is inside body '{}' at the start; move eye in "
+          "[camera], or leave eye and target out",
+          sim::body_name(start, body));
+    }
+    sees_one |= may_be_seen(scene, bounds.centre(), 0.5 * bounds.size().norm());
+  }
+  if (sees_one) return "";
+  return "warning: the camera sees no body at the start; turn target in [camera] towards them, or "
+         "leave eye and target out";
+}
+
 }  // namespace
 
 Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body) {
@@ -98,7 +141,9 @@ Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body
 
 PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
                           const OnFrame& on_frame) {
-  if (scene.camera.eye && scene.camera.target) return {fixed_camera(scene.camera), ""};
+  if (scene.camera.eye && scene.camera.target) {
+    return {fixed_camera(scene.camera), what_is_hidden(scene, start)};
+  }
   const Extent extent = run_ahead(scene, start, threads, on_frame);
   const Bounds useful = useful_bounds(extent.start, extent.run, extent.largest_body);
   PlacedCamera placed{automatic_camera(scene, useful), ""};

@@ -9,8 +9,10 @@
 
 #include "app/world/find_model.h"
 #include "app/world/refuse_body.h"
+#include "app/world/step_advice.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "sim/base/text.h"
 #include "sim/mesh/hash_vertices.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
@@ -157,13 +159,36 @@ class Builder {
   /// Not shared with other bodies: its rest lengths depend on the material.
   std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh) {
     try {
-      return sim::make_soft_mesh(
-          mesh,
-          sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
+      return held_mesh_of(body, mesh);
     } catch (const sim::EquilibriumError& error) {
       refuse_body(scene_, body.rest_place, body.name,
-                  fmt::format("rest = \"equilibrium\": {}", error.what()));
+                  fmt::format("rest = \"equilibrium\": {}{}", error.what(),
+                              step_with_stiffer_springs(body, mesh)));
     }
+  }
+
+  /// Springs that hold the gas may need shorter steps than the scene's: "; with that k ...".
+  std::string step_with_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh) const {
+    BodyScene stiff = body;
+    try {
+      const double held = sim::max_held_gas(mesh.topology, mesh.rest_positions, body.material);
+      if (!(held < body.material.n)) return "";
+      stiff.material.k = std::stod(base::text_above(body.material.k * body.material.n / held));
+      Builder with_stiff(scene_);
+      with_stiff.add_soft(stiff, {body.name, body.position, Quaternion::Identity()},
+                          with_stiff.held_mesh_of(stiff, mesh));
+      const StepAdvice advice = step_advice(with_stiff.world_, with_stiff.world_.soft.front());
+      return advice.too_long() ? "; with that k use " + remedy(advice) : "";
+    } catch (const sim::EquilibriumError&) {
+      return "";
+    }
+  }
+
+  static std::shared_ptr<const sim::SoftMesh> held_mesh_of(const BodyScene& body,
+                                                           const sim::SoftMesh& mesh) {
+    return sim::make_soft_mesh(
+        mesh,
+        sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
   }
 
   /// The scene was checked without its models.

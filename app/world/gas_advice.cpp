@@ -49,8 +49,9 @@ std::string volumes_text(const GasAdvice& advice) {
   const std::string start = base::text(advice.volume) + " m^3 at the start, ";
   if (!advice.settled) return start + "no balance of springs and gas was found";
   if (std::isinf(*advice.settled)) return start + "growing for ever: its gas meets no springs";
-  return fmt::format("{}{} m^3 ({:.3g} times) at rest without weight", start,
-                     base::text(*advice.settled), *advice.settled / advice.volume);
+  const std::string times = fmt::format("{:.3g}", *advice.settled / advice.volume);
+  return fmt::format("{}{} m^3{} at rest without weight", start, base::text(*advice.settled),
+                     times == "1" ? "" : fmt::format(" ({} times)", times));
 }
 
 std::string gas_warning(const GasAdvice& advice) {

@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "app/world/refuse_body.h"
+#include "app/world/touch.h"
+#include "sim/base/text.h"
+#include "sim/inspect/closed_surface.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/measure.h"
@@ -15,64 +21,72 @@ namespace pneuma::app {
 namespace {
 
 /// Of a body's size: what places written with a few digits, and rounding, leave of a touch.
-constexpr double touch = 1e-6;
+constexpr double start_touch = 1e-6;
 
 struct StartOverlap {
   int body = 0;        // that is to be moved: soft bodies first, then boxes
   std::string reason;  // names the other, or the ground
 };
 
-class StartBodies {
- public:
-  explicit StartBodies(const sim::World& world) : world_(world) {}
+std::string name_of(const sim::World& world, int body) { return sim::body_name(world, body); }
 
-  bool is_box(int body) const { return body >= static_cast<int>(world_.soft.size()); }
-
-  std::string name(int body) const { return is_box(body) ? box(body).name : soft(body).name; }
-
-  /// m.
-  double size(int body) const {
-    if (is_box(body)) return box(body).size.minCoeff();
-    const sim::Bounds around = sim::bounds(soft(body).positions);
-    return (around.high - around.low).minCoeff();
+bool is_deep(const sim::World& world, const sim::Overlap& overlap) {
+  double least = least_extent(world, overlap.first);
+  if (overlap.second != sim::ground_body) {
+    least = std::min(least, least_extent(world, overlap.second));
   }
+  return overlap.depth > start_touch * least;
+}
 
-  bool is_deep(const sim::Overlap& overlap) const {
-    double least = size(overlap.first);
-    if (overlap.second != sim::ground_body) least = std::min(least, size(overlap.second));
-    return overlap.depth > touch * least;
+std::string moved(double distance, std::string_view direction) {
+  return fmt::format("move it {} m along {}", base::text_above(distance), direction);
+}
+
+/// The shortest way along an axis, and not into the ground, by which boxes along the axes about
+/// both bodies come apart: the bodies themselves then are.
+std::string way_apart(const sim::World& world, int first, int second) {
+  const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
+  constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  double shortest = std::numeric_limits<double>::infinity();
+  std::string_view direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::array<double, 2> ways = {other.high[axis] - own.low[axis],
+                                        own.high[axis] - other.low[axis]};
+    for (std::size_t down = 0; down < 2; ++down) {
+      const bool into_ground =
+          axis == 2 && down == 1 && world.settings.ground && own.low.z() - ways[down] < 0.0;
+      if (into_ground || ways[down] >= shortest) continue;
+      shortest = ways[down];
+      direction = directions[2 * sim::at(axis) + down];
+    }
   }
-
- private:
-  const sim::SoftBody& soft(int body) const { return world_.soft[sim::at(body)]; }
-  const sim::RigidBox& box(int body) const {
-    return world_.rigid[sim::at(body) - world_.soft.size()];
-  }
-
-  const sim::World& world_;
-};
+  return moved(shortest, direction);
+}
 
 constexpr const char* remedy =
-    "move it, or let simulation.contact = \"impulses\" part what starts in each other";
+    "or let simulation.contact = \"impulses\" part what starts in each other";
 
 /// The first.
 std::optional<StartOverlap> find_start_overlap(const sim::World& world) {
-  const StartBodies start(world);
   for (const sim::Overlap& overlap : sim::overlaps(world)) {
-    if (!start.is_deep(overlap)) continue;
+    if (!is_deep(world, overlap)) continue;
     if (overlap.second == sim::ground_body) {
-      return StartOverlap{overlap.first, fmt::format("starts {:.3g} m deep in the ground; {}",
-                                                     overlap.depth, remedy)};
+      return StartOverlap{overlap.first,
+                          fmt::format("starts {:.3g} m deep in the ground; {}, {}", overlap.depth,
+                                      moved(overlap.depth, "+z"), remedy)};
     }
     return StartOverlap{overlap.second,
-                        fmt::format("starts {:.3g} m deep in body '{}'; {}", overlap.depth,
-                                    start.name(overlap.first), remedy)};
+                        fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
+                                    name_of(world, overlap.first),
+                                    way_apart(world, overlap.first, overlap.second), remedy)};
   }
   for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
     // Boxes that only touch may cross by a rounding; how deep they lie in each other is exact.
-    if (pair.first == pair.second || start.is_box(pair.first)) continue;
-    return StartOverlap{pair.second, fmt::format("starts through the surface of body '{}'; {}",
-                                                 start.name(pair.first), remedy)};
+    if (pair.first == pair.second || sim::at(pair.first) >= world.soft.size()) continue;
+    return StartOverlap{
+        pair.second,
+        fmt::format("starts through the surface of body '{}'; {}, {}", name_of(world, pair.first),
+                    way_apart(world, pair.first, pair.second), remedy)};
   }
   return std::nullopt;
 }
@@ -96,7 +110,7 @@ void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
   if (start.settings.contact != sim::ContactMethod::swept) return;
   const auto overlap = find_start_overlap(start);
   if (!overlap) return;
-  refuse_body(scene, in_scene(scene, overlap->body).place, StartBodies(start).name(overlap->body),
+  refuse_body(scene, in_scene(scene, overlap->body).position_place, name_of(start, overlap->body),
               overlap->reason);
 }
 

@@ -25,8 +25,8 @@ std::string reason(const sim::World& world, const sim::SoftBody& body,
   const sim::SoftMaterial& material = body.material;
   const std::string by = fmt::format("with {}", scenes::integrator_name(world.settings.integrator));
   if (motion.decay > std::sqrt(motion.squared_frequency)) {
-    return fmt::format("k = {:g} N/m of k_max = {:g} N/m, rho_g = {:g} {}", material.k,
-                       material.k_max, material.rho_g, by);
+    return fmt::format("k = {:g} N/m, damped as k_max = {:g} N/m and rho_g = {:g} say, {}",
+                       material.k, material.k_max, material.rho_g, by);
   }
   return fmt::format("k = {:g} N/m, n = {:g} mol, vertex_mass = {:g} kg {}", material.k, material.n,
                      material.vertex_mass, by);
@@ -54,10 +54,8 @@ std::string remedy(const StepAdvice& advice) {
   std::vector<std::string> ways;
   if (advice.steps_per_second > 0) {
     const double step = 1.0 / advice.steps_per_second;
-    ways.push_back(fmt::format(
-        "a step of at most {:.3g} s for {} (--set "
-        "simulation.steps_per_second={})",
-        advice.too_long() ? safe_share * advice.limit : step, advice.why, advice.steps_per_second));
+    ways.push_back(fmt::format("a step of {:.3g} s for {} (--set simulation.steps_per_second={})",
+                               step, advice.why, advice.steps_per_second));
   }
   if (advice.implicit_can) {
     ways.emplace_back("--set simulation.integrator=implicit_euler");

@@ -24,7 +24,7 @@ struct StepAdvice {
 /// long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 
-/// "a step of at most 0.0021 s for k = 90000 N/m ... with rk4 (--set
+/// "a step of 0.00185 s for k = 90000 N/m ... with rk4 (--set
 /// simulation.steps_per_second=540), or --set simulation.integrator=implicit_euler".
 std::string remedy(const StepAdvice& advice);
 

@@ -119,7 +119,16 @@ double depth_of_pair(const Solid& first, const Solid& second) {
   return DepthSearch(first, second).run();
 }
 
+Solid solid_of(const World& world, int body) {
+  const std::size_t soft = world.soft.size();
+  return at(body) < soft ? Solid(world.soft[at(body)]) : Solid(world.rigid[at(body) - soft]);
+}
+
 }  // namespace
+
+double overlap_depth(const World& world, int first, int second) {
+  return depth_of_pair(solid_of(world, first), solid_of(world, second));
+}
 
 std::vector<Overlap> overlaps(const World& world) {
   std::vector<Solid> solids;

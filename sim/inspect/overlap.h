@@ -41,4 +41,7 @@ struct Overlap {
 /// not seen: crossings() sees every one.
 std::vector<Overlap> overlaps(const World& world);
 
+/// The depth of one pair, m, as overlaps() has it; 0 where they do not overlap.
+double overlap_depth(const World& world, int first, int second);
+
 }  // namespace pneuma::sim

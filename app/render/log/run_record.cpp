@@ -9,6 +9,7 @@
 #include "app/record/two_bodies.h"
 #include "app/record/world_json.h"
 #include "app/world/build_world.h"
+#include "app/world/touch.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
 #include "sim/inspect/crossings.h"
@@ -153,9 +154,9 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
                {"crossings", crossings_json(crossings)}};
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
-  const sim::CrossingPair* pair = sim::first_crossing_bodies(crossings);
+  const std::vector<sim::CrossingPair> deep = crossings_beyond_touch(world, crossings);
   return {std::move(line), std::move(times),
-          pair ? two_bodies(world, pair->first, pair->second) : std::string()};
+          deep.empty() ? std::string() : two_bodies(world, deep[0].first, deep[0].second)};
 }
 
 Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {

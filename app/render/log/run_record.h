@@ -68,7 +68,7 @@ Json present_header(const JournalContents& journal);
 struct FrameState {
   Json line;
   Json stage_seconds;
-  std::string bodies_that_cross;  // the first two, "torus and cube.3"; empty: none do
+  std::string bodies_that_cross;  // the first two, "torus and cube.3"; beyond a touch; empty: none
 };
 
 /// Makes a line per frame; with the parts of the steps that were done in parts, if any.

@@ -88,36 +88,61 @@ TEST(CheckText, HasTheRunOnlyWhenThereWasOne) {
   EXPECT_NE(check_text(report_of(sphere_text, true)).find("state hash"), std::string::npos);
 }
 
+sim::Settings by_impulses(double skin_thickness) {
+  sim::Settings settings;
+  settings.contact = sim::ContactMethod::impulses;
+  settings.skin_thickness = skin_thickness;
+  return settings;
+}
+
+TEST(RunStatisticsText, CallsARoundingNoPenetrationAndHasNoSkinOfSweptContacts) {
+  RunStatistics run;
+  run.penetration = {2.8e-16, 1.0};
+  EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "penetration"), "none");
+  run.penetration = {0.75, 1.25};
+  sim::Settings swept;
+  swept.contact = sim::ContactMethod::swept;
+  EXPECT_EQ(run_statistics_text(run, swept).find("skin"), std::string::npos);
+}
+
+TEST(StartOverlapText, SaysWhenBodiesCameApart) {
+  EXPECT_EQ(start_overlap_text({.pairs = 1, .left = 0, .parted = 0.4, .bodies = "a and b"}),
+            "a and b: overlap from the start, parted by t = 0.40 s");
+  EXPECT_NE(start_overlap_text({.pairs = 1, .left = 1, .parted = 0.0, .bodies = "a and b"})
+                .find("still at the end"),
+            std::string::npos);
+}
+
 TEST(RunStatisticsText, SaysWhetherPenetrationStaysBelowTheSkin) {
   RunStatistics run;
-  EXPECT_EQ(after(run_statistics_text(run, 0.5), "penetration"), "none");
+  EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "penetration"), "none");
   run.penetration = {0.75, 1.25};
   run.settled_penetration = 0.25;
-  const std::string below = run_statistics_text(run, 0.5);
+  const std::string below = run_statistics_text(run, by_impulses(0.5));
   EXPECT_EQ(after(below, "penetration"), "greatest 0.7500 m at 1.25 s");
   EXPECT_NE(below.find("0.2500 m, below the skin"), std::string::npos);
-  EXPECT_NE(run_statistics_text(run, 0.125).find("NOT below"), std::string::npos);
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.125)).find("NOT below"), std::string::npos);
 }
 
 TEST(RunStatistics, HaveTheHashOfTheStateInOneForm) {
   RunStatistics run;
   run.state_hash = 0x0123456789abcdef;
   EXPECT_EQ(run_statistics_json(run)["state_hash"], "0x0123456789abcdef");
-  EXPECT_EQ(after(run_statistics_text(run, 0.5), "state hash"), "0x0123456789abcdef");
+  EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "state hash"), "0x0123456789abcdef");
 }
 
 TEST(RunStatisticsText, SaysAtRestOrNot) {
   RunStatistics run;
   run.end_speed = 0.9 * rest_speed;
-  EXPECT_NE(run_statistics_text(run, 0.5).find(": at rest"), std::string::npos);
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": at rest"), std::string::npos);
   run.end_speed = 1.1 * rest_speed;
-  EXPECT_NE(run_statistics_text(run, 0.5).find(": not at rest"), std::string::npos);
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": not at rest"), std::string::npos);
 }
 
 TEST(RunStatisticsText, SaysHowItDiverged) {
   RunStatistics run;
   run.divergence = "ball: the volume is -1 m^3";
-  EXPECT_EQ(after(run_statistics_text(run, 0.5), "DIVERGED"), *run.divergence);
+  EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "DIVERGED"), *run.divergence);
 }
 
 TEST(CheckJson, SaysTheSameForMachines) {

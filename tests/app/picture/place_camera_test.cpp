@@ -127,5 +127,15 @@ TEST(UsefulBounds, EndWhereABodyFliesAway) {
   EXPECT_EQ(useful.high, Vec3::Constant(3.0));
 }
 
+TEST(PlaceCamera, WarnsOfAnEyeThatSeesNoBodyOrIsInOne) {
+  const auto notice = [](const std::string& eye, const std::string& target) {
+    const std::string camera = "camera = {eye = " + eye + ", target = " + target + "}\n";
+    return camera_of(scenes::parse_scene(camera + falling_ball, "x.toml")).notice;
+  };
+  EXPECT_EQ(notice("[0, -9, 6]", "[0, 0, 6]"), "");
+  EXPECT_NE(notice("[0, -9, 6]", "[0, -19, 6]").find("sees no body"), std::string::npos);
+  EXPECT_NE(notice("[0, 0, 6]", "[0, 5, 6]").find("inside body 'body1'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pneuma::app

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/world/build_world.h"
+#include "app/world/touch.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
@@ -30,8 +31,8 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
     const char* says;
   };
   for (const Case& wrong :
-       {Case{ball + rod + "[0, 0, 4]\n", "x.toml:4:1: body 'rod': starts "},
-        Case{ball + pea, "x.toml:4:1: body 'pea': starts "},
+       {Case{ball + rod + "[0, 0, 4]\n", "x.toml:8:12: body 'rod': starts "},
+        Case{ball + pea, "x.toml:7:12: body 'pea': starts "},
         Case{box + "[0, 0, 0.9]\n", "body 'box': starts 0.1 m deep in the ground"},
         Case{ball + "[[body]]\nname = \"low\"\nposition = [9, 0, 2]\n",
              "body 'low': starts 1 m deep in the ground"}}) {
@@ -44,6 +45,23 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   // What touches does not overlap.
   EXPECT_EQ(refusal_of(box + "[0, 0, 1]\n" + "copies = [1, 1, 3]\nspacing = [0, 0, 2]\n"), "");
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
+}
+
+TEST(StartOverlap, NamesAWayThatParts) {
+  const std::string ball = "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = ";
+  const std::string message = refusal_of(ball + "[5, 0, 4]\n");
+  EXPECT_NE(message.find("move it 1.01 m along +x"), std::string::npos) << message;
+  EXPECT_EQ(refusal_of(ball + "[6.01, 0, 4]\n"), "");
+}
+
+TEST(StartOverlap, TellsATouchByWeightFromAnOverlap) {
+  const std::string box = "[[body]]\nkind = \"rigid\"\nposition = [0, 0, ";
+  const auto deep = [&](const char* height) {
+    const std::string text = box + "1]\n" + box + height + "]\n";
+    return is_beyond_touch(build_world(scenes::parse_scene(text, "x.toml")), 0, 1);
+  };
+  EXPECT_FALSE(deep("2.999"));  // 1 mm; g dt^2 is 2.7 mm
+  EXPECT_TRUE(deep("2.99"));
 }
 
 }  // namespace
