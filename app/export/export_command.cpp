@@ -29,8 +29,8 @@ void add_export_command(CLI::App& app, Action& action) {
   command
       ->add_option("--format", typed->format,
                    "A mesh file per frame: ply (double precision), obj, glb or vtp (for ParaView, "
-                   "with velocities and times); html: one page that plays the run in a browser "
-                   "[ply]")
+                   "with velocities and times); npz: one file of arrays for NumPy; html: one page "
+                   "that plays the run in a browser [ply]")
       ->check(CLI::IsMember(names))
       ->type_name("FORMAT");
   command->add_flag("--animated", typed->animated,
@@ -45,6 +45,7 @@ void add_export_command(CLI::App& app, Action& action) {
   add_examples(*command, {"pneuma export pressure_soft --format ply --out meshes",
                           "pneuma export one_torus --format html",
                           "pneuma export one_torus --format glb --animated",
+                          "pneuma export one_torus --format npz",
                           "pneuma export my_scene.toml --format obj --frames 30 --overwrite"});
   command->callback([typed, &action] {
     action = [typed] {

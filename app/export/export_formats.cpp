@@ -8,6 +8,7 @@
 
 #include "app/export/animated_glb.h"
 #include "app/export/mesh_formats.h"
+#include "app/export/npz_run.h"
 #include "app/export/point_cache.h"
 #include "app/export/replay/replay_data.h"
 #include "app/export/replay/replay_page.h"
@@ -67,16 +68,22 @@ std::unique_ptr<FrameSink> open_replay(const ExportJob& job) {
                                       job.folder / (job.scene.name + ".html"));
 }
 
+std::unique_ptr<FrameSink> open_npz(const ExportJob& job) {
+  check_npz_size(vertex_count(job.start), job.frames);
+  return std::make_unique<NpzRun>(job);
+}
+
 template <class Sink>
 std::unique_ptr<FrameSink> open_sink(const ExportJob& job) {
   return std::make_unique<Sink>(job);
 }
 
-constexpr std::array<ExportFormat, 7> formats = {
+constexpr std::array<ExportFormat, 8> formats = {
     {{"ply", false, false, false, R"(_[0-9]{5,}\.ply)", open_mesh_files<0>},
      {"obj", false, false, false, R"(_[0-9]{5,}\.obj)", open_mesh_files<1>},
      {"glb", false, false, false, R"(_[0-9]{5,}\.glb)", open_mesh_files<2>},
      {"vtp", false, false, false, R"(_[0-9]{5,}\.vtp|\.pvd)", open_sink<VtkSeries>},
+     {"npz", false, true, false, R"(\.npz)", open_npz},
      {"html", false, true, true, R"(\.html)", open_replay},
      {"obj", true, true, false, R"(\.obj|\.pc2)", open_sink<PointCache>},
      {"glb", true, true, false, R"(\.glb)", open_sink<AnimatedGlb>}}};
@@ -90,9 +97,13 @@ const ExportFormat& export_format(std::string_view name, bool animated) {
     return each.name == name && each.animated == animated;
   });
   if (format != formats.end()) return *format;
+  if (name == "html" || name == "vtp" || name == "npz") {
+    throw UsageError(fmt::format(
+        "--animated: {} has all frames without the option; it is for --format glb and obj", name));
+  }
   throw UsageError(fmt::format(
-      "--animated: {} has no file for all frames; allowed are --format glb and --format obj{}",
-      name, name == "html" || name == "vtp" ? ", while this format plays without the option" : ""));
+      "--animated: {} has no file for all frames; allowed are --format glb and --format obj",
+      name));
 }
 
 }  // namespace pneuma::app
