@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "app/world/fill_body.h"
 #include "app/world/find_model.h"
 #include "app/world/refuse_body.h"
 #include "app/world/step_advice.h"
@@ -137,8 +138,10 @@ class Builder {
         const auto mesh = shared_mesh(body);
         count(body, mesh->topology.vertex_count());
         check_gas(body, *mesh);
-        const auto held = body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh) : mesh;
-        for (const Start& start : starts) add_soft(body, start, held);
+        const sim::SoftMaterial material = filled_material(scene_, body, mesh);
+        const auto held =
+            body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
+        for (const Start& start : starts) add_soft(body, start, held, material);
       }
     }
     return std::move(world_);
@@ -157,26 +160,28 @@ class Builder {
   }
 
   /// Not shared with other bodies: its rest lengths depend on the material.
-  std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh) {
+  std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh,
+                                                 const sim::SoftMaterial& material) {
     try {
-      return held_mesh_of(body, mesh);
+      return held_mesh_of(mesh, material);
     } catch (const sim::EquilibriumError& error) {
       refuse_body(scene_, body.rest_place, body.name,
                   fmt::format("rest = \"equilibrium\": {}{}", error.what(),
-                              step_with_stiffer_springs(body, mesh)));
+                              step_with_stiffer_springs(body, mesh, material)));
     }
   }
 
   /// Springs that hold the gas may need shorter steps than the scene's: "; with that k ...".
-  std::string step_with_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh) const {
-    BodyScene stiff = body;
+  std::string step_with_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh,
+                                        const sim::SoftMaterial& material) const {
+    sim::SoftMaterial stiff = material;
     try {
-      const double held = sim::max_held_gas(mesh.topology, mesh.rest_positions, body.material);
-      if (!(held < body.material.n)) return "";
-      stiff.material.k = std::stod(base::text_above(body.material.k * body.material.n / held));
+      const double held = sim::max_held_gas(mesh.topology, mesh.rest_positions, material);
+      if (!(held < material.n)) return "";
+      stiff.k = std::stod(base::text_above(material.k * material.n / held));
       Builder with_stiff(scene_);
-      with_stiff.add_soft(stiff, {body.name, body.position, Quaternion::Identity()},
-                          with_stiff.held_mesh_of(stiff, mesh));
+      with_stiff.add_soft(body, {body.name, body.position, Quaternion::Identity()},
+                          held_mesh_of(mesh, stiff), stiff);
       const StepAdvice advice = step_advice(with_stiff.world_, with_stiff.world_.soft.front());
       return advice.too_long() ? "; with that k use " + remedy(advice) : "";
     } catch (const sim::EquilibriumError&) {
@@ -184,11 +189,10 @@ class Builder {
     }
   }
 
-  static std::shared_ptr<const sim::SoftMesh> held_mesh_of(const BodyScene& body,
-                                                           const sim::SoftMesh& mesh) {
+  static std::shared_ptr<const sim::SoftMesh> held_mesh_of(const sim::SoftMesh& mesh,
+                                                           const sim::SoftMaterial& material) {
     return sim::make_soft_mesh(
-        mesh,
-        sim::find_equilibrium(mesh.topology, mesh.rest_positions, body.material).rest_lengths);
+        mesh, sim::find_equilibrium(mesh.topology, mesh.rest_positions, material).rest_lengths);
   }
 
   /// The scene was checked without its models.
@@ -215,19 +219,24 @@ class Builder {
   /// P = nRT / V needs a volume.
   void check_gas(const BodyScene& body, const sim::SoftMesh& mesh) const {
     const double volume = sim::volume(mesh.topology, mesh.rest_positions);
-    if (volume > 0.0 || body.material.n * body.material.temperature == 0.0) return;
+    const bool by_n = !body.gauge_pressure && !body.inflation;
+    if (volume > 0.0 || (by_n && body.material.n * body.material.temperature == 0.0)) return;
+    const std::string gas = by_n             ? fmt::format("n = {} mol", body.material.n)
+                            : body.inflation ? "by inflation"
+                                             : "by gauge_pressure";
     refuse(scene_, body,
-           fmt::format("holds gas (n = {} mol at {} K) but has a volume of {} m^3; give it a "
+           fmt::format("holds gas ({} at {} K) but has a volume of {} m^3; give it a "
                        "shape with room inside, or n = 0",
-                       body.material.n, body.material.temperature, volume));
+                       gas, body.material.temperature, volume));
   }
 
   void add_soft(const BodyScene& scene, const Start& start,
-                const std::shared_ptr<const sim::SoftMesh>& mesh) {
+                const std::shared_ptr<const sim::SoftMesh>& mesh,
+                const sim::SoftMaterial& material) {
     sim::SoftBody body;
     body.name = start.name;
     body.mesh = mesh;
-    body.material = scene.material;
+    body.material = material;
     const int count = mesh->topology.vertex_count();
     body.positions = sim::VertexArray(count);
     body.velocities = sim::VertexArray(count);

@@ -31,6 +31,36 @@ sim::World quiet_world(const sim::SoftBody& body) {
   return world;
 }
 
+/// m^3, at which the gas pushes no more than what is outside.
+double balanced_volume(const sim::GasLaw& law) {
+  if (law.ambient_pressure == 0.0) return std::numeric_limits<double>::infinity();
+  if (law.exponent == 1.0) return law.strength / law.ambient_pressure;
+  const double start = sim::absolute_pressure(law, law.start_volume);
+  return law.start_volume * std::pow(start / law.ambient_pressure, 1.0 / law.exponent);
+}
+
+/// Of the springs' own pressure: what is outside of a body whose volume is to be found.
+constexpr double tightness = 10.0;
+
+/// Pa with which the springs of a body at rest press on its gas: at s times the size its energy is
+/// as small as can be, so that 3 (P - p0) V = sum k (l - L) l.
+double spring_pressure(const sim::SoftBody& body, double volume) {
+  double sum = 0.0;
+  for (int e = 0; e < body.mesh->topology.edge_count(); ++e) {
+    const auto& [a, b] = body.mesh->topology.edges()[sim::at(e)];
+    const double length = (body.positions[b] - body.positions[a]).norm();
+    sum += (length - body.mesh->rest_lengths[sim::at(e)]) * length;
+  }
+  return body.material.k * sum / (3.0 * volume);
+}
+
+/// Pa: of springs stretched by their whole length.
+double spring_pressure_scale(const sim::SoftBody& body, double volume) {
+  double squares = 0.0;
+  for (const double length : body.mesh->rest_lengths) squares += length * length;
+  return body.material.k * squares / (3.0 * volume);
+}
+
 double volume_of(const sim::World& world) {
   const sim::SoftBody& body = world.soft.front();
   return sim::volume(body.mesh->topology, body.positions);
@@ -39,8 +69,9 @@ double volume_of(const sim::World& world) {
 }  // namespace
 
 std::optional<double> settled_volume(const sim::SoftBody& body) {
-  const bool gas = sim::gas_strength(body.material) > 0.0;
-  if (gas && body.material.k == 0.0) return std::numeric_limits<double>::infinity();
+  const sim::GasLaw law = sim::gas_law(body.material);
+  const bool gas = law.strength > 0.0;
+  if (gas && body.material.k == 0.0) return balanced_volume(law);
   sim::World world = quiet_world(body);
   double last = volume_of(world);
   if (!gas) return last;
@@ -50,6 +81,28 @@ std::optional<double> settled_volume(const sim::SoftBody& body) {
     const double now = volume_of(world);
     if (std::abs(now - last) < settled_change * now) return now;
     last = now;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> held_pressure(const sim::SoftBody& body, double volume) {
+  if (body.material.k == 0.0) return 0.0;
+  sim::World world = quiet_world(body);
+  sim::SoftBody& alone = world.soft.front();
+  sim::SoftMaterial& material = alone.material;
+  material.gas_exponent = 1.0;
+  const double outside = tightness * spring_pressure_scale(body, volume);
+  material.ambient_pressure = outside;
+  sim::Stepper stepper(world);
+  double held = spring_pressure(alone, volume);
+  for (int i = 0; i < most_steps; ++i) {
+    material.n = (outside + held) * volume / (sim::gas_constant * material.temperature);
+    if (stepper.step(world)) return std::nullopt;
+    const double now = spring_pressure(alone, volume_of(world));
+    const bool settled = std::abs(now - held) < settled_change * outside / tightness &&
+                         std::abs(volume_of(world) - volume) < settled_change * volume;
+    held = now;
+    if (settled) return held;
   }
   return std::nullopt;
 }

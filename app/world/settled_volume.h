@@ -12,4 +12,9 @@ namespace pneuma::app {
 /// evenly (uniform). Infinite when gas meets no springs; none when no balance is found.
 std::optional<double> settled_volume(const sim::SoftBody& body);
 
+/// Pa above those outside with which the body is at rest at that volume in m^3, alone and without
+/// weight. The volume is no less than that of the springs at rest: in a smaller one they crumple,
+/// this way or that. None when no balance is found.
+std::optional<double> held_pressure(const sim::SoftBody& body, double volume);
+
 }  // namespace pneuma::app

@@ -43,6 +43,7 @@ class RefusedKeys {
 
 void use_paper_method(Scene& scene) {
   sim::use_paper_method(scene.settings);
+  scene.ambient_pressure = 0.0;
   for (BodyScene& body : scene.bodies) sim::use_paper_method(body.material);
 }
 

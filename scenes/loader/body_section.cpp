@@ -48,6 +48,8 @@ Section body_section(BodyScene& body) {
   const Applicability boxes{"boxes", box, true};
   const Applicability models{"models", model, true};
   const Applicability soft_bodies{"soft bodies", soft};
+  const Applicability filled_by_n{"soft bodies without gauge_pressure and inflation",
+                                  soft && !body.gauge_pressure && !body.inflation};
   const Applicability rigid_bodies{"rigid bodies", !soft};
   const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
 
@@ -90,8 +92,19 @@ Section body_section(BodyScene& body) {
           only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
                              "of the springs: in the shape, or so that it holds its gas"}),
           only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
-          only(soft_bodies, {"n", &material.n, at_least(0), "mol", "amount of gas"}),
-          only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K", "of the gas"}),
+          only(filled_by_n, {"n", &material.n, at_least(0), "mol",
+                             "amount of gas; or give gauge_pressure, or inflation"}),
+          only(soft_bodies, selector({"gauge_pressure", &body.gauge_pressure, any(), "Pa",
+                                      "of the gas at the start, above simulation.ambient_pressure; "
+                                      "instead of n"})),
+          only(soft_bodies,
+               selector({"inflation", &body.inflation, at_least(1), "",
+                         "volume at rest, without weight, over that of the shape; instead of n"})),
+          only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K",
+                             "of the gas, at the start"}),
+          only(soft_bodies,
+               of_method({"gas_exponent", &material.gas_exponent, between(1, 10), "",
+                          "g of P V^g = constant: 1 isothermal, 1.4 air without heat exchange"})),
           only(soft_bodies, {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
           only(soft_bodies,
                of_method({"pressure_weighting", word(material.pressure_weighting, pressures), any(),

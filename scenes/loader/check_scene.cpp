@@ -131,6 +131,7 @@ class Checks {
                   "colour_axis has no direction; make one of its numbers other than 0");
     }
     check_integrator(body, header);
+    check_gas(body, header);
     check_spacing(body, header);
   }
 
@@ -143,6 +144,33 @@ class Checks {
         "an implicit integrator minimises an energy, but valence pressure is not the "
         "force of one; use pressure_weighting = \"uniform\", or an explicit integrator such as "
         "\"rk4\"");
+  }
+
+  void check_gas(const BodyScene& body, Origin header) {
+    if (body.kind != BodyKind::soft) return;
+    const Origin at = reader_.origin({&body.inflation, &body.gauge_pressure}, header);
+    if (body.gauge_pressure && body.inflation) {
+      report_.add(at,
+                  "both gauge_pressure and inflation say how much gas the body has; give one "
+                  "of n, gauge_pressure and inflation");
+    }
+    if (body.gauge_pressure && *body.gauge_pressure + scene_.ambient_pressure < 0.0 &&
+        reader_.valid({&body.gauge_pressure, &scene_.ambient_pressure})) {
+      report_.add(at, fmt::format("gauge_pressure = {} Pa is below a vacuum: with "
+                                  "simulation.ambient_pressure = {} Pa it must be at least {} Pa",
+                                  *body.gauge_pressure, scene_.ambient_pressure,
+                                  0.0 - scene_.ambient_pressure));
+    }
+    if (body.inflation && body.rest == Rest::equilibrium) {
+      report_.add(at,
+                  "inflation beside rest = \"equilibrium\", which holds the shape at its own "
+                  "volume whatever its gas; give n or gauge_pressure, or rest = \"shape\"");
+    }
+    if ((body.gauge_pressure || body.inflation) && body.material.temperature == 0.0) {
+      report_.add(reader_.origin({&body.material.temperature}, header),
+                  "temperature = 0 K: such gas has no pressure, however much of it; give a "
+                  "temperature above 0 K, such as 293.15");
+    }
   }
 
   void check_spacing(const BodyScene& body, Origin header) {

@@ -62,8 +62,11 @@ struct BodyScene {
   Vec3 size = {2.0, 2.0, 2.0};  // m: box
   ModelScene model;             // model
 
-  Rest rest = Rest::shape;     // soft
-  sim::SoftMaterial material;  // soft
+  Rest rest = Rest::shape;               // soft
+  std::optional<double> gauge_pressure;  // Pa at the start, above the ambient pressure: soft
+  std::optional<double> inflation;       // volume at rest over that of the shape: soft
+  // soft; with one of the two above, n and start_volume are of app/world/fill_body.h
+  sim::SoftMaterial material;
 
   double mass = sim::RigidBox{}.mass;    // kg: rigid
   double rho_g = sim::RigidBox{}.rho_g;  // rigid; a soft body's is in its material
@@ -137,6 +140,7 @@ struct Scene {
   double duration = 10.0;           // s; a whole number of frames
 
   sim::Settings settings;
+  double ambient_pressure = 0.0;  // Pa, outside of every body with gas
   std::vector<BodyScene> bodies;
   CameraScene camera;
   PictureScene picture;

@@ -72,6 +72,8 @@ Section simulation_section(Scene& scene) {
           of_method({"integrator", word(settings.integrator, integrators), any(), "",
                      "how soft bodies are stepped"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
+          of_method({"ambient_pressure", &scene.ambient_pressure, at_least(0), "Pa",
+                     "outside of every body with gas; that of air is 101325"}),
           of_method(selector(
               {"contact", word(settings.contact, contact_methods), any(), "",
                "swept: nothing passes through a soft body; impulses: as in the paper, after the "

@@ -21,7 +21,7 @@ GroundImpact ground_impact(double start_height, double start_velocity, double he
 
 /// A vertex that has come below z = 0 bounces there: from then on it moves as the rest of the step
 /// would have moved it, so that with a restitution of 1 the ground takes no energy to second order
-/// in the step (ERRATA row 69). Friction as in meet_ground. Returns the height (m) that it gets
+/// in the step (ERRATA row 70). Friction as in meet_ground. Returns the height (m) that it gets
 /// to; none, and nothing is changed, if it is too slow to bounce, or turns round in this step.
 std::optional<double> bounce(const GroundImpact& impact, const ContactMaterial& pair, double step,
                              Vec3& velocity);

@@ -17,7 +17,7 @@ SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& mat
       k_(material.k),
       dashpot_(dashpot_constant(material)),
       drag_(drag_rate(material)),
-      gas_(gas_strength(material)),
+      gas_(gas_law(material)),
       valence_(material.pressure_weighting == PressureWeighting::valence) {}
 
 Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
@@ -40,9 +40,9 @@ Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
   result.gravity_ = gravity_;
   result.drag_ = drag_;
   result.inverse_mass_ = inverse_mass_;
-  if (gas_ > 0.0) {
+  if (gas_.strength > 0.0) {
     result.volume_ = volume;
-    result.sixth_pressure_over_mass_ = gas_ / volume * inverse_mass_ / 6.0;
+    result.sixth_pressure_over_mass_ = gauge_pressure(gas_, volume) * inverse_mass_ / 6.0;
   }
   return result;
 }

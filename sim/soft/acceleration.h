@@ -1,13 +1,14 @@
 // The model's one differential equation (README "The model"), as a function of positions and
 // velocities: every integrator, study and reference solves exactly this.
 //
-//   m dv/dt = sum_springs [k (l - L) + c (v_rel . d)] d  +  w P dV/dx  +  m g  -  gamma m v
+//   m dv/dt = sum_springs [k (l - L) + c (v_rel . d)] d  +  w (P - p0) dV/dx  +  m g  -  gamma m v
 #pragma once
 
 #include <vector>
 
 #include "sim/mesh/soft_mesh.h"
 #include "sim/mesh/vec4d.h"
+#include "sim/soft/gas_law.h"
 #include "sim/soft/ring_forces.h"
 #include "sim/world/soft_body.h"
 
@@ -77,7 +78,7 @@ class SoftAcceleration {
   double k_;
   double dashpot_;
   double drag_;
-  double gas_;
+  GasLaw gas_;
   bool valence_;
 };
 

@@ -38,7 +38,7 @@ Eigen::VectorXd pressure_force(const MeshTopology& topology, const VertexArray& 
                            " m^3: gas needs a volume above zero, its triangles must be "
                            "counter-clockwise from outside");
   }
-  const double pressure = gas_strength(material) / enclosed;
+  const double pressure = gauge_pressure(gas_law(material), enclosed);
   const double mean_springs = 2.0 * topology.edge_count() / count;
   Eigen::VectorXd force(3 * count);
   for (int v = 0; v < count; ++v) {
@@ -130,6 +130,16 @@ Tensions find_tensions(const MeshTopology& topology, const VertexArray& position
                          "thicker shape, or springs at rest in the shape (rest = \"shape\")");
 }
 
+/// mol, with which the gas pushes no more than what is outside; 0 without ambient pressure.
+double balanced_gas(const MeshTopology& topology, const VertexArray& positions,
+                    const SoftMaterial& material) {
+  if (material.ambient_pressure == 0.0) return 0.0;
+  SoftMaterial one_mol = material;
+  one_mol.n = 1.0;
+  return material.ambient_pressure /
+         absolute_pressure(gas_law(one_mol), volume(topology, positions));
+}
+
 struct Strain {
   int edge = -1;       // -1: none is stretched
   double value = 0.0;  // (l - L) / l; from 1 on L would not be above zero
@@ -144,14 +154,15 @@ Strain greatest_strain(const std::vector<double>& lengths, const Tensions& tensi
   return greatest;
 }
 
-void check_strain(const MeshTopology& topology, const Strain& strain,
+void check_strain(const MeshTopology& topology, const VertexArray& positions, const Strain& strain,
                   const SoftMaterial& material) {
   if (strain.value < 1.0) return;
+  const double balanced = balanced_gas(topology, positions, material);
   const auto& [a, b] = topology.edges()[at(strain.edge)];
   throw EquilibriumError(
       "n = " + base::text(material.n) + " mol of gas is more than the springs can hold: at k = " +
       base::text(material.k) + " N/m and " + base::text(material.temperature) +
-      " K at most n = " + base::text_below(material.n / strain.value) +
+      " K at most n = " + base::text_below(balanced + (material.n - balanced) / strain.value) +
       " mol, where the spring of edge " + std::to_string(a) + "-" + std::to_string(b) +
       " would have no rest length left. Use no more gas than that, or at least k = " +
       base::text_above(material.k * strain.value) + " N/m");
@@ -172,7 +183,8 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
   Equilibrium result{edge_lengths(topology, positions), 0.0};
   if (!(gas_strength(material) > 0.0)) return result;
   const Tensions tensions = find_tensions(topology, positions, material, options);
-  check_strain(topology, greatest_strain(result.rest_lengths, tensions, material.k), material);
+  check_strain(topology, positions, greatest_strain(result.rest_lengths, tensions, material.k),
+               material);
   for (int e = 0; e < topology.edge_count(); ++e) {
     result.rest_lengths[at(e)] -= tensions.values[e] / material.k;
   }
@@ -183,11 +195,13 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
 double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
                     const SoftMaterial& material, const EquilibriumOptions& options) {
   SoftMaterial gas = material;
-  gas.n = 1.0;  // tensions are in proportion to it
+  gas.n = 1.0;
+  gas.ambient_pressure = 0.0;  // tensions are in proportion to the rest of the gas
   const Tensions tensions = find_tensions(topology, positions, gas, options);
   const double strain =
       greatest_strain(edge_lengths(topology, positions), tensions, material.k).value;
-  return strain > 0.0 ? gas.n / strain : std::numeric_limits<double>::infinity();
+  if (!(strain > 0.0)) return std::numeric_limits<double>::infinity();
+  return gas.n / strain + balanced_gas(topology, positions, material);
 }
 
 }  // namespace pneuma::sim

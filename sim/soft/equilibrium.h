@@ -2,7 +2,7 @@
 //
 // A membrane whose springs are at rest in the shape that was modelled leaves it as soon as gas
 // pushes: it wants to be a ball. The shape is the equilibrium instead if the springs are stretched
-// or pressed by tensions t that balance the pressure P = nRT / V of that shape,
+// or pressed by tensions t that balance the pressure P of that shape, above the one outside,
 //
 //   sum over the springs of a vertex of t d  +  w P dV/dx  =  0,    L = l - t / k,
 //

@@ -103,10 +103,12 @@ class ImplicitStep {
   /// Of springs, gas and gravity. Adds the sizes of the terms up in magnitude_.
   double potential(const VertexArray& positions) {
     const double springs = spring_energy(mesh_, positions, material_.k);
-    const double gas = gas_energy(material_, volume(mesh_.topology, positions));
+    const GasLaw law = gas_law(material_);
+    const double enclosed = volume(mesh_.topology, positions);
+    const double gas = gas_energy(law, enclosed);
     const double gravity =
         -material_.vertex_mass * positions.size() * settings_.gravity.dot(mean(positions));
-    magnitude_ = springs + std::abs(gas) + std::abs(gravity);
+    magnitude_ = springs + gas_energy_size(law, enclosed) + std::abs(gravity);
     return springs + gas + gravity;
   }
 

@@ -89,19 +89,18 @@ bool evaluate(const SoftMesh& mesh, const IncrementalPotential& energy, EnergyPo
   if (energy.friction) point.energy += friction_energy(energy, point.positions);
   point.magnitude = point.energy;
   point.volume = 1.0;
-  if (energy.gas > 0.0) {
+  if (energy.gas.strength > 0.0) {
     volume_gradient(mesh.topology, point.positions, point.volume_gradient);
     point.volume = volume(point.positions, point.volume_gradient);
     if (!(point.volume > volume_rounding(point.positions, point.volume_gradient))) return false;
-    const double gas = -energy.gas * std::log(point.volume);
-    point.energy += gas;
-    point.magnitude += std::abs(gas);
+    point.energy += gas_energy(energy.gas, point.volume);
+    point.magnitude += gas_energy_size(energy.gas, point.volume);
   }
   return std::isfinite(point.energy);
 }
 
 double pressure(const IncrementalPotential& energy, const EnergyPoint& point) {
-  return energy.gas > 0.0 ? energy.gas / point.volume : 0.0;
+  return energy.gas.strength > 0.0 ? gauge_pressure(energy.gas, point.volume) : 0.0;
 }
 
 void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& energy,

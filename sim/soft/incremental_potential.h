@@ -1,17 +1,19 @@
 // The incremental potential: the function of a body's positions x that an implicit step minimises:
 //
-//   E(x) = A/2 |x - y|^2  +  s/2 sum over springs (l - r)^2  -  nRT ln V  +  friction(x)
+//   E(x) = A/2 |x - y|^2  +  s/2 sum over springs (l - r)^2  +  gas(V)  +  friction(x)
 //
 // y is where the vertices would be without springs and gas, A their inertia, and s, r the stiffness
-// and rest lengths of springs and dashpots together (implicit_step.h says which). E grows without
-// bound as V -> 0 and as |x| -> infinity, so that it has a minimum with V > 0. Where there is a
-// ground, x is to stay above it, and some vertices at their friction anchors.
+// and rest lengths of springs and dashpots together (implicit_step.h says which). gas(V) is that of
+// gas_law.h, -nRT ln V unless chosen otherwise. E grows without bound as V -> 0 and as |x| ->
+// infinity, so that it has a minimum with V > 0. Where there is a ground, x is to stay above it,
+// and some vertices at their friction anchors.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "sim/mesh/soft_mesh.h"
+#include "sim/soft/gas_law.h"
 #include "sim/soft/vertex_matrix.h"
 
 namespace pneuma::sim {
@@ -23,7 +25,7 @@ struct IncrementalPotential {
   VertexArray target;                // y, m
   double stiffness = 0.0;            // s, N/m
   std::vector<double> rest_lengths;  // r, m, per edge
-  double gas = 0.0;                  // nRT, J; 0: V may be anything
+  GasLaw gas;                        // of no strength: V may be anything
 
   bool ground = false;
   std::vector<double> floor;  // m, per vertex: z is not to be below
@@ -57,10 +59,10 @@ struct EnergyPoint {
 /// finite: then the energy means nothing.
 bool evaluate(const SoftMesh& mesh, const IncrementalPotential& energy, EnergyPoint& point);
 
-/// P = nRT / V in pascal at a point that has been evaluated; 0 without gas.
+/// P - p0 in pascal at a point that has been evaluated; 0 without gas.
 double pressure(const IncrementalPotential& energy, const EnergyPoint& point);
 
-/// dE/dx in N at a point that has been evaluated, without the part of the gas, -P dV/dx.
+/// dE/dx in N at a point that has been evaluated, without the part of the gas, -(P - p0) dV/dx.
 void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& energy,
                           const EnergyPoint& point, VertexArray& gradient);
 

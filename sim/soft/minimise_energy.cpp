@@ -62,7 +62,7 @@ EnergyMinimiser::EnergyMinimiser(const SoftMesh& mesh)
 void EnergyMinimiser::update_gradient(const IncrementalPotential& energy) {
   gradient_without_gas(mesh_, energy, point_, other_gradient_);
   gradient_.rows() = other_gradient_.rows();
-  if (energy.gas > 0.0) {
+  if (energy.gas.strength > 0.0) {
     gradient_.rows() -= pressure(energy, point_) * point_.volume_gradient.rows();
   }
 }
@@ -109,9 +109,9 @@ void EnergyMinimiser::find_hessian(const IncrementalPotential& energy) {
 }
 
 void EnergyMinimiser::find_rank_one(const IncrementalPotential& energy) {
-  if (energy.gas > 0.0) {
+  if (energy.gas.strength > 0.0) {
     rank_one_.rows() =
-        std::sqrt(pressure(energy, point_) / point_.volume) * point_.volume_gradient.rows();
+        std::sqrt(pressure_slope(energy.gas, point_.volume)) * point_.volume_gradient.rows();
     if (energy.ground) clear_active(rank_one_);
   } else {
     rank_one_.rows().setZero();
@@ -121,7 +121,8 @@ void EnergyMinimiser::find_rank_one(const IncrementalPotential& energy) {
 /// False when S + q q^T cannot be positive definite.
 bool EnergyMinimiser::factorize(const IncrementalPotential& energy) {
   factors_inertia_ = energy.inertia;
-  has_factors_ = matrix_.factorize() && matrix_.negative_count() <= (energy.gas > 0.0 ? 1 : 0);
+  has_factors_ =
+      matrix_.factorize() && matrix_.negative_count() <= (energy.gas.strength > 0.0 ? 1 : 0);
   return has_factors_;
 }
 
@@ -129,16 +130,19 @@ bool EnergyMinimiser::factorize(const IncrementalPotential& energy) {
 bool EnergyMinimiser::solve(const IncrementalPotential& energy) {
   direction_.rows() = -other_gradient_.rows();
   matrix_.solve(direction_);
-  if (energy.gas > 0.0) {
-    const double p = pressure(energy, point_);
+  if (energy.gas.strength > 0.0) {
+    const double p = absolute_pressure(energy.gas, point_.volume);
+    const double gauge_fraction = 1.0 - energy.gas.ambient_pressure / p;
     rank_one_solved_.rows() = rank_one_.rows();
     matrix_.solve(rank_one_solved_);
     const double denominator = 1.0 + dot(rank_one_, rank_one_solved_);
     if ((denominator > 0.0) != (matrix_.negative_count() == 0)) return false;
-    // The gas's own gradient is -sqrt(PV) q. Put together by hand, since the two terms of the
-    // formula for it are far greater than what is left of them.
+    // The gas's own gradient is -sqrt(PV / g) (1 - p0 / P) q. Put together by hand, since the two
+    // terms of the formula for it are far greater than what is left of them.
     const double along_solved =
-        (std::sqrt(p * point_.volume) - dot(rank_one_, direction_)) / denominator;
+        (std::sqrt(p * point_.volume / energy.gas.exponent) * gauge_fraction -
+         dot(rank_one_, direction_)) /
+        denominator;
     direction_.rows() += along_solved * rank_one_solved_.rows();
   }
   return dot(gradient_, direction_) <= 0.0;
@@ -224,7 +228,8 @@ MinimiserReport EnergyMinimiser::minimise(const IncrementalPotential& energy, do
   diagonal_shift_ = 0.0;
   double last_size = std::numeric_limits<double>::infinity();  // of the last direction
   int polishing = 0;
-  const double gas_scale = energy.gas > 0.0 ? energy.gas : std::numeric_limits<double>::infinity();
+  const double gas_scale =
+      energy.gas.strength > 0.0 ? energy.gas.strength : std::numeric_limits<double>::infinity();
   while (report.iterations < max_newton_iterations && !report.converged) {
     update_gradient(energy);
     find_active_set(energy);

@@ -1,7 +1,5 @@
 #include "sim/soft/pressure_force.h"
 
-#include <cmath>
-
 #include "sim/mesh/measure.h"
 
 namespace pneuma::sim {
@@ -41,11 +39,6 @@ double volume_rounding(const VertexArray& positions, const VertexArray& gradient
     terms += (positions[v] - centre).norm() * gradient[v].norm();
   }
   return rounding * terms;
-}
-
-double gas_energy(const SoftMaterial& material, double volume) {
-  const double strength = gas_strength(material);
-  return strength > 0.0 ? -strength * std::log(volume) : 0.0;
 }
 
 }  // namespace pneuma::sim

@@ -1,9 +1,9 @@
-// The gas inside a body (paper 3.1.2): P = nRT / V pushes on every triangle along its outward
-// normal.
+// How the pressure inside a body (paper 3.1.2; gas_law.h) pushes on every triangle along its
+// outward normal.
 #pragma once
 
 #include "sim/mesh/soft_mesh.h"
-#include "sim/world/soft_body.h"
+#include "sim/soft/gas_law.h"
 
 namespace pneuma::sim {
 
@@ -19,13 +19,5 @@ double volume(const VertexArray& positions, const VertexArray& gradient);
 
 /// m^3, by which that may be off. A body as thin as this has no volume that a double can tell.
 double volume_rounding(const VertexArray& positions, const VertexArray& gradient);
-
-/// nRT in joule.
-inline double gas_strength(const SoftMaterial& material) {
-  return material.n * gas_constant * material.temperature;
-}
-
-/// -nRT ln(V / 1 m^3) in joule; 0 without gas. The force P dV/dx is its negative gradient.
-double gas_energy(const SoftMaterial& material, double volume);
 
 }  // namespace pneuma::sim

@@ -92,22 +92,57 @@ StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
   return limit;
 }
 
-StabilityLimit settled_stability_limit(Integrator integrator, const SoftBody& body) {
-  const SoftMesh& mesh = *body.mesh;
-  const StabilityLimit now = stability_limit(integrator, mesh, body.material, body.positions);
-  // At s times the size the energy k/2 sum (s l - L)^2 - 3 nRT ln s is minimal where
-  // s^2 k sum l^2 - s k sum l L = 3 nRT.
+namespace {
+
+/// k sum l^2 and k sum l L in joule: at s times the size, the energy of the springs is half of
+/// s^2 `squares` - 2 s `products`, but for a constant.
+struct SpringSums {
   double squares = 0.0, products = 0.0;
+};
+
+SpringSums sum_springs(const SoftBody& body) {
+  const SoftMesh& mesh = *body.mesh;
+  SpringSums sums;
   for (int e = 0; e < mesh.topology.edge_count(); ++e) {
     const auto& [a, b] = mesh.topology.edges()[at(e)];
     const double length = (body.positions[b] - body.positions[a]).norm();
-    squares += body.material.k * length * length;
-    products += body.material.k * length * mesh.rest_lengths[at(e)];
+    sums.squares += body.material.k * length * length;
+    sums.products += body.material.k * length * mesh.rest_lengths[at(e)];
   }
-  if (!(squares > 0.0)) return now;
-  const double gas = 3.0 * gas_strength(body.material);
-  const double size =
-      (products + std::sqrt(products * products + 4.0 * squares * gas)) / (2.0 * squares);
+  return sums;
+}
+
+/// s at which the energy is minimal: s^2 squares - s products = 3 (P - p0) V. In closed form where
+/// P V is nRT and nothing is outside, else by bisection: divided by s, the left side grows with s
+/// and the right side falls.
+double settled_size(const SoftBody& body, const SpringSums& springs) {
+  const double squares = springs.squares, products = springs.products;
+  const GasLaw law = gas_law(body.material);
+  if (law.exponent == 1.0 && law.ambient_pressure == 0.0) {
+    const double gas = 3.0 * law.strength;
+    return (products + std::sqrt(products * products + 4.0 * squares * gas)) / (2.0 * squares);
+  }
+  const double start = volume(body.mesh->topology, body.positions);
+  const auto too_large = [&](double s) {
+    const double v = start * s * s * s;
+    return s * s * squares - s * products > 3.0 * gauge_pressure(law, v) * v;
+  };
+  double low = 1e-3, high = 1e3;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = std::sqrt(low * high);
+    (too_large(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+StabilityLimit settled_stability_limit(Integrator integrator, const SoftBody& body) {
+  const SoftMesh& mesh = *body.mesh;
+  const StabilityLimit now = stability_limit(integrator, mesh, body.material, body.positions);
+  const SpringSums springs = sum_springs(body);
+  if (!(springs.squares > 0.0)) return now;
+  const double size = settled_size(body, springs);
   VertexArray enlarged(body.positions.size());
   const Vec3 centre = mean(body.positions);
   for (int v = 0; v < enlarged.size(); ++v) {

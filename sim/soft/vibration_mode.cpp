@@ -75,8 +75,9 @@ VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
   volume_gradient(mesh.topology, positions, area_);
   const double v = volume(positions, area_);
   if (!(v > 0.0)) return;  // the law of gases says nothing then
-  pressure_ = gas_strength(material) / v / material.vertex_mass;
-  rank_one_ = pressure_ / v;
+  const GasLaw gas = gas_law(material);
+  pressure_ = gauge_pressure(gas, v) / material.vertex_mass;
+  rank_one_ = gas.exponent * (absolute_pressure(gas, v) / material.vertex_mass) / v;
 }
 
 /// Springs, and `weight` times the dashpots, which act along them alone.
@@ -93,9 +94,9 @@ void VibrationMode::add_springs(const VectorXd& u, double weight, VectorXd& resu
   }
 }
 
-/// -P d^2V/dx^2 (incremental_potential.cpp) and P/V dV/dx dV/dx^T.
+/// -(P - p0) d^2V/dx^2 (incremental_potential.cpp) and g P/V dV/dx dV/dx^T.
 void VibrationMode::add_gas(const VectorXd& u, VectorXd& result) const {
-  if (pressure_ == 0.0) return;
+  if (rank_one_ == 0.0) return;
   double change = 0.0;
   for (int v = 0; v < area_.size(); ++v) change += area_[v].dot(u.segment<3>(3 * v));
   for (int v = 0; v < area_.size(); ++v) {

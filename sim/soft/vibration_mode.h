@@ -35,8 +35,8 @@ class VibrationMode {
   double stiffness_;              // k / m, 1/s^2
   double dashpot_;                // c / m, 1/s
   double drag_;                   // 1/s
-  double pressure_;               // P / m, 1/(m s^2)
-  double rank_one_;               // P / (V m), 1/(m^4 s^2)
+  double pressure_;               // (P - p0) / m, 1/(m s^2)
+  double rank_one_;               // g P / (V m), 1/(m^4 s^2)
   std::vector<Vec3> directions_;  // of the edges
   std::vector<double> stretch_;   // of the edges: 1 - L / l
   std::vector<Vec3> across_;      // m, of the edges: between the vertices on their two sides

@@ -20,7 +20,7 @@ void resolve_alone(World& world, const SoftState& start, const Contact& contact)
 
 /// Resolves all contacts of a soft body that touches the ground and nothing else: as resolve_alone,
 /// but of explicit integrators what bounces does so when it meets the ground, and adds no energy
-/// (ERRATA row 69). `before`: memory.
+/// (ERRATA row 70). `before`: memory.
 void resolve_on_ground(World& world, int soft, const SoftState& start,
                        std::span<const Contact> contacts, VertexArray& before);
 

@@ -19,8 +19,10 @@ inline void use_paper_method(Settings& settings) {
   settings.contact_iterations = 1;
 }
 
-/// The paper's pressure weights and damping (3.1.2, 3.1.3).
+/// The paper's gas, pressure weights and damping (3.1.2, 3.1.3).
 inline void use_paper_method(SoftMaterial& material) {
+  material.gas_exponent = 1.0;
+  material.ambient_pressure = 0.0;
   material.pressure_weighting = PressureWeighting::valence;
   material.damping = Damping::literal;
 }

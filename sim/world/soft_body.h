@@ -31,7 +31,11 @@ struct SoftMaterial {
   double k = 50.0;              // spring constant, N/m, >= 0
   double n = 10.0;              // amount of gas, mol, >= 0; 0 is an empty membrane
   double temperature = 293.15;  // K, >= 0
-  double vertex_mass = 0.35;    // kg, > 0
+  // ERRATA row 69, sim/soft/gas_law.h.
+  double gas_exponent = 1.0;      // >= 1; 1: isothermal
+  double start_volume = 1.0;      // m^3, at which the gas has its temperature
+  double ambient_pressure = 0.0;  // Pa, outside of a body with gas
+  double vertex_mass = 0.35;      // kg, > 0
   PressureWeighting pressure_weighting = PressureWeighting::uniform;
   Damping damping = Damping::dashpot;
   // Fraction of the velocity lost, 0 <= rho_g < 1: per 1/60 s under `dashpot`, and per step,

@@ -38,6 +38,7 @@ duration = 2.5
 steps_per_second = 240
 integrator = "velocity_verlet"
 gravity = [1.0, 2.0, -3.0]
+ambient_pressure = 101325
 skin_thickness = 0.25
 soft_search = "exact"
 contact = "impulses"
@@ -102,6 +103,7 @@ Scene every_member() {
       .relaxation_time = 0.125,
       .contact_iterations = 4,
       .seed = 9223372036854775807u};
+  expected.ambient_pressure = 101325.0;
   expected.camera.azimuth = 10.0;
   expected.camera.elevation = 20.0;
   expected.camera.field_of_view = 30.0;
@@ -144,6 +146,7 @@ rest = "equilibrium"
 k = 400
 n = 11
 temperature = 300.5
+gas_exponent = 1.4
 vertex_mass = 0.75
 pressure_weighting = "valence"
 damping = "literal"
@@ -177,6 +180,7 @@ Scene soft_body_scene() {
   expected.material = {.k = 400.0,
                        .n = 11.0,
                        .temperature = 300.5,
+                       .gas_exponent = 1.4,
                        .vertex_mass = 0.75,
                        .pressure_weighting = sim::PressureWeighting::valence,
                        .damping = sim::Damping::literal,
@@ -216,7 +220,8 @@ std::vector<std::string> keys_at_default(const Section& section, const Section& 
 }
 
 // So that a new key is also tested above. The keys named here exclude others, which are set there;
-// KeysOfTheOtherShapesSetTheirMembers sets them, and method_test.cpp the method.
+// KeysOfTheOtherShapesSetTheirMembers sets them, method_test.cpp the method, gas_keys_test.cpp the
+// gas.
 TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene scene = parse_scene(every_key, "all.toml"), defaults;
   const std::vector<Section> sections = fixed_sections(scene);
@@ -232,7 +237,7 @@ TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene soft = parse_scene(soft_body, "soft.toml");
   BodyScene body;
   EXPECT_EQ(keys_at_default(body_section(soft.bodies[0]), body_section(body)),
-            std::vector<std::string>({"body.kind"}));
+            std::vector<std::string>({"body.kind", "body.gauge_pressure", "body.inflation"}));
 }
 
 TEST(Reading, KeysOfTheOtherShapesSetTheirMembers) {

@@ -49,11 +49,14 @@ void compare(Comparison& c, const sim::ContactMaterial& a, const sim::ContactMat
 }
 
 void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial& b) {
-  const auto& [k, n, temperature, vertex_mass, pressure_weighting, damping, rho_g, k_max, surface] =
-      a;
+  const auto& [k, n, temperature, gas_exponent, start_volume, ambient_pressure, vertex_mass,
+               pressure_weighting, damping, rho_g, k_max, surface] = a;
   c.member("k", k, b.k);
   c.member("n", n, b.n);
   c.member("temperature", temperature, b.temperature);
+  c.member("gas_exponent", gas_exponent, b.gas_exponent);
+  c.member("start_volume", start_volume, b.start_volume);
+  c.member("material ambient_pressure", ambient_pressure, b.ambient_pressure);
   c.member("vertex_mass", vertex_mass, b.vertex_mass);
   c.member("pressure_weighting", pressure_weighting, b.pressure_weighting);
   c.member("damping", damping, b.damping);
@@ -74,7 +77,8 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
   const auto& [place, rest_place, position_place, model_place, name, kind, shape, radius,
-               tube_radius, stacks, slices, subdivisions, divisions, size, model, rest, material,
+               tube_radius, stacks, slices, subdivisions, divisions, size, model, rest,
+               gauge_pressure, inflation, material,
                mass, rho_g, surface, position, rotation, velocity, angular_velocity, copies,
                spacing, jitter, tumble, colours, colour_axis, roughness] = a;
   c.member("name", name, b.name);
@@ -89,6 +93,8 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("size", size, b.size);
   compare(c, model, b.model);
   c.member("rest", rest, b.rest);
+  c.member("gauge_pressure", gauge_pressure, b.gauge_pressure);
+  c.member("inflation", inflation, b.inflation);
   compare(c, material, b.material);
   c.member("mass", mass, b.mass);
   c.member("body rho_g", rho_g, b.rho_g);
@@ -167,8 +173,8 @@ void compare(Comparison& c, const Limits& a, const Limits& b) {
 
 std::string difference(const Scene& a, const Scene& b) {
   // Where a scene's file lies and what the loader said of it is no part of what it says.
-  const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings, bodies, camera,
-               picture, limits] = a;
+  const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings,
+               ambient_pressure, bodies, camera, picture, limits] = a;
   Comparison c;
   c.member("scene name", name, b.name);
   c.member("title", title, b.title);
@@ -176,6 +182,7 @@ std::string difference(const Scene& a, const Scene& b) {
   c.member("paper_fps", paper_fps, b.paper_fps);
   c.member("duration", duration, b.duration);
   compare(c, settings, b.settings);
+  c.member("ambient_pressure", ambient_pressure, b.ambient_pressure);
   c.member("number of bodies", bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < bodies.size() && i < b.bodies.size(); ++i) {
     compare(c, bodies[i], b.bodies[i]);

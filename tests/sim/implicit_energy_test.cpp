@@ -16,8 +16,13 @@
 namespace pneuma::sim {
 namespace {
 
-TEST(IncrementalPotential, GradientEqualsFiniteDifferences) {
-  MinimiserCase c(ball());
+/// Gas that heats up when it is pressed together, in air of a pressure below and above its own.
+void fill_with_air(MinimiserCase& c, double ambient) {
+  c.energy.gas = {5000.0, 1.4, 60.0, ambient};
+  ASSERT_TRUE(evaluate(c.mesh(), c.energy, c.point));
+}
+
+void expect_gradient(MinimiserCase& c) {
   const Eigen::VectorXd gradient = c.gradient();
   const double h = 1e-5;
   Eigen::VectorXd difference(c.size());
@@ -51,24 +56,41 @@ Eigen::MatrixXd hessian_by_differences(MinimiserCase& c) {
   return result;
 }
 
+TEST(IncrementalPotential, GradientEqualsFiniteDifferences) {
+  MinimiserCase c(ball());
+  expect_gradient(c);
+  for (const double ambient : {20.0, 200.0}) {
+    fill_with_air(c, ambient);
+    expect_gradient(c);
+  }
+}
+
+void expect_hessian(MinimiserCase& c) {
+  VertexMatrix matrix(c.mesh().topology);
+  hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
+                           matrix);
+  ASSERT_TRUE(matrix.factorize());
+  const Eigen::VectorXd area = MinimiserCase::flat(c.point.volume_gradient);
+  const Eigen::MatrixXd whole =
+      dense(matrix, c.point.positions.size()) +
+      pressure_slope(c.energy.gas, c.point.volume) * area * area.transpose();
+  const Eigen::MatrixXd difference = hessian_by_differences(c);
+  // As above, inverted twice.
+  EXPECT_LT((difference - whole).norm() / whole.norm(), 1e-7) << c.energy.gas.exponent;
+  // Sylvester's law, against the eigenvalues themselves.
+  const Eigen::MatrixXd sparse = dense(matrix, c.point.positions.size());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(sparse);
+  EXPECT_EQ(matrix.negative_count(), (solver.eigenvalues().array() < 0.0).count());
+}
+
 TEST(IncrementalPotential, HessianEqualsFiniteDifferencesOfTheGradient) {
   for (const double noise : {0.02, 0.3}) {
     MinimiserCase c(ball(), noise);
-    VertexMatrix matrix(c.mesh().topology);
-    hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
-                             matrix);
-    ASSERT_TRUE(matrix.factorize());
-    const Eigen::VectorXd area = MinimiserCase::flat(c.point.volume_gradient);
-    const Eigen::MatrixXd whole =
-        dense(matrix, c.point.positions.size()) +
-        pressure(c.energy, c.point) / c.point.volume * area * area.transpose();
-    const Eigen::MatrixXd difference = hessian_by_differences(c);
-    EXPECT_LT((difference - whole).norm() / whole.norm(), 1e-7)
-        << noise;  // as above, inverted twice
-    // Sylvester's law, against the eigenvalues themselves.
-    const Eigen::MatrixXd sparse = dense(matrix, c.point.positions.size());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(sparse);
-    EXPECT_EQ(matrix.negative_count(), (solver.eigenvalues().array() < 0.0).count());
+    expect_hessian(c);
+    for (const double ambient : {20.0, 200.0}) {
+      fill_with_air(c, ambient);
+      expect_hessian(c);
+    }
   }
 }
 
@@ -218,7 +240,7 @@ TEST(ConjugateGradients, SeeThatAMatrixIsNotPositive) {
 TEST(ConjugateGradients, GiveUpWhereSpringsAreStiff) {
   MinimiserCase c(ball(), 0.0);
   c.energy.inertia = 1e-9;
-  c.energy.gas = 0.0;
+  c.energy.gas.strength = 0.0;
   ASSERT_TRUE(evaluate(c.mesh(), c.energy, c.point));
   Hessian hessian(c);
   const int vertices = c.point.positions.size();

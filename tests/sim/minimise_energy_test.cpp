@@ -31,7 +31,7 @@ TEST(EnergyMinimiser, EndsWhereNoForceIsLeftButThatOfTheFloor) {
                                      std::pair{1.5, 5000.0}, std::pair{0.3, 0.0}}) {
       MinimiserCase c(make_sphere(3.0, 8, 8), noise);
       c.energy.ground = ground;
-      c.energy.gas = gas;
+      c.energy.gas.strength = gas;
       for (int v = 0; v < c.point.positions.size(); ++v) {
         c.energy.floor[at(v)] = ground ? std::min(-2.0, c.point.positions[v].z()) : -1e9;
         c.energy.target[v].z() -= 1.5;
@@ -54,7 +54,7 @@ TEST(EnergyMinimiser, FindsTheOnlyMinimumOfSpringsInClosedForm) {
   // Laplacian. By conjugate gradients, and by factors, of which one solution is exact.
   for (const auto& [stiffness, iterations] : {std::pair{300.0, 4}, std::pair{3e4, 2}}) {
     MinimiserCase c(ball(), 0.3);
-    c.energy.gas = 0.0;
+    c.energy.gas.strength = 0.0;
     c.energy.friction = false;
     c.energy.stiffness = stiffness;
     std::fill(c.energy.rest_lengths.begin(), c.energy.rest_lengths.end(), 0.0);
@@ -81,7 +81,7 @@ TEST(EnergyMinimiser, FindsTheOnlyMinimumOfSpringsInClosedForm) {
 TEST(EnergyMinimiser, KnowsNothingOfTheBodyBefore) {
   // One with gas, of a volume far from 1 m^3, and then one without.
   MinimiserCase full(ball()), empty(ball());
-  empty.energy.gas = 0.0;
+  empty.energy.gas.strength = 0.0;
   ASSERT_TRUE(evaluate(empty.mesh(), empty.energy, empty.point));
   EnergyMinimiser used(full.mesh()), fresh(full.mesh());
   used.point() = full.point;

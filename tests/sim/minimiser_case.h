@@ -25,7 +25,7 @@ struct MinimiserCase {
     energy.target.rows() = body.mesh->rest_positions.rows();
     energy.stiffness = 300.0;
     energy.rest_lengths = body.mesh->rest_lengths;
-    energy.gas = 5000.0;
+    energy.gas.strength = 5000.0;
     energy.friction = true;
     energy.regularisation_length = 0.2;
     energy.friction_anchor.rows() = body.mesh->rest_positions.rows();

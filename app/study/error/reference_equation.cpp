@@ -67,14 +67,16 @@ double volume_of(const sim::SoftBody& body, const Part& part) {
   return six_volumes / 6.0;
 }
 
-/// P = nRT / V on each triangle's area vector, a third to each corner (ERRATA rows 1 and 3), scaled
-/// by the corner's weight (row 4).
+/// P = nRT / V0 (V0 / V)^g less the pressure outside (row 69) on each triangle's area vector, a
+/// third to each corner (ERRATA rows 1 and 3), scaled by the corner's weight (row 4).
 bool add_pressure(const sim::SoftBody& body, const std::vector<double>& weights, const Part& part) {
   const double nrt = body.material.n * 8.314472 * body.material.temperature;
   if (nrt == 0.0) return true;
   const double volume = volume_of(body, part);
   if (!(volume > 0.0)) return false;
-  const double pressure = nrt / volume;
+  const double start = body.material.start_volume;
+  const double pressure = nrt / start * std::pow(start / volume, body.material.gas_exponent) -
+                          body.material.ambient_pressure;
   for (const auto& triangle : body.mesh->topology.triangles()) {
     const Corner a = corner(part, triangle[0]);
     const Corner b = corner(part, triangle[1]);

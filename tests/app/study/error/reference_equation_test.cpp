@@ -62,6 +62,11 @@ TEST(ReferenceEquation, IsTheSimulationsWithEveryChoice) {
     EXPECT_LT(difference_from_simulation(body), rounding) << what;
   };
   check("valence", [](auto& m) { m.pressure_weighting = sim::PressureWeighting::valence; });
+  check("air outside", [](auto& m) {
+    m.gas_exponent = 1.4;
+    m.start_volume = 20.0;
+    m.ambient_pressure = 300.0;
+  });
   check("no gas", [](auto& m) { m.n = 0.0; });
   check("no springs", [](auto& m) { m.k = 0.0; });
   check("no dashpots", [](auto& m) { m.k_max = std::numeric_limits<double>::infinity(); });
