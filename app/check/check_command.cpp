@@ -16,7 +16,8 @@
 #include "app/terminal/common_options.h"
 #include "app/world/build_world.h"
 #include "app/world/find_model.h"
-#include "app/world/find_scene.h"
+#include "app/world/model_scene.h"
+#include "app/world/open_scene.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
@@ -35,15 +36,12 @@ struct CheckOptions {
 };
 
 ExitCode check_model_file(const CheckOptions& options) {
-  if (options.run || !options.overrides.empty()) {
-    throw UsageError(
-        "check: --run and --set are for scenes; for this model use "
-        "`pneuma check model --set model.file=" +
-        options.scene + "`");
-  }
-  const ModelCheck checked = check_model(find_model(options.scene, ""));
-  fmt::print("{}",
-             options.json ? model_check_json(checked).dump(2) + "\n" : model_check_text(checked));
+  const std::filesystem::path path = find_model(options.scene, "");
+  const ModelCheck checked = check_model(path);
+  fmt::print("{}", options.json ? model_check_json(checked).dump(2) + "\n"
+                                : model_check_text(checked) +
+                                      "\nThe scene that `pneuma render` makes of it\n\n" +
+                                      model_scene_text(path));
   return ExitCode::done;
 }
 
@@ -94,9 +92,10 @@ ExitCode check(const CheckOptions& options) {
   if (options.scene.empty()) {
     throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
   }
-  if (assets::has_model_ending(options.scene)) return check_model_file(options);
+  const bool as_scene = options.run || !options.overrides.empty();
+  if (assets::has_model_ending(options.scene) && !as_scene) return check_model_file(options);
   CheckReport report;
-  report.scene = scenes::load_scene(find_scene(options.scene), options.overrides);
+  report.scene = open_scene(options.scene, options.overrides);
   const sim::World world = build_world(report.scene);
   refuse_start_overlap(report.scene, world);
   report.plan = sim::make_plan(world);

@@ -11,7 +11,7 @@
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
+#include "app/world/open_scene.h"
 #include "app/world/simulation.h"
 #include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
@@ -100,7 +100,7 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
 }  // namespace
 
 ExitCode export_scene(const ExportRequest& request) {
-  const scenes::Scene scene = scenes::load_scene(find_scene(request.scene), request.overrides);
+  const scenes::Scene scene = open_scene(request.scene, request.overrides);
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -16,11 +17,13 @@
 #include "app/render/log/run_log.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "app/world/gas_advice.h"
+#include "app/world/open_scene.h"
 #include "app/world/start_overlap.h"
 #include "app/world/step_advice.h"
-#include "scenes/loader/load_scene.h"
+#include "assets/model_file.h"
+#include "scenes/loader/print_scene.h"
+#include "sim/base/file.h"
 #include "sim/step/plan.h"
 
 namespace pneuma::app {
@@ -45,6 +48,17 @@ bool shows_particles(const Pictures& pictures) {
   return pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
 }
 
+void warn_of_gas(const scenes::Scene& scene, const sim::World& world, Progress& progress) {
+  for (const GasAdvice& advice : gas_advices(world, quick_advice)) {
+    if (advice.left_out) {
+      progress.say(fmt::format("{}: body {}: {}; `pneuma check` tries", scene.name, advice.body,
+                               volumes_text(advice)));
+    } else if (advice.blown_up()) {
+      progress.say(fmt::format("{}: warning: {}", scene.name, gas_warning(advice)));
+    }
+  }
+}
+
 /// Steps may be too long, gas may blow bodies up, and particles are asked for in vain where no two
 /// soft bodies can meet.
 void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const sim::World& world,
@@ -55,11 +69,7 @@ void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const
       progress.say(fmt::format("{}: warning: {}", scene.name, step_warning(advice)));
     }
   }
-  for (const GasAdvice& advice : gas_advices(world)) {
-    if (advice.blown_up()) {
-      progress.say(fmt::format("{}: warning: {}", scene.name, gas_warning(advice)));
-    }
-  }
+  if (scene.figure.empty()) warn_of_gas(scene, world, progress);  // the paper's are meant to swell
   const sim::Plan plan = sim::make_plan(world);
   if (!shows_particles(pictures) || plan.runs(sim::Stage::move_particles)) return;
   const auto stage = static_cast<std::size_t>(sim::Stage::move_particles);
@@ -132,16 +142,25 @@ void make_video(const RunFolder& folder, std::int64_t first, int frames_per_seco
   }
 }
 
+/// What was chosen for a model, as a scene file of its own.
+void keep_scene(const scenes::Scene& scene, const RunFolder& folder) {
+  const std::string text = scenes::print_scene(scene);
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  base::write_file_atomically(folder.scene().string(), {bytes, text.size()});
+  fmt::print("{}\n", folder.scene().string());
+}
+
 }  // namespace
 
 ExitCode render_scene(const RenderRequest& request) {
   Progress progress(progress_style(request.quiet));
-  const scenes::Scene scene = scenes::load_scene(find_scene(request.scene), request.overrides);
+  const scenes::Scene scene = open_scene(request.scene, request.overrides);
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);
   try {
     if (!request.video.empty()) check_video(scene, request.video, progress);
     make_frames(request, scene, frames, folder, progress);
+    if (assets::has_model_ending(request.scene)) keep_scene(scene, folder);
     fmt::print("{}\n", folder.path().string());
     if (request.sheet) {
       write_contact_sheet(folder, frames.first, frames.last, *request.sheet);

@@ -9,6 +9,7 @@
 #include "sim/base/text.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/equilibrium.h"
+#include "sim/soft/gas_law.h"
 
 namespace pneuma::app {
 namespace {
@@ -25,11 +26,13 @@ std::optional<double> max_held(const sim::SoftBody& body) {
   }
 }
 
-GasAdvice gas_advice(const sim::SoftBody& body) {
+GasAdvice gas_advice(const sim::SoftBody& body, int max_vertices) {
   GasAdvice advice;
   advice.body = body.name;
+  advice.vertices = body.mesh->topology.vertex_count();
   advice.volume = sim::volume(body.mesh->topology, body.positions);
-  advice.settled = settled_volume(body);
+  advice.left_out = advice.vertices > max_vertices && sim::gas_strength(body.material) > 0.0;
+  if (!advice.left_out) advice.settled = settled_volume(body);
   advice.k = body.material.k;
   if (advice.blown_up()) advice.max_held = max_held(body);
   return advice;
@@ -39,14 +42,21 @@ GasAdvice gas_advice(const sim::SoftBody& body) {
 
 bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
 
-std::vector<GasAdvice> gas_advices(const sim::World& world) {
+std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
-  for (const sim::SoftBody* body : distinct_bodies(world)) advices.push_back(gas_advice(*body));
+  for (const sim::SoftBody* body : distinct_bodies(world)) {
+    advices.push_back(gas_advice(*body, max_vertices));
+    if (!advices.back().left_out) max_vertices -= advices.back().vertices;
+  }
   return advices;
 }
 
 std::string volumes_text(const GasAdvice& advice) {
   const std::string start = base::text(advice.volume) + " m^3 at the start, ";
+  if (advice.left_out) {
+    return fmt::format("{}at rest not predicted: with {} vertices that takes long", start,
+                       advice.vertices);
+  }
   if (!advice.settled) return start + "no balance of springs and gas was found";
   if (std::isinf(*advice.settled)) return start + "growing for ever: its gas meets no springs";
   const std::string times = fmt::format("{:.3g}", *advice.settled / advice.volume);

@@ -11,6 +11,8 @@ namespace pneuma::app {
 
 struct GasAdvice {
   std::string body;
+  int vertices = 0;
+  bool left_out = false;           // too many vertices: no more is known than the next
   double volume = 0.0;             // m^3, at the start
   std::optional<double> settled;   // m^3 at rest and without weight (settled_volume.h)
   std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
@@ -20,10 +22,14 @@ struct GasAdvice {
   bool blown_up() const;  // to more than twice its volume
 };
 
-/// Of one body for each mesh and material. There is no advice against bodies that shrink: springs
-/// are at rest in the shape or stretched by its gas, so that only weight and contacts press a body
-/// together.
-std::vector<GasAdvice> gas_advices(const sim::World& world);
+/// Vertices of all distinct bodies for which there is advice: before a run it is to take well below
+/// a second, and a body takes some ten steps of an implicit integrator.
+inline constexpr int quick_advice = 3'000, patient_advice = 30'000;
+
+/// Of one body for each mesh and material, up to so many vertices in all. There is no advice
+/// against bodies that shrink: springs are at rest in the shape or stretched by its gas, so that
+/// only weight and contacts press a body together.
+std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices = patient_advice);
 
 /// "27.7 m^3 at the start, 94.1 m^3 (3.4 times) at rest without weight".
 std::string volumes_text(const GasAdvice& advice);

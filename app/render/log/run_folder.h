@@ -27,6 +27,7 @@ class RunFolder {
   std::filesystem::path frame(std::int64_t index) const;
   std::filesystem::path overlay(std::int64_t index) const;
   std::filesystem::path sheet() const { return folder_ / (name_ + "_sheet.png"); }
+  std::filesystem::path scene() const { return folder_ / (name_ + ".toml"); }
   std::filesystem::path record() const { return folder_ / "run.json"; }
   std::filesystem::path journal() const { return folder_ / (name_ + ".journal"); }
   std::filesystem::path state() const { return folder_ / (name_ + ".state"); }

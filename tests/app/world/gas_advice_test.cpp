@@ -36,6 +36,18 @@ TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
   EXPECT_TRUE(advices_on("[[body]]\nkind = \"rigid\"\n").empty());
 }
 
+TEST(GasAdvice, IsLeftOutWhereItTakesLong) {
+  const sim::World world =
+      build_world(scenes::parse_scene("[[body]]\n[[body]]\nn = 1\n[[body]]\nn = 0\n", "x.toml"));
+  const int vertices = world.soft[0].mesh->topology.vertex_count();
+  const auto advices = gas_advices(world, 2 * vertices - 1);
+  EXPECT_FALSE(advices.at(0).left_out);
+  EXPECT_TRUE(advices.at(1).left_out);
+  EXPECT_FALSE(advices.at(1).blown_up());
+  EXPECT_NE(volumes_text(advices[1]).find("not predicted"), std::string::npos);
+  EXPECT_FALSE(advices.at(2).left_out) << "without gas there is nothing to predict";
+}
+
 TEST(GasAdvice, HasWordsForBodiesThatNothingHolds) {
   const GasAdvice free = advices_on("[[body]]\nk = 0\n").at(0);
   EXPECT_TRUE(free.blown_up());

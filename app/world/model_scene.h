@@ -1,0 +1,23 @@
+// A scene of a model alone: it falls on the ground, dents, bounces and rests, with numbers that
+// suit its mesh.
+//
+// Springs of k make a membrane of about k sqrt(3) N/m, whatever the lengths of its edges. The whole
+// body has the same size, mass and k whatever its mesh, so that its weight stretches that membrane
+// by a percent or two, and gas a little above the pressure outside bears the weight. What is
+// outside makes the gas resist a change of volume. The mesh decides the mass of a vertex, and with
+// it the step (sim/soft/stability_limit.h).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace pneuma::app {
+
+/// The scene as TOML, to be kept and edited: only what is not a default, with the reasons. Reads
+/// the model, by its absolute path. Throws assets::ModelError.
+std::string model_scene_text(const std::filesystem::path& model);
+
+/// What the scene's file is called: NAME.toml of NAME.ply.
+std::filesystem::path model_scene_file(const std::filesystem::path& model);
+
+}  // namespace pneuma::app
