@@ -28,7 +28,7 @@ struct Model {
   // The file's vertices, where the importer gives them otherwise: how many there are, and for each
   // vertex of the mesh its number there, as people count in that format. 0 and empty: as the mesh.
   int vertices_in_file = 0;
-  std::vector<int> vertex_numbers;
+  std::vector<int> vertex_numbers = {};
 };
 
 }  // namespace pneuma::assets

@@ -40,7 +40,7 @@ std::string bytes(double count) {
 double memory_gib(const WorldSize& size, const scenes::Scene& scene) {
   std::int64_t of_models = size.vertices;
   for (const scenes::BodyScene& body : scene.bodies) {
-    if (body.kind == scenes::BodyKind::rigid) continue;
+    if (body.kind != scenes::BodyKind::soft) continue;
     of_models -= scenes::vertex_count(body) * scenes::copy_count(body);
   }
   return scenes::estimated_memory_gib(scene) + scenes::estimated_memory_gib(of_models, 1);

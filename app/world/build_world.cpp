@@ -131,7 +131,7 @@ class Builder {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyScene& body = scene_.bodies[i];
       const auto starts = place_copies(body, Random(scene_.settings.seed, i));
-      if (body.kind == BodyKind::rigid) {
+      if (body.kind != BodyKind::soft) {
         vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
         for (const Start& start : starts) add_rigid(body, start);
       } else {
@@ -254,6 +254,7 @@ class Builder {
     box.name = start.name;
     box.size = scene.size;
     box.mass = scene.mass;
+    box.is_kinematic = scene.kind == BodyKind::fixed || scene.kind == BodyKind::moved;
     box.rho_g = scene.rho_g;
     box.surface = scene.surface;
     box.position = start.position;
@@ -278,7 +279,7 @@ std::vector<std::uint64_t> model_fingerprints(const scenes::Scene& scene, const 
   std::vector<std::uint64_t> fingerprints;
   std::size_t index = 0;  // of the body's first copy
   for (const BodyScene& body : scene.bodies) {
-    if (body.kind == BodyKind::rigid) continue;
+    if (body.kind != BodyKind::soft) continue;
     if (body.shape == Shape::model) fingerprints.push_back(fingerprint(*world.soft[index].mesh));
     index += static_cast<std::size_t>(scenes::copy_count(body));
   }

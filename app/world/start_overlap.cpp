@@ -94,9 +94,9 @@ std::optional<StartOverlap> find_start_overlap(const sim::World& world) {
 /// Soft bodies come first in a world, each kind in the order of the scene.
 const scenes::BodyScene& in_scene(const scenes::Scene& scene, int body) {
   std::int64_t left = body;
-  for (const scenes::BodyKind kind : {scenes::BodyKind::soft, scenes::BodyKind::rigid}) {
+  for (const bool soft : {true, false}) {
     for (const scenes::BodyScene& each : scene.bodies) {
-      if (each.kind != kind) continue;
+      if ((each.kind == scenes::BodyKind::soft) != soft) continue;
       left -= scenes::copy_count(each);
       if (left < 0) return each;
     }

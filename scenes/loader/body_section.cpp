@@ -19,6 +19,8 @@ constexpr std::array dampings = {
 constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::soft, "soft"},
     Named<BodyKind>{BodyKind::rigid, "rigid"},
+    Named<BodyKind>{BodyKind::fixed, "static"},
+    Named<BodyKind>{BodyKind::moved, "moved"},
 };
 constexpr std::array rests = {
     Named<Rest>{Rest::shape, "shape"},
@@ -50,7 +52,9 @@ Section body_section(BodyScene& body) {
   const Applicability soft_bodies{"soft bodies", soft};
   const Applicability filled_by_n{"soft bodies without gauge_pressure and inflation",
                                   soft && !body.gauge_pressure && !body.inflation};
-  const Applicability rigid_bodies{"rigid bodies", !soft};
+  const Applicability rigid_bodies{"rigid bodies", body.kind == BodyKind::rigid};
+  const Applicability free_bodies{"soft and rigid bodies", soft || body.kind == BodyKind::rigid};
+  const Applicability moving_bodies{"bodies that are not static", body.kind != BodyKind::fixed};
   const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
 
   const Word kind = word(body.kind, kinds);
@@ -63,8 +67,10 @@ Section body_section(BodyScene& body) {
       .what = fmt::format("a {} {}", kind.words[kind.get()], shape.words[shape.get()]),
       .keys = {
           {"name", &body.name, any(), "", "of this body alone", check_body_name},
-          selector({"kind", kind, any(), "", "gas-filled membrane, or box that keeps its shape"}),
-          of_shape(selector({"shape", shape, any(), "", "a rigid body is always a box"})),
+          selector({"kind", kind, any(), "",
+                    "gas-filled membrane, or box: free, fixed, or moved at its velocities"}),
+          of_shape(
+              selector({"shape", shape, any(), "", "a body that is not soft is always a box"})),
           only(round, {"radius", &body.radius, length(), "m",
                        "of a sphere; of the centre line of a torus"}),
           only(tori, {"tube_radius", &body.tube_radius, length(), "m", "less than radius"}),
@@ -114,7 +120,8 @@ Section body_section(BodyScene& body) {
           only(soft_bodies, {"k_max", &material.k_max, above(0), "N/m",
                              "springs of this k or more are damped most"}),
           only(rigid_bodies, {"mass", &body.mass, above(0), "kg", "of the whole box"}),
-          {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"},
+          only(free_bodies,
+               {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"}),
           {"restitution", &surface.restitution, between(0, 1), "",
            "0 keeps no normal velocity, 1 keeps all"},
           {"friction", &surface.friction, at_least(0), "", "Coulomb's coefficient"},
@@ -122,8 +129,10 @@ Section body_section(BodyScene& body) {
           {"position", &body.position, place(), "m", "of the shape's centre"},
           {"rotation", &body.rotation, between(-360, 360), "degrees",
            "about world x, then y, then z"},
-          {"velocity", &body.velocity, place(), "m/s", "at the start"},
-          {"angular_velocity", &body.angular_velocity, place(), "rad/s", "about world axes"},
+          only(moving_bodies, {"velocity", &body.velocity, place(), "m/s",
+                               "at the start; of a moved body always"}),
+          only(moving_bodies, {"angular_velocity", &body.angular_velocity, place(), "rad/s",
+                               "about world axes; likewise"}),
 
           {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
           {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},

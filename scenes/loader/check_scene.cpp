@@ -130,9 +130,24 @@ class Checks {
       report_.add(reader_.origin({&body.colour_axis}, header),
                   "colour_axis has no direction; make one of its numbers other than 0");
     }
+    check_kinematic(body, header);
     check_integrator(body, header);
     check_gas(body, header);
     check_spacing(body, header);
+  }
+
+  static const char* kind_word(BodyKind kind) {
+    if (kind == BodyKind::fixed) return "static";
+    return kind == BodyKind::moved ? "moved" : "rigid";
+  }
+
+  void check_kinematic(const BodyScene& body, Origin header) {
+    if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
+    if (scene_.settings.contact == sim::ContactMethod::swept) return;
+    report_.add(reader_.origin({&body.kind, &scene_.settings.contact}, header),
+                fmt::format("kind = \"{}\" needs swept contacts; set simulation.contact = "
+                            "\"swept\" and no method = \"paper\", or make the body rigid",
+                            kind_word(body.kind)));
   }
 
   void check_integrator(const BodyScene& body, Origin header) {

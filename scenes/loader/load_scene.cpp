@@ -104,7 +104,7 @@ class Loader {
 
   void read_body(const Table& table, BodyScene& body, Origin header) {
     reader_.read_selectors(table, body_section(body));
-    if (body.kind == BodyKind::rigid) make_box(table, body, header);
+    if (body.kind != BodyKind::soft) make_box(table, body, header);
     reader_.read_others(table, body_section(body));
   }
 

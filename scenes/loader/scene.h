@@ -17,7 +17,12 @@ namespace pneuma::scenes {
 
 using sim::Vec3;
 
-enum class BodyKind { soft, rigid };
+enum class BodyKind {
+  soft,
+  rigid,
+  fixed,  // "static": a box that never moves
+  moved,  // a box that keeps its velocities, whatever it meets
+};
 enum class Shape { sphere, torus, box, icosphere, model };
 
 /// When a soft body's springs are at rest.

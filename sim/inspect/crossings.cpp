@@ -121,7 +121,13 @@ int count_edges_through(const Searchable& first, const Searchable& other, bool o
 }  // namespace
 
 Crossings crossings(const World& world) {
-  return crossings(closed_surfaces(world), static_cast<int>(world.soft.size()));
+  Crossings all = crossings(closed_surfaces(world), static_cast<int>(world.soft.size()));
+  std::erase_if(all.pairs, [&](const CrossingPair& pair) {
+    if (!is_kinematic(world, pair.first) || !is_kinematic(world, pair.second)) return false;
+    all.between_bodies -= pair.edges;
+    return true;
+  });
+  return all;
 }
 
 Crossings crossings(std::vector<ClosedSurface> surfaces, int soft) {

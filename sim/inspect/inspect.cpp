@@ -18,6 +18,7 @@ void add_list(base::Hash& hash, const std::vector<int>& values) {
 
 Energy energy(const RigidBox& box, const Vec3& gravity) {
   Energy result;
+  if (box.is_kinematic) return result;  // of no finite mass
   result.kinetic =
       0.5 * box.mass * box.velocity.squaredNorm() + 0.5 * box.angular_velocity.dot(spin(box));
   result.gravity = -box.mass * gravity.dot(box.position);
@@ -70,6 +71,7 @@ Momentum momentum(const World& world) {
     sum.angular += term.angular;
   }
   for (const RigidBox& box : world.rigid) {
+    if (box.is_kinematic) continue;
     const Vec3 linear = box.mass * box.velocity;
     sum.linear += linear;
     sum.angular += box.position.cross(linear) + spin(box);

@@ -143,8 +143,10 @@ std::vector<Overlap> overlaps(const World& world) {
   };
   const int count = static_cast<int>(solids.size());
   for (int i = 0; i < count; ++i) {
-    if (world.settings.ground) add(i, ground_body, -bounds[at(i)].low.z());
+    const bool kinematic = is_kinematic(world, i);
+    if (world.settings.ground && !kinematic) add(i, ground_body, -bounds[at(i)].low.z());
     for (int j = i + 1; j < count; ++j) {
+      if (kinematic && is_kinematic(world, j)) continue;
       if (!overlap(bounds[at(i)], bounds[at(j)])) continue;
       add(i, j, depth_of_pair(solids[at(i)], solids[at(j)]));
     }

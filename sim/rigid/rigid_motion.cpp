@@ -48,6 +48,10 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rot
 
 void move_freely(RigidBox& box, const Vec3& gravity, double step) {
   box.position += step * box.velocity;
+  if (box.is_kinematic) {
+    box.orientation = turned(box.orientation, box.angular_velocity * step);
+    return;
+  }
   rotate_freely(box, step);
   const double kept = std::pow(1.0 - box.rho_g, 60.0 * step);
   box.velocity = kept * (box.velocity + step * gravity);

@@ -178,7 +178,7 @@ Vec3 SweptBodies::start_point(const SurfacePoint& point) const {
 }
 
 SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
-  if (point.body == swept_ground) return {};
+  if (point.body == swept_ground || is_kinematic(world, point.body)) return {};
   if (is_rigid(point.body)) return {box_changes_[at(box(point.body))], point.point};
   return {changes_[at(point.body)], vertices(point), point.weights,
           world.soft[at(point.body)].material.vertex_mass};

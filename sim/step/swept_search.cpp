@@ -37,6 +37,9 @@ void SweptSearch::find_candidates() {
   m_.candidates.clear();
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
+    if (is_kinematic(world_, pair.first) && is_kinematic(world_, pair.second)) {
+      continue;
+    }
     const std::size_t before = m_.candidates.size();
     if (!offer_near_boxes(pair)) offer_near_features(pair);
     if (m_.candidates.size() > before) bodies_.may_meet(pair);
@@ -52,7 +55,7 @@ void SweptSearch::offer_near_features(const BodyPair& bodies) {
 
 void SweptSearch::find_near_ground() {
   for (int i = 0; i < bodies_.count(); ++i) {
-    if (bodies_.is_lone(i)) continue;
+    if (bodies_.is_lone(i) || is_kinematic(world_, i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
     for (int v = 0; v < surface.start.size(); ++v) {

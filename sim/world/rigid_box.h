@@ -16,6 +16,7 @@ struct RigidBox {
   std::string name;
   Vec3 size = Vec3::Ones();  // full lengths along body x, y, z: the paper's width, height, depth, m
   double mass = 1.0;         // kg
+  bool is_kinematic = false;  // it keeps its velocities, whatever acts on it: its mass is unused
   double rho_g =
       0.01;  // fraction of both velocities lost per 1/60 s, 0 <= rho_g < 1 (ERRATA row 35)
   ContactMaterial surface;

@@ -49,6 +49,13 @@ struct World {
   std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
 };
 
+/// Whether nothing changes how a body moves; soft bodies come first, then boxes. How such bodies
+/// lie to each other and to the ground is no matter of contacts.
+inline bool is_kinematic(const World& world, int body) {
+  const int box = body - static_cast<int>(world.soft.size());
+  return box >= 0 && world.rigid[at(box)].is_kinematic;
+}
+
 inline double time(const World& world) {
   return static_cast<double>(world.steps) / world.settings.steps_per_second;
 }

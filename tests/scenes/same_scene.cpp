@@ -78,9 +78,9 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
   const auto& [place, rest_place, position_place, model_place, name, kind, shape, radius,
                tube_radius, stacks, slices, subdivisions, divisions, size, model, rest,
-               gauge_pressure, inflation, material,
-               mass, rho_g, surface, position, rotation, velocity, angular_velocity, copies,
-               spacing, jitter, tumble, colours, colour_axis, roughness] = a;
+               gauge_pressure, inflation, material, mass, rho_g, surface, position, rotation,
+               velocity, angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis,
+               roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);

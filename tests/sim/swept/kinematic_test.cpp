@@ -1,0 +1,70 @@
+// Boxes that stand still or are moved, whatever they meet.
+#include <gtest/gtest.h>
+
+#include "sim/inspect/crossings.h"
+#include "sim/inspect/inspect.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+RigidBox make_kinematic(const Vec3& size, const Vec3& position,
+                        const Vec3& velocity = Vec3::Zero()) {
+  RigidBox box = make_rigid(size, position);
+  box.is_kinematic = true;
+  box.velocity = velocity;
+  box.surface = {0.0, 0.5};
+  return box;
+}
+
+TEST(Kinematic, ABoxRestsOnAStaticSlab) {
+  World world;
+  world.rigid = {make_kinematic({8.0, 8.0, 1.0}, {0.0, 0.0, 5.0}),
+                 make_rigid({1.0, 1.0, 1.0}, {0.3, 0.2, 6.5})};
+  ASSERT_FALSE(run(world, 3.0));
+  EXPECT_EQ(world.rigid[0].position, Vec3(0.0, 0.0, 5.0));
+  EXPECT_NEAR(world.rigid[1].position.z(), 6.0, 0.01);
+  EXPECT_LT(world.rigid[1].velocity.norm(), 0.01);
+}
+
+TEST(Kinematic, AMovedBoxTakesAFreeOneAlongAtItsSpeed) {
+  World world;
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.rigid = {make_kinematic({1.0, 2.0, 2.0}, {-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}),
+                 make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}, 5.0)};
+  world.rigid[1].surface = {0.0, 0.0};
+  world.rigid[1].rho_g = 0.0;
+  ASSERT_FALSE(run(world, 2.0));
+  EXPECT_EQ(world.rigid[0].velocity, Vec3(2.0, 0.0, 0.0));
+  EXPECT_NEAR(world.rigid[0].position.x(), 2.0, 1e-12);
+  EXPECT_NEAR(world.rigid[1].velocity.x(), 2.0, 1e-3);
+  EXPECT_GT(world.rigid[1].position.x() - world.rigid[0].position.x(), 0.99);
+}
+
+TEST(Kinematic, ABallIsPressedBetweenASlabAndAPlateAndCrossesNeither) {
+  World world;
+  SoftBody ball = make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 8.1});
+  ball.material.n = 0.5;
+  world.soft = {ball};
+  world.rigid = {make_kinematic({10.0, 10.0, 1.0}, {0.0, 0.0, 4.5}),
+                 make_kinematic({10.0, 10.0, 1.0}, {0.0, 0.0, 12.0}, {0.0, 0.0, -1.0})};
+  Stepper stepper(world);
+  for (int i = 0; i < 90; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << divergence->what;
+    ASSERT_EQ(crossings(world).between_bodies, 0) << "after step " << i;
+  }
+  EXPECT_NEAR(world.rigid[1].position.z(), 10.5, 1e-12);
+  EXPECT_GT(volume(world.soft[0].mesh->topology, world.soft[0].positions), 1.0);
+}
+
+TEST(Kinematic, WhatIsOfNoFiniteMassHasNoEnergyAndNoMomentum) {
+  World world;
+  world.rigid = {make_kinematic({1.0, 1.0, 1.0}, {0.0, 0.0, 5.0}, {3.0, 0.0, 0.0})};
+  EXPECT_EQ(energy(world).total(), 0.0);
+  EXPECT_EQ(momentum(world).linear, Vec3(0.0, 0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace pneuma::sim
