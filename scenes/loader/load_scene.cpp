@@ -113,7 +113,7 @@ class Loader {
     const bool is_given = find(table, "shape") != nullptr && reader_.valid({&body.shape});
     if (is_given && body.shape != Shape::box) {
       report_.add(reader_.origin({&body.shape}, header),
-                  "a rigid body is always a box; leave shape out or make the body soft");
+                  "a body that is not soft is always a box; leave shape out or make the body soft");
     }
     body.shape = Shape::box;
   }

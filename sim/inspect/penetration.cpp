@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "sim/collision/find_body_contacts.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/collision/separating_axis.h"
 #include "sim/collision/surface_view.h"
@@ -93,16 +94,26 @@ double depth_of_pair(const Shapes& shapes, const BodyPair& pair) {
   return box_and_box(box(pair.first), box(pair.second));
 }
 
+double depth_in_ground(const World& world) {
+  double low = 0.0;
+  for (const SoftBody& body : world.soft) low = std::min(low, bounds(body.positions).low.z());
+  for (const RigidBox& box : world.rigid) {
+    if (!box.is_kinematic) low = std::min(low, placed_box(box).bounds.low.z());
+  }
+  return -low;
+}
+
 }  // namespace
 
 double max_penetration(const World& world) {
-  double depth = 0.0;
-  if (world.settings.ground) depth = std::max(depth, -bounds(world).low.z());
-
+  double depth = world.settings.ground ? depth_in_ground(world) : 0.0;
   const Shapes shapes(world);
   std::vector<BodyPair> pairs;
   SweepAndPrune().find(shapes.spheres, pairs);
-  for (const BodyPair& pair : pairs) depth = std::max(depth, depth_of_pair(shapes, pair));
+  for (const BodyPair& pair : pairs) {
+    if (is_kinematic(world, pair.first) && is_kinematic(world, pair.second)) continue;
+    depth = std::max(depth, depth_of_pair(shapes, pair));
+  }
   return depth;
 }
 

@@ -196,7 +196,6 @@ TEST_F(ModelScene, CheckReportsAModelFile) {
   EXPECT_EQ(json["vertices"], 8);
   EXPECT_EQ(json["volume_m3"], 8.0);
   EXPECT_EQ(json["components"].size(), 1u);
-  EXPECT_EQ(run_pneuma("check --run " + path + " 2>/dev/null").exit_code, 2);
 }
 
 }  // namespace

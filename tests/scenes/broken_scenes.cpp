@@ -164,7 +164,16 @@ const std::vector<BrokenScene> inapplicable_keys = {
      4,
      1,
      {"a camera without eye and target only"}},
-    {"rigid_sphere", rigid("shape = \"sphere\""), 3, 9, {"a rigid body is always a box"}},
+    {"static_with_impulses",
+     "[simulation]\ncontact = \"impulses\"\n[[body]]\nkind = \"static\"\n",
+     4,
+     8,
+     {"kind = \"static\" needs swept contacts"}},
+    {"rigid_sphere",
+     rigid("shape = \"sphere\""),
+     3,
+     9,
+     {"a body that is not soft is always a box"}},
 };
 
 const std::vector<BrokenScene> wrong_types = {

@@ -115,6 +115,9 @@ void make_consistent(Scene& scene) {
     for (BodyScene& body : scene.bodies) sim::use_paper_method(body.material);
   }
   for (BodyScene& body : scene.bodies) {
+    if (body.kind != BodyKind::soft && scene.settings.contact != sim::ContactMethod::swept) {
+      body.kind = BodyKind::rigid;
+    }
     if (body.shape == Shape::torus && body.kind == BodyKind::soft) {
       body.tube_radius = body.radius / 3.0;
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);
@@ -122,7 +125,7 @@ void make_consistent(Scene& scene) {
     if (!sim::can_integrate(scene.settings.integrator, body.material)) {
       body.material.pressure_weighting = sim::PressureWeighting::uniform;
     }
-    if (body.kind == BodyKind::rigid || body.material.temperature == 0.0) {
+    if (body.kind != BodyKind::soft || body.material.temperature == 0.0) {
       body.gauge_pressure.reset();
       body.inflation.reset();
     }
@@ -154,7 +157,7 @@ Scene any_scene() {
     BodyScene& body = scene.bodies[i];
     body.name = *rc::gen::arbitrary<bool>() ? default_name(i) : "x-" + std::to_string(i);
     set_at_random(body_section(body), true);
-    if (body.kind == BodyKind::rigid) body.shape = Shape::box;
+    if (body.kind != BodyKind::soft) body.shape = Shape::box;
     set_at_random(body_section(body), false);
   }
   make_consistent(scene);

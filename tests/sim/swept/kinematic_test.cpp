@@ -64,6 +64,8 @@ TEST(Kinematic, WhatIsOfNoFiniteMassHasNoEnergyAndNoMomentum) {
   world.rigid = {make_kinematic({1.0, 1.0, 1.0}, {0.0, 0.0, 5.0}, {3.0, 0.0, 0.0})};
   EXPECT_EQ(energy(world).total(), 0.0);
   EXPECT_EQ(momentum(world).linear, Vec3(0.0, 0.0, 0.0));
+  world.rigid[0].position.z() = 0.2;
+  EXPECT_EQ(max_penetration(world), 0.0) << "nor is its place a matter of contacts";
 }
 
 }  // namespace
