@@ -68,10 +68,11 @@ float lit_share() {
 #endif
 
 void main() {
+  vec3 facet = normalize(cross(dFdx(world), dFdy(world)));
 #ifdef SMOOTH
   vec3 n = normalize(outward);
 #else
-  vec3 n = normalize(cross(dFdx(world), dFdy(world)));
+  vec3 n = facet;
 #endif
   vec3 to_eye = normalize(eye - world);
   float nv = clamp(dot(n, to_eye), 0.0, 1.0);
@@ -88,7 +89,9 @@ void main() {
   float up = 2.0 * nv * n.z - to_eye.z;
   vec3 mirrored = mix(floor_light * openness.y, sky_light(max(up, 0.0)) * openness.x,
                       smoothstep(-roughness, roughness, up));
-  float reflected = fresnel(nv, roughness);
+  // Interpolated normals of a coarse surface turn away from the eye long before it does itself; by
+  // less than the tenth they differ on fine ones, whose facets would show.
+  float reflected = fresnel(max(nv, abs(dot(facet, to_eye)) - 0.1), roughness);
   float shine = highlight(nl, nv, max(dot(n, half_way), 0.0), max(dot(to_eye, half_way), 0.0),
                           roughness);
   colour = vec4(shown(mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine)), 1.0);
