@@ -12,12 +12,14 @@
 #include "app/check/check_report.h"
 #include "app/check/keys_json.h"
 #include "app/host/errors.h"
+#include "app/picture/place_camera.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
 #include "app/world/build_world.h"
 #include "app/world/find_model.h"
 #include "app/world/model_scene.h"
 #include "app/world/open_scene.h"
+#include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
@@ -70,18 +72,13 @@ ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
   return ExitCode::check_failed;
 }
 
-void warn(const CheckReport& report) {
-  const auto say = [&](const std::string& what) {
-    fmt::print(stderr, "{}: warning: {}\n", report.scene.name, what);
-  };
-  for (const std::string& warning : report.scene.warnings)
-    fmt::print(stderr, "warning: {}\n", warning);
-  for (const StepAdvice& advice : report.steps) {
-    if (advice.too_long()) say(step_warning(advice));
+/// Of a camera that the scene leaves to the program nothing is known before a run.
+void warn(const CheckReport& report, const sim::World& world) {
+  for (const std::string& warning : scene_warnings(report.scene, report.steps, report.gas)) {
+    fmt::print(stderr, "{}\n", warning);
   }
-  for (const GasAdvice& advice : report.gas) {
-    if (advice.blown_up()) say(gas_warning(advice));
-  }
+  const std::string hidden = what_camera_misses(report.scene, world);
+  if (!hidden.empty()) fmt::print(stderr, "{}: {}\n", report.scene.name, hidden);
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -102,7 +99,7 @@ ExitCode check(const CheckOptions& options) {
   report.size = world_size(world);
   report.steps = step_advices(world);
   report.gas = gas_advices(world);
-  warn(report);
+  warn(report, world);
   if (options.run) report.run = run_statistics(report.scene, options.threads);
 
   fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));

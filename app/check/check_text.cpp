@@ -62,9 +62,9 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
                      fmt::format("{}; with meshes and pictures about {}",
                                  bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
   text += named_line(
-      "run", fmt::format("{:g} s: {} steps, {} frames after the first", scene.duration,
+      "run", fmt::format("{:g} s: {} steps, {} frames with the first at 0 s", scene.duration,
                          grouped(scenes::frame_count(scene) * scenes::steps_per_frame(scene)),
-                         grouped(scenes::frame_count(scene))));
+                         grouped(scenes::frame_count(scene) + 1)));
   return text;
 }
 
@@ -221,7 +221,7 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
     text += named_line("at the start", start_overlap_text(run.start_overlap));
   }
   text += self_crossings_text(run);
-  if (run.end_overlap > 0.0) {
+  if (run.end_overlap >= shown_depth) {
     text += named_line("overlap at the end",
                        fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
   }

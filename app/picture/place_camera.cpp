@@ -109,8 +109,10 @@ bool is_inside(const sim::World& world, int body, const Vec3& point) {
   return solid.find_depth(point).has_value();
 }
 
-/// Why a camera of the scene's own shows nothing of it, or nothing to say.
-std::string what_is_hidden(const scenes::Scene& scene, const sim::World& start) {
+}  // namespace
+
+std::string what_camera_misses(const scenes::Scene& scene, const sim::World& start) {
+  if (!scene.camera.eye || !scene.camera.target) return "";
   const int count = static_cast<int>(start.soft.size() + start.rigid.size());
   bool sees_one = false;
   for (int body = 0; body < count; ++body) {
@@ -128,8 +130,6 @@ std::string what_is_hidden(const scenes::Scene& scene, const sim::World& start) 
          "leave eye and target out";
 }
 
-}  // namespace
-
 Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body) {
   const double size = std::max(start.size().norm(), largest_body);
   const Vec3 reach = Vec3::Constant(followed_distance * size);
@@ -142,7 +142,7 @@ Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body
 PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
                           const OnFrame& on_frame) {
   if (scene.camera.eye && scene.camera.target) {
-    return {fixed_camera(scene.camera), what_is_hidden(scene, start)};
+    return {fixed_camera(scene.camera), what_camera_misses(scene, start)};
   }
   const Extent extent = run_ahead(scene, start, threads, on_frame);
   const Bounds useful = useful_bounds(extent.start, extent.run, extent.largest_body);

@@ -26,6 +26,10 @@ struct PlacedCamera {
 PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
                           const OnFrame& on_frame = {});
 
+/// Why the scene's own camera shows nothing of it at the start; empty where it does, and where the
+/// scene leaves the camera to the program.
+std::string what_camera_misses(const scenes::Scene& scene, const sim::World& start);
+
 /// The part of a run's bounds worth showing: bodies that fall or fly away for ever would make all
 /// others vanish. `largest_body` is the max. diagonal of a single body during the run, m.
 sim::Bounds useful_bounds(const sim::Bounds& start, const sim::Bounds& run, double largest_body);

@@ -17,10 +17,9 @@
 #include "app/render/log/run_log.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
-#include "app/world/gas_advice.h"
 #include "app/world/open_scene.h"
+#include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
-#include "app/world/step_advice.h"
 #include "assets/model_file.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
@@ -48,28 +47,21 @@ bool shows_particles(const Pictures& pictures) {
   return pictures.show.particles || (pictures.overlay && pictures.overlay->particles);
 }
 
-void warn_of_gas(const scenes::Scene& scene, const sim::World& world, Progress& progress) {
-  for (const GasAdvice& advice : gas_advices(world, quick_advice)) {
-    if (advice.left_out) {
-      progress.say(fmt::format("{}: body {}: {}; `pneuma check` tries", scene.name, advice.body,
-                               volumes_text(advice)));
-    } else if (advice.blown_up()) {
-      progress.say(fmt::format("{}: warning: {}", scene.name, gas_warning(advice)));
-    }
-  }
-}
-
 /// Steps may be too long, gas may blow bodies up, and particles are asked for in vain where no two
 /// soft bodies can meet.
 void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const sim::World& world,
                      Progress& progress) {
-  for (const std::string& warning : scene.warnings) progress.say(warning);
-  for (const StepAdvice& advice : step_advices(world)) {
-    if (advice.too_long()) {
-      progress.say(fmt::format("{}: warning: {}", scene.name, step_warning(advice)));
-    }
+  std::vector<GasAdvice> gas;
+  if (scene.figure.empty())
+    gas = gas_advices(world, quick_advice);  // the paper's are meant to swell
+  for (const std::string& warning : scene_warnings(scene, step_advices(world), gas)) {
+    progress.say(warning);
   }
-  if (scene.figure.empty()) warn_of_gas(scene, world, progress);  // the paper's are meant to swell
+  for (const GasAdvice& advice : gas) {
+    if (!advice.left_out) continue;
+    progress.say(fmt::format("{}: body '{}': {}; `pneuma check` tries", scene.name, advice.body,
+                             volumes_text(advice)));
+  }
   const sim::Plan plan = sim::make_plan(world);
   if (!shows_particles(pictures) || plan.runs(sim::Stage::move_particles)) return;
   const auto stage = static_cast<std::size_t>(sim::Stage::move_particles);

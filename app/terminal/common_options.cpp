@@ -4,12 +4,17 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "assets/model_file.h"
+
 namespace pneuma::app {
 
 void add_scene_option(CLI::App& command, std::string& scene) {
-  command.add_option("scene", scene, "A scene file, or the name of one in scenes/")
+  command
+      .add_option("scene", scene,
+                  "A scene file, or the name of one in scenes/; or a model file (" +
+                      assets::model_endings() + ")")
       ->required()
-      ->type_name("SCENE");
+      ->type_name("SCENE|MODEL");
 }
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {

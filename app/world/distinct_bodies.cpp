@@ -1,5 +1,7 @@
 #include "app/world/distinct_bodies.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -18,15 +20,24 @@ bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
 
 }  // namespace
 
-std::vector<const sim::SoftBody*> distinct_bodies(const sim::World& world) {
-  std::vector<const sim::SoftBody*> known;
+std::vector<DistinctBody> distinct_bodies(const sim::World& world) {
+  std::vector<DistinctBody> known;
   for (const sim::SoftBody& body : world.soft) {
-    const bool is_known = std::any_of(known.begin(), known.end(), [&](const sim::SoftBody* other) {
-      return alike(*other, body);
+    const auto same = std::find_if(known.begin(), known.end(), [&](const DistinctBody& other) {
+      return alike(*other.first, body);
     });
-    if (!is_known) known.push_back(&body);
+    if (same == known.end()) {
+      known.push_back({&body});
+    } else {
+      ++same->count;
+    }
   }
   return known;
+}
+
+std::string body_and_alike(const std::string& name, int count) {
+  return fmt::format("body '{}'{}", name,
+                     count > 1 ? fmt::format(" and {} like it", count - 1) : "");
 }
 
 }  // namespace pneuma::app

@@ -1,13 +1,22 @@
 // Bodies of which what holds for one holds for its copies.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/world/world.h"
 
 namespace pneuma::app {
 
-/// The first soft body of each mesh and material: only those can differ before the first step.
-std::vector<const sim::SoftBody*> distinct_bodies(const sim::World& world);
+struct DistinctBody {
+  const sim::SoftBody* first;  // of a mesh and material
+  int count = 1;               // of bodies with them
+};
+
+/// One soft body for each mesh and material: only those can differ before the first step.
+std::vector<DistinctBody> distinct_bodies(const sim::World& world);
+
+/// "body 'ball'", "body 'ball.1' and 4 like it".
+std::string body_and_alike(const std::string& name, int count);
 
 }  // namespace pneuma::app

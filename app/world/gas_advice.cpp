@@ -44,8 +44,9 @@ bool GasAdvice::blown_up() const { return settled && *settled > most_growth * vo
 
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
-  for (const sim::SoftBody* body : distinct_bodies(world)) {
-    advices.push_back(gas_advice(*body, max_vertices));
+  for (const DistinctBody& body : distinct_bodies(world)) {
+    advices.push_back(gas_advice(*body.first, max_vertices));
+    advices.back().count = body.count;
     if (!advices.back().left_out) max_vertices -= advices.back().vertices;
   }
   return advices;
@@ -66,7 +67,8 @@ std::string volumes_text(const GasAdvice& advice) {
 
 std::string gas_warning(const GasAdvice& advice) {
   const std::string grows =
-      fmt::format("body {}: its gas blows it up: {}", advice.body, volumes_text(advice));
+      fmt::format("{}: gas blows {} up: {}", body_and_alike(advice.body, advice.count),
+                  advice.count > 1 ? "them" : "it", volumes_text(advice));
   if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
   if (!advice.max_held) return grows + "; less gas (n) keeps it smaller";
   return fmt::format(

@@ -11,6 +11,7 @@ namespace pneuma::app {
 
 struct GasAdvice {
   std::string body;
+  int count = 1;  // of bodies like it
   int vertices = 0;
   bool left_out = false;           // too many vertices: no more is known than the next
   double volume = 0.0;             // m^3, at the start

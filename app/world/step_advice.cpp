@@ -25,7 +25,7 @@ std::string reason(const sim::World& world, const sim::SoftBody& body,
   const sim::SoftMaterial& material = body.material;
   const std::string by = fmt::format("with {}", scenes::integrator_name(world.settings.integrator));
   if (motion.decay > std::sqrt(motion.squared_frequency)) {
-    return fmt::format("k = {:g} N/m, damped as k_max = {:g} N/m and rho_g = {:g} say, {}",
+    return fmt::format("k = {:g} N/m, whose damping k_max = {:g} N/m and rho_g = {:g} set, {}",
                        material.k, material.k_max, material.rho_g, by);
   }
   return fmt::format("k = {:g} N/m, n = {:g} mol, vertex_mass = {:g} kg {}", material.k, material.n,
@@ -68,17 +68,18 @@ std::string remedy(const StepAdvice& advice) {
 
 std::vector<StepAdvice> step_advices(const sim::World& world) {
   std::vector<StepAdvice> advices;
-  for (const sim::SoftBody* body : distinct_bodies(world)) {
-    advices.push_back(step_advice(world, *body));
+  for (const DistinctBody& body : distinct_bodies(world)) {
+    advices.push_back(step_advice(world, *body.first));
+    advices.back().count = body.count;
   }
   return advices;
 }
 
 std::string step_warning(const StepAdvice& advice) {
   return fmt::format(
-      "body {}: steps of {:.3g} s are longer than the {:.3g} s up to which its small "
-      "motions stay stable; use {}",
-      advice.body, advice.step, advice.limit, remedy(advice));
+      "{}: steps of {:.3g} s are longer than the {:.3g} s up to which small motions stay stable; "
+      "use {}",
+      body_and_alike(advice.body, advice.count), advice.step, advice.limit, remedy(advice));
 }
 
 }  // namespace pneuma::app

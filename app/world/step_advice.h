@@ -10,6 +10,7 @@ namespace pneuma::app {
 
 struct StepAdvice {
   std::string body;
+  int count = 1;              // of bodies like it
   double step = 0.0;          // s, of the scene
   double limit = 0.0;         // s, of the body's small motions by the scene's integrator
   int steps_per_second = 0;   // to try again with, a multiple of the scene's; 0: none is allowed

@@ -51,9 +51,9 @@ class SceneError : public std::runtime_error {
 /// and VALUE is a TOML value, or a bare word that stands for a string. Later overrides win. They
 /// take the place of the file's values before anything is checked, so that a bad value in the file
 /// is no error once it is overridden, and checks across keys see the final values. An override of a
-/// key that decides which others apply (kind, shape, ground.present, camera.eye, colours, contact)
-/// makes the file's keys that then do not apply be ignored; without it they are errors, but
-/// warnings where they are idle under the default contact. Throws SceneError.
+/// key that decides which others apply (kind, shape, gas, ground.present, camera.eye, colours,
+/// contact) makes the file's keys that then do not apply be ignored; without it they are errors,
+/// but warnings where they are idle under the default contact. Throws SceneError.
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
 /// The same from text. `file` is what diagnostics name and gives the scene's name.

@@ -93,7 +93,7 @@ void Report::add(Origin origin, std::string message) {
 }
 
 void Report::warn(const Origin& origin, std::string message) {
-  warnings_.push_back(to_string(diagnostic_at(place(origin), std::move(message))));
+  warnings_.push_back(to_string(diagnostic_at(place(origin), "warning: " + message)));
 }
 
 bool Report::blames_override(int override_index) const {

@@ -44,7 +44,7 @@ TEST(CommandModel, HasNamesValuesChoicesAndExamples) {
   EXPECT_EQ(option("--out").value, "DIR");
   EXPECT_EQ(option("--quiet").value, "");
   EXPECT_EQ(option("--on-divergence").choices, (std::vector<std::string>{"stop", "substep"}));
-  EXPECT_EQ(render.positionals.at(0).value, "SCENE");
+  EXPECT_EQ(render.positionals.at(0).value, "SCENE|MODEL");
   EXPECT_EQ(command_named(all, {"study", "error"}).positionals.at(0).repeated, true);
 }
 

@@ -56,14 +56,14 @@ TEST_F(RenderTest, WhatItAdvisesWorks) {
 TEST_F(RenderTest, WarnsOfStepsThatAreTooLongBeforeItStarts) {
   const ProgramResult warned = render(too_stiff + "--frames 0-0");
   EXPECT_EQ(warned.exit_code, 0) << warned.output;
-  expect_words(warned, {"fall: warning: body ball: steps of 0.0167 s are longer than the ",
+  expect_words(warned, {": warning: body 'ball': steps of 0.0167 s are longer than the ",
                         "small motions stay stable", "with rk4"});
   EXPECT_EQ(render("--overwrite --frames 0-0").output.find("stay stable"), std::string::npos);
 }
 
 TEST_F(RenderTest, WarnsOfBodiesThatGasBlowsUpBeforeItStarts) {
   const ProgramResult warned = render("--frames 0-0");
-  expect_words(warned, {"fall: warning: body ball: its gas blows it up: ", "n of at most "});
+  expect_words(warned, {": warning: body 'ball': gas blows it up: ", "n of at most "});
   const ProgramResult held = render("--overwrite --frames 0-0 --set body.rest=equilibrium");
   EXPECT_EQ(held.output.find("warning"), std::string::npos) << held.output;
 }
@@ -163,8 +163,9 @@ TEST(CheckSteps, SaysHowLongTheyMayBe) {
 
   const ProgramResult stiff = run_pneuma("check one_sphere --set body.k=9e4 2>&1");
   EXPECT_EQ(stiff.exit_code, 0);
-  expect_words(stiff, {"one_sphere: warning: body sphere: steps of 0.0167 s are longer than",
-                       "THE STEP IS TOO LONG", "with rk4"});
+  expect_words(stiff,
+               {"one_sphere.toml:", ": warning: body 'sphere': steps of 0.0167 s are longer than",
+                "THE STEP IS TOO LONG", "with rk4"});
 
   const ProgramResult implicit = run_pneuma(
       "check one_sphere --json --set body.k=9e4 --set simulation.integrator=sdirk2 2>/dev/null");

@@ -24,7 +24,7 @@ TEST(GasAdvice, WhatItSaysKeepsTheSize) {
   ASSERT_EQ(blown_up.size(), 1u);
   ASSERT_TRUE(blown_up[0].blown_up());
   const std::string warning = gas_warning(blown_up[0]);
-  EXPECT_TRUE(warning.starts_with("body body1: its gas blows it up: ")) << warning;
+  EXPECT_TRUE(warning.starts_with("body 'body1': gas blows it up: ")) << warning;
   const std::string n = number_after(warning, "n of at most ");
   const GasAdvice held = advices_on(body + n + "\nrest = \"equilibrium\"\n").at(0);
   EXPECT_FALSE(held.blown_up()) << warning;

@@ -1,0 +1,19 @@
+// What a user should know before a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/world/gas_advice.h"
+#include "app/world/step_advice.h"
+#include "scenes/loader/scene.h"
+
+namespace pneuma::app {
+
+/// The loader's warnings, bodies whose steps are too long, and bodies that gas blows up, each with
+/// its place: "two_balls.toml:4:1: warning: body 'ball': ...".
+std::vector<std::string> scene_warnings(const scenes::Scene& scene,
+                                        const std::vector<StepAdvice>& steps,
+                                        const std::vector<GasAdvice>& gas);
+
+}  // namespace pneuma::app
