@@ -18,6 +18,7 @@
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/rotation.h"
+#include "sim/rigid/given_motion.h"
 #include "sim/soft/equilibrium.h"
 
 namespace pneuma::app {
@@ -261,6 +262,13 @@ class Builder {
     box.orientation = start.orientation;
     box.velocity = scene.velocity;
     box.angular_velocity = scene.angular_velocity;
+    if (!scene.motion.empty()) {
+      sim::GivenMotion motion{scene.motion, box.position, box.orientation};
+      const sim::Pose pose = sim::pose_at(motion, 0.0);
+      box.position = pose.position;
+      box.orientation = pose.orientation;
+      box.motion = std::make_shared<const sim::GivenMotion>(std::move(motion));
+    }
     world_.rigid.push_back(std::move(box));
   }
 

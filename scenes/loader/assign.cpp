@@ -50,6 +50,22 @@ class Assignment {
     *member = std::move(result);
   }
 
+  void operator()(std::vector<sim::KeyFrame>* member) const {
+    const auto* rows = std::get_if<Array>(&value_.data);
+    if (rows == nullptr || rows->empty()) {
+      refuse_type(value_, key_.name, "an array of rows [time, x, y, z]");
+    }
+    std::vector<sim::KeyFrame> keys;
+    for (const Value& row : *rows) {
+      keys.push_back(key_frame(row));
+      if (keys.size() > 1 && keys.back()[0] <= keys[keys.size() - 2][0]) {
+        refuse(row, fmt::format("{}: the row of {} s follows that of {} s; times must rise",
+                                key_.name, keys.back()[0], keys[keys.size() - 2][0]));
+      }
+    }
+    *member = std::move(keys);
+  }
+
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     const bool present = flag();
     if (present && !*member) *member = sim::ContactMaterial{};
@@ -146,6 +162,24 @@ class Assignment {
       result[i] = number(elements[index], element_name(index));
     }
     return result;
+  }
+
+  sim::KeyFrame key_frame(const Value& row) const {
+    const auto* elements = std::get_if<Array>(&row.data);
+    if (elements == nullptr || elements->size() != 4) {
+      refuse_type(row, key_.name, "a row [time, x, y, z]");
+    }
+    sim::KeyFrame key;
+    for (std::size_t i = 0; i < 4; ++i) {
+      key[i] =
+          number((*elements)[i], i == 0 ? fmt::format("{} time", key_.name) : element_name(i - 1));
+    }
+    if (key[0] < 0.0) {
+      refuse(elements->front(), fmt::format("{}: a time of {} s is before the start; allowed: 0 or "
+                                            "more",
+                                            key_.name, key[0]));
+    }
+    return key;
   }
 
   std::string element_name(std::size_t i) const {

@@ -22,6 +22,10 @@ constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::fixed, "static"},
     Named<BodyKind>{BodyKind::moved, "moved"},
 };
+constexpr std::array interpolations = {
+    Named<sim::Interpolation>{sim::Interpolation::linear, "linear"},
+    Named<sim::Interpolation>{sim::Interpolation::smooth, "smooth"},
+};
 constexpr std::array rests = {
     Named<Rest>{Rest::shape, "shape"},
     Named<Rest>{Rest::equilibrium, "equilibrium"},
@@ -54,7 +58,10 @@ Section body_section(BodyScene& body) {
                                   soft && !body.gauge_pressure && !body.inflation};
   const Applicability rigid_bodies{"rigid bodies", body.kind == BodyKind::rigid};
   const Applicability free_bodies{"soft and rigid bodies", soft || body.kind == BodyKind::rigid};
-  const Applicability moving_bodies{"bodies that are not static", body.kind != BodyKind::fixed};
+  const Applicability moved_bodies{"moved bodies", body.kind == BodyKind::moved};
+  const bool by_keys = body.kind == BodyKind::moved && !body.motion.empty();
+  const Applicability of_own_velocity{"bodies that are not static and have no motion",
+                                      body.kind != BodyKind::fixed && !by_keys};
   const Applicability two_colours{"bodies with two colours", body.colours.size() == 2};
 
   const Word kind = word(body.kind, kinds);
@@ -129,10 +136,18 @@ Section body_section(BodyScene& body) {
           {"position", &body.position, place(), "m", "of the shape's centre"},
           {"rotation", &body.rotation, between(-360, 360), "degrees",
            "about world x, then y, then z"},
-          only(moving_bodies, {"velocity", &body.velocity, place(), "m/s",
-                               "at the start; of a moved body always"}),
-          only(moving_bodies, {"angular_velocity", &body.angular_velocity, place(), "rad/s",
-                               "about world axes; likewise"}),
+          only(of_own_velocity, {"velocity", &body.velocity, place(), "m/s",
+                                 "at the start; of a moved body always"}),
+          only(of_own_velocity, {"angular_velocity", &body.angular_velocity, place(), "rad/s",
+                                 "about world axes; likewise"}),
+          only(moved_bodies, selector({"motion.path", &body.motion.path, place(), "s, m, m, m",
+                                       "keys in time: how far it is then from its position"})),
+          only(moved_bodies,
+               selector({"motion.rotation", &body.motion.rotation, place(), "s, degrees x 3",
+                         "likewise: turned about world x, then y, then z"})),
+          only(moved_bodies,
+               {"motion.interpolation", word(body.motion.interpolation, interpolations), any(), "",
+                "between keys"}),
 
           {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
           {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},

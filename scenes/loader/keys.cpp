@@ -55,6 +55,15 @@ struct ValueText {
     std::transform(value->begin(), value->end(), std::back_inserter(texts), string_text);
     return fmt::format("[{}]", fmt::join(texts, ", "));
   }
+  std::string operator()(const std::vector<sim::KeyFrame>* value) const {
+    if (value->empty()) return {};
+    std::vector<std::string> rows;
+    for (const sim::KeyFrame& row : *value) {
+      rows.push_back(fmt::format("[{}, {}, {}, {}]", number_text(row[0]), number_text(row[1]),
+                                 number_text(row[2]), number_text(row[3])));
+    }
+    return fmt::format("[{}]", fmt::join(rows, ", "));
+  }
   std::string operator()(const std::optional<sim::ContactMaterial>* value) const {
     return value->has_value() ? "true" : "false";
   }
@@ -73,6 +82,7 @@ struct TypeText {
   std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
   std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
   std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
+  std::string operator()(const std::vector<sim::KeyFrame>*) const { return "rows [time, x, y, z]"; }
   std::string operator()(const std::optional<sim::ContactMaterial>*) const {
     return "true or false";
   }

@@ -82,6 +82,8 @@ struct BodyScene {
   Vec3 velocity = Vec3::Zero();          // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
 
+  sim::KeyFrames motion;  // of a moved body, in place of velocities
+
   std::array<int, 3> copies = {1, 1, 1};  // along x, y, z
   Vec3 spacing = {3.0, 3.0, 3.0};         // m between copies
   double jitter = 0.0;  // m: each copy's position is moved by up to this, from the seed
@@ -138,7 +140,7 @@ inline constexpr double max_scene_file_mib = 1024.0;
 struct Scene {
   std::string name;  // the file's name without its ending: frames are called NAME_00042.png
   std::filesystem::path folder;       // of the scene file
-  std::vector<std::string> warnings;  // of the loader: "file:line:column: message"
+  std::vector<std::string> warnings;  // of the loader: "file:line:column: warning: ..."
   std::string title;
   std::string figure;               // the paper's figure or benchmark row, as people call it
   std::optional<double> paper_fps;  // what the paper measured

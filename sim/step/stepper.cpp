@@ -1,9 +1,11 @@
 #include "sim/step/stepper.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
 #include "sim/inspect/inspect.h"
+#include "sim/rigid/given_motion.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
 #include "sim/step/swept_step.h"
@@ -78,6 +80,8 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     : options(std::move(given)),
       plan(options.plan ? *options.plan : make_plan(world)),
       workers(options.threads),
+      has_given_motions(std::ranges::any_of(
+          world.rigid, [](const RigidBox& box) { return box.motion != nullptr; })),
       motion_start{std::vector<SoftState>(world.soft.size()),
                    std::vector<RigidStart>(world.rigid.size())},
       integrate_soft(world, options.threads),
@@ -97,6 +101,14 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
 std::optional<Divergence> Stepper::step(World& world) {
+  if (!workspace_->has_given_motions) return step_bodies(world);
+  aim_given_motions(world);
+  auto divergence = step_bodies(world);
+  if (!divergence) place_given_motions(world, time(world));
+  return divergence;
+}
+
+std::optional<Divergence> Stepper::step_bodies(World& world) {
   StepWorkspace& w = *workspace_;
   if (w.swept) return step_swept(world);
   const StageRunner run(w);

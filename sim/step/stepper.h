@@ -68,6 +68,7 @@ class Stepper {
   double contact_work() const;
 
  private:
+  std::optional<Divergence> step_bodies(World& world);
   std::optional<Divergence> step_swept(World& world);
 
   std::unique_ptr<StepWorkspace> workspace_;

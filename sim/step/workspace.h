@@ -16,6 +16,7 @@ struct StepWorkspace {
   StepperOptions options;
   Plan plan;
   Workers workers;
+  bool has_given_motions;
   StageTimes stage_times{};
 
   MotionStart motion_start;

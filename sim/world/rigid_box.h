@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <memory>
 #include <string>
 
 #include "sim/mesh/triangle_mesh.h"
 #include "sim/world/contact_material.h"
+#include "sim/world/key_frames.h"
 
 namespace pneuma::sim {
 
@@ -17,6 +19,7 @@ struct RigidBox {
   Vec3 size = Vec3::Ones();  // full lengths along body x, y, z: the paper's width, height, depth, m
   double mass = 1.0;         // kg
   bool is_kinematic = false;  // it keeps its velocities, whatever acts on it: its mass is unused
+  std::shared_ptr<const GivenMotion> motion;  // of a kinematic box, if its velocities follow keys
   double rho_g =
       0.01;  // fraction of both velocities lost per 1/60 s, 0 <= rho_g < 1 (ERRATA row 35)
   ContactMaterial surface;

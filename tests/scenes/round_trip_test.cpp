@@ -81,6 +81,13 @@ struct SetAtRandom {
   void operator()(std::vector<std::string>* member) const {
     member->resize(*rc::gen::inRange<std::size_t>(1, 4), "#fF0099");
   }
+  void operator()(std::vector<sim::KeyFrame>* member) const {
+    double time = 0.0;
+    for (int rows = *rc::gen::inRange(0, 4); rows > 0; --rows, time += 0.5) {
+      const Vec3 value = any_vector(key.range);
+      member->push_back({time, value.x(), value.y(), value.z()});
+    }
+  }
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     if (*rc::gen::arbitrary<bool>()) member->reset();
   }

@@ -79,8 +79,8 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   const auto& [place, rest_place, position_place, model_place, name, kind, shape, radius,
                tube_radius, stacks, slices, subdivisions, divisions, size, model, rest,
                gauge_pressure, inflation, material, mass, rho_g, surface, position, rotation,
-               velocity, angular_velocity, copies, spacing, jitter, tumble, colours, colour_axis,
-               roughness] = a;
+               velocity, angular_velocity, motion, copies, spacing, jitter, tumble, colours,
+               colour_axis, roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -103,6 +103,9 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("rotation", rotation, b.rotation);
   c.member("velocity", velocity, b.velocity);
   c.member("angular_velocity", angular_velocity, b.angular_velocity);
+  c.member("motion.path", motion.path, b.motion.path);
+  c.member("motion.rotation", motion.rotation, b.motion.rotation);
+  c.member("motion.interpolation", motion.interpolation, b.motion.interpolation);
   c.member("copies", copies, b.copies);
   c.member("spacing", spacing, b.spacing);
   c.member("jitter", jitter, b.jitter);

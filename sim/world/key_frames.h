@@ -1,0 +1,39 @@
+// A motion that is given by keys in time, as plain data.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <vector>
+
+#include "sim/mesh/triangle_mesh.h"
+
+namespace pneuma::sim {
+
+/// Between keys. Both pass through every key; before the first and after the last all is at rest.
+enum class Interpolation {
+  linear,  // even speed from key to key
+  smooth,  // a cubic without overshoot; its speed has no jumps
+};
+
+/// A time in s, then what is reached by it along x, y, z.
+using KeyFrame = std::array<double, 4>;
+
+/// Where a box is, whatever it meets: from where it starts, moved and turned by these.
+struct KeyFrames {
+  std::vector<KeyFrame> path;      // m
+  std::vector<KeyFrame> rotation;  // degrees about world x, then y, then z
+  Interpolation interpolation = Interpolation::smooth;
+
+  bool empty() const { return path.empty() && rotation.empty(); }
+  bool operator==(const KeyFrames&) const = default;
+};
+
+/// The same of one box.
+struct GivenMotion {
+  KeyFrames keys;
+  Vec3 position = Vec3::Zero();                                     // m, what they start from
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // likewise
+};
+
+}  // namespace pneuma::sim

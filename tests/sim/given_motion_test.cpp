@@ -1,0 +1,122 @@
+// Boxes that are moved by keys in time.
+#include "sim/rigid/given_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "sim/inspect/checkpoint.h"
+#include "sim/inspect/crossings.h"
+#include "sim/inspect/inspect.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+const std::vector<KeyFrame> there_and_back = {
+    {1.0, 0.0, 0.0, 0.0}, {2.0, 3.0, -6.0, 0.0}, {4.0, 4.0, 6.0, 0.0}};
+
+RigidBox make_moved(const Vec3& size, const Vec3& position, KeyFrames keys) {
+  RigidBox box = make_rigid(size, position);
+  box.is_kinematic = true;
+  box.surface = {0.0, 0.5};
+  box.motion = std::make_shared<const GivenMotion>(
+      GivenMotion{std::move(keys), box.position, box.orientation});
+  return box;
+}
+
+TEST(KeyFrames, AreMetAndAtRestOutsideThem) {
+  for (const Interpolation by : {Interpolation::linear, Interpolation::smooth}) {
+    EXPECT_EQ(value_at(there_and_back, by, 0.0), Vec3(0.0, 0.0, 0.0));
+    EXPECT_EQ(value_at(there_and_back, by, 1.0), Vec3(0.0, 0.0, 0.0));
+    EXPECT_EQ(value_at(there_and_back, by, 2.0), Vec3(3.0, -6.0, 0.0));
+    EXPECT_EQ(value_at(there_and_back, by, 9.0), Vec3(4.0, 6.0, 0.0));
+    EXPECT_EQ(value_at({}, by, 1.0), Vec3(0.0, 0.0, 0.0));
+  }
+  EXPECT_EQ(value_at(there_and_back, Interpolation::linear, 1.5), Vec3(1.5, -3.0, 0.0));
+  EXPECT_EQ(value_at(there_and_back, Interpolation::linear, 3.0), Vec3(3.5, 0.0, 0.0));
+}
+
+TEST(KeyFrames, SmoothOnesHaveNoJumpsOfSpeedAndDoNotOvershoot) {
+  constexpr double tiny = 1e-6;  // s: a central difference is then good to about 1e-9 / 1e-6
+  const auto at = [](double time) { return value_at(there_and_back, Interpolation::smooth, time); };
+  Vec3 before = Vec3::Zero();
+  for (int i = 0; i <= 4'000; ++i) {
+    const double time = 0.5 + 1e-3 * i;
+    const Vec3 in = (at(time) - at(time - tiny)) / tiny, out = (at(time + tiny) - at(time)) / tiny;
+    EXPECT_LT((in - out).norm(), 1e-3) << "at " << time << " s";
+    EXPECT_GE(at(time).x(), before.x());
+    EXPECT_GE(at(time).y(), -6.0);
+    EXPECT_LE(at(time).y(), 6.0);
+    before = at(time);
+  }
+}
+
+TEST(GivenMotion, ABoxIsWhereItsKeysSayAfterEveryStep) {
+  World world;
+  world.settings.ground.reset();
+  world.rigid = {make_moved({1.0, 1.0, 1.0}, {5.0, 0.0, 9.0},
+                            {there_and_back, {{0.0, 0.0, 0.0, 0.0}, {4.0, 0.0, 0.0, 720.0}}}),
+                 make_rigid({1.0, 1.0, 1.0}, {-20.0, 0.0, 0.0})};
+  const GivenMotion motion = *world.rigid[0].motion;
+  Stepper stepper(world);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Quaterniond before = world.rigid[0].orientation;
+    ASSERT_FALSE(stepper.step(world));
+    const RigidBox& box = world.rigid[0];
+    const Pose pose = pose_at(motion, time(world));
+    EXPECT_EQ(box.position, pose.position);
+    EXPECT_EQ(box.orientation.coeffs(), pose.orientation.coeffs());
+    // What contacts saw during the step.
+    const Vec3 turn = time_step(world.settings) * box.angular_velocity;
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(turn.norm(), Vec3::UnitZ()));
+    EXPECT_NEAR((turned * before).angularDistance(box.orientation), 0.0, 1e-7);
+  }
+  EXPECT_EQ(world.rigid[0].position, Vec3(9.0, 6.0, 9.0));
+}
+
+/// A ball between a slab and a plate that comes down on it and rises again.
+World make_press() {
+  World world;
+  SoftBody ball = make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 8.1});
+  ball.material.n = 0.5;
+  world.soft = {ball};
+  KeyFrames still, press;
+  still.path = {{0.0, 0.0, 0.0, 0.0}};
+  press.path = {{0.0, 0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, -1.5}, {2.0, 0.0, 0.0, 0.0}};
+  world.rigid = {make_moved({10.0, 10.0, 1.0}, {0.0, 0.0, 4.5}, still),
+                 make_moved({10.0, 10.0, 1.0}, {0.0, 0.0, 12.0}, press)};
+  return world;
+}
+
+TEST(GivenMotion, APressLetsNothingThroughAndComesBack) {
+  World world = make_press();
+  Stepper stepper(world);
+  double least = volume(world.soft[0].mesh->topology, world.soft[0].positions);
+  for (int i = 0; i < 150; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << divergence->what;
+    ASSERT_EQ(crossings(world).between_bodies, 0) << "after step " << i;
+    least = std::min(least, volume(world.soft[0].mesh->topology, world.soft[0].positions));
+  }
+  EXPECT_EQ(world.rigid[1].position.z(), 12.0);
+  EXPECT_GT(least, 1.0);
+}
+
+TEST(GivenMotion, GoesOnFromASavedStateBitForBit) {
+  World whole = make_press();
+  Stepper stepper(whole);
+  std::vector<std::uint8_t> saved;
+  for (int i = 0; i < 60; ++i) {
+    if (i == 25) saved = save_state(whole);
+    ASSERT_FALSE(stepper.step(whole));
+  }
+  World resumed = make_press();
+  load_state(saved, resumed);
+  Stepper other(resumed);
+  for (int i = 25; i < 60; ++i) ASSERT_FALSE(other.step(resumed));
+  EXPECT_EQ(state_hash(resumed), state_hash(whole));
+}
+
+}  // namespace
+}  // namespace pneuma::sim
