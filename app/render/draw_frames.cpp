@@ -140,6 +140,8 @@ class CrossedFrames {
                     is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
   }
 
+  std::int64_t count() const { return count_; }
+
   void summarise(Progress& progress) const {
     if (count_ == 0) return;
     progress.say(fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
@@ -187,6 +189,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
       ++state.drawn;
     }
     state.elapsed += watch.lap();
+    state.crossed = crossed.count();
     progress.show(progress_line(state));
     if (!more) break;
     wait_for_step();

@@ -50,6 +50,10 @@ std::string progress_line(const ProgressState& state) {
     const auto left = static_cast<double>(state.last - state.frame);
     line += "   ETA " + duration(left * state.elapsed / static_cast<double>(state.drawn));
   }
+  if (state.crossed > 0) {
+    line +=
+        fmt::format("   bodies cross in {} frame{}", state.crossed, state.crossed == 1 ? "" : "s");
+  }
   return line;
 }
 

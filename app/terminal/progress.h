@@ -12,13 +12,15 @@ namespace pneuma::app {
 struct ProgressState {
   std::int64_t frame = 0;  // finished
   std::int64_t last = 0;
-  double time = 0.0;       // simulated so far, s
-  double elapsed = 0.0;    // s since the launch
-  double simulated = 0.0;  // s of the scene's time since the launch
-  std::int64_t drawn = 0;  // frames since the launch
+  double time = 0.0;         // simulated so far, s
+  double elapsed = 0.0;      // s since the launch
+  double simulated = 0.0;    // s of the scene's time since the launch
+  std::int64_t drawn = 0;    // frames since the launch
+  std::int64_t crossed = 0;  // of these, in which bodies pass through each other
 };
 
-/// "frame 42/300   t = 1.40 s   2.1 x real time   ETA 2:03".
+/// "frame 42/300   t = 1.40 s   2.1 x real time   ETA 2:03", and in how many frames
+/// bodies cross, if any.
 std::string progress_line(const ProgressState& state);
 
 /// "301 frames in 43.0 s: 7 frames/s, 0.23 x real time".

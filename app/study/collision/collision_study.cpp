@@ -11,6 +11,7 @@
 #include "app/record/statistics.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
+#include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/collision/find_exact.h"
 #include "sim/collision/find_soft_soft.h"
@@ -141,6 +142,7 @@ class Runner {
  public:
   Runner(const scenes::Scene& scene, const std::vector<SearchSetting>& settings)
       : scene_(scene), world_(build_world(scene)) {
+    refuse_start_overlap(scene_, world_);
     world_.settings.soft_search = sim::SoftSearch::exact;
     for (const SearchSetting& setting : settings) searches_.emplace_back(setting);
   }

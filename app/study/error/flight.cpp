@@ -11,6 +11,7 @@
 #include "app/host/interrupt.h"
 #include "app/study/error/samples.h"
 #include "app/world/build_world.h"
+#include "app/world/start_overlap.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {
@@ -69,6 +70,7 @@ bool touches(sim::World world, double seconds) {
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) {
   Flight flight;
   flight.world = build_world(scene);
+  if (options.body.empty() && !options.free_flight) refuse_start_overlap(scene, flight.world);
   const double longest = std::min(options.seconds, scene.duration);
   flight.seconds =
       std::max(1.0, std::floor(longest * samples_per_second + 1e-9)) / samples_per_second;

@@ -27,6 +27,13 @@ TEST(ProgressLine, WritesMinutesAndHours) {
   EXPECT_NE(progress_line(state).find("ETA 1:00:00"), std::string::npos);
 }
 
+TEST(ProgressLine, SaysInHowManyFramesBodiesCross) {
+  ProgressState state{.frame = 40, .last = 300, .time = 2.0, .crossed = 1};
+  EXPECT_EQ(progress_line(state), "frame 40/300   t = 2.00 s   bodies cross in 1 frame");
+  state.crossed = 12;
+  EXPECT_EQ(progress_line(state), "frame 40/300   t = 2.00 s   bodies cross in 12 frames");
+}
+
 TEST(ProgressLine, SaysNothingThatItDoesNotKnow) {
   const ProgressState state{.frame = 0, .last = 300};
   EXPECT_EQ(progress_line(state), "frame 0/300   t = 0.00 s");

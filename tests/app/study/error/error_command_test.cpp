@@ -67,7 +67,8 @@ TEST(StudyError, EndsWith5WhereThereIsNoMotionToCompareWithAndStudiesTheOthers) 
   // In the ground from the start, with springs that no step studied can follow.
   const TemporaryFolder folder;
   write_text(folder / "stiff.toml",
-             "duration = 1.0\n[[body]]\nk = 1e12\nk_max = 1e15\nposition = [0, 0, 2]\n");
+             "duration = 1.0\nsimulation.contact = \"impulses\"\n"
+             "[[body]]\nk = 1e12\nk_max = 1e15\nposition = [0, 0, 2]\n");
   const ProgramResult result = run_pneuma("study error '" + (folder / "stiff.toml").string() +
                                           "' one_sphere --short --seconds 0.2 --quiet --out '" +
                                           folder.path().string() + "' 2>&1");

@@ -23,6 +23,12 @@ TEST(Flight, IsFreeWhereNothingTouches) {
   EXPECT_TRUE(flight.world.rigid.empty());
 }
 
+TEST(Flight, IsRefusedWhereBodiesStartInEachOther) {
+  const std::string inside = "[[body]]\nposition = [0, 0, 10]\n[[body]]\nposition = [1, 0, 10]\n";
+  EXPECT_THROW(prepare_flight(scenes::parse_scene(inside, "inside.toml"), options(0.5)),
+               scenes::SceneError);
+}
+
 TEST(Flight, HasContactsWhereSomethingTouches) {
   const Flight flight = prepare_flight(small_scene(low + box), options(0.5));
   EXPECT_TRUE(flight.contacts);
