@@ -66,8 +66,12 @@ void bounce_or_rest(World& world, int soft, const SoftState& start,
   const bool any = std::ranges::any_of(contacts, [&](const Contact& contact) {
     return bounce_of(world, start, contact, pair).has_value();
   });
+  if (!any) {
+    for (const Contact& contact : contacts) resolve_alone(world, start, contact);
+    return;
+  }
   const Vec3& gravity = world.settings.gravity;
-  const double before = any ? energy(body, gravity).total() : 0.0;
+  const double before = energy(body, gravity).total();
   for (const Contact& contact : contacts) {
     const auto bounced = bounce_of(world, start, contact, pair);
     if (!bounced) {
@@ -77,7 +81,7 @@ void bounce_or_rest(World& world, int soft, const SoftState& start,
     body.velocities[contact.first.feature.index] = bounced->velocity;
     body.positions[contact.first.feature.index].z() = bounced->height;
   }
-  if (any) take_from_vibration(body, energy(body, gravity).total() - before);
+  take_from_vibration(body, energy(body, gravity).total() - before);
 }
 
 }  // namespace
