@@ -29,7 +29,7 @@ class ReturnedEnergy {
 
  private:
   std::size_t island(std::size_t contact) const {
-    return at(m_.solver.island_of(m_.contacts[contact].first.body));
+    return at(m_.solver.island_of(m_.contacts[contact], m_.impulses[contact]));
   }
   double work(std::size_t contact) const {
     return m_.impulses[contact].work(m_.end_velocities[contact]);
@@ -45,8 +45,8 @@ class ReturnedEnergy {
   /// What acted at the start is a contact at the end.
   void add_work_of_start() {
     for (std::size_t i = 0; i < m_.first_contacts.size(); ++i) {
-      const int of_first = m_.solver.island_of(m_.first_contacts[i].first.body);
-      if (of_first >= 0) m_.work_of_islands[at(of_first)] += m_.work_of_start[i];
+      const int island = m_.solver.island_of(m_.first_contacts[i], m_.first_impulses[i]);
+      if (island >= 0) m_.work_of_islands[at(island)] += m_.work_of_start[i];
     }
   }
 

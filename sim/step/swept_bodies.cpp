@@ -74,6 +74,7 @@ void SweptBodies::place_corners(int box, const Vec3& position,
 
 void SweptBodies::set_start(const World& world, const MotionStart& start) {
   moved_again_.assign(world.soft.size(), 0);
+  is_searched_.assign(surfaces_.size(), 0);
   std::fill_n(is_followed_.begin(), soft_count_, std::uint8_t{0});
   std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
@@ -128,15 +129,23 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
   refit_way(soft);
 }
 
+/// In another search of the step only of what has left its allowance, so that what happens to one
+/// body does not change how others are searched.
 BoundingSphere SweptBodies::refit_way(int body) {
   MovingSurface& surface = surfaces_[at(body)];
+  if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) refit_anew(body);
+  const WayBox& around = surface.nodes.front();
+  return {to_vec3(0.5 * (around.low + around.high)),
+          0.5 * to_vec3(around.high - around.low).norm()};
+}
+
+void SweptBodies::refit_anew(int body) {
+  MovingSurface& surface = surfaces_[at(body)];
+  is_searched_[at(body)] = 1;
   allowances_[at(body)] =
       allowed_of_way * greatest_distance(surface.start, surface.end) + skin(body);
   searched_ends_[at(body)] = surface.end;
   refit(surface, skins_around * skin(body) + allowance(body));
-  const WayBox& around = surface.nodes.front();
-  return {to_vec3(0.5 * (around.low + around.high)),
-          0.5 * to_vec3(around.high - around.low).norm()};
 }
 
 void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
@@ -153,10 +162,14 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   }
 }
 
+bool SweptBodies::is_within_allowance(int body) const {
+  return greatest_distance(surface(body).end, searched_ends_[at(body)]) <= allowance(body);
+}
+
 bool SweptBodies::search_is_valid() const {
   for (int i = 0; i < count(); ++i) {
     if (is_followed_[at(i)] == 0) continue;
-    if (greatest_distance(surface(i).end, searched_ends_[at(i)]) > allowance(i)) return false;
+    if (!is_within_allowance(i)) return false;
   }
   return true;
 }

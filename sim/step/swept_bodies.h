@@ -94,6 +94,8 @@ class SweptBodies {
   /// What refit_way would give, of a body that is not followed.
   BoundingSphere sphere_about_way(const World& world, const MotionStart& start, int soft) const;
   BoundingSphere refit_way(int body);
+  void refit_anew(int body);
+  bool is_within_allowance(int body) const;
   void follow(const World& world, const MotionStart& start, int soft);
   std::span<const int> vertices(const SurfacePoint& point) const;
   /// `motion(i)` of each box.
@@ -109,6 +111,7 @@ class SweptBodies {
   std::vector<MovingSurface> surfaces_;
   std::vector<std::uint8_t> is_lone_;      // per body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
+  std::vector<std::uint8_t> is_searched_;  // per body: whether a search of this step was for it
   std::vector<double> skins_;
   std::vector<double> allowances_;
   std::vector<VertexArray> searched_ends_;                  // the ends that the last search was for

@@ -76,42 +76,6 @@ void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
   if (closest) m_.candidates.push_back({bodies, features, *closest});
 }
 
-/// Gives the contacts that there are to the candidates of another search.
-void SweptSearch::recall_contacts() {
-  for (int i = 0; i < static_cast<int>(m_.contacts.size()); ++i) {
-    candidate_of(m_.contacts[at(i)]).contact = i;
-  }
-}
-
-/// Among those of the same bodies, which follow each other. One that the search left out is put
-/// back.
-SweptCandidate& SweptSearch::candidate_of(const SweptContact& contact) {
-  const BodyPair bodies{contact.first.body, contact.second.body};
-  const NearFeatures features{contact.first.feature, contact.second.feature};
-  const auto order = [](const SweptCandidate& candidate) {
-    return in_order(candidate.bodies.first, candidate.bodies.second);
-  };
-  auto place =
-      std::ranges::lower_bound(m_.candidates, in_order(bodies.first, bodies.second), {}, order);
-  while (place != m_.candidates.end() && place->bodies == bodies) {
-    if (place->features == features && place->is_of_near_boxes == contact.is_of_near_boxes) {
-      return *place;
-    }
-    ++place;
-  }
-  SweptCandidate missing{bodies, features, {}};
-  if (contact.is_of_near_boxes) {
-    missing.is_of_near_boxes = true;
-    missing.normal = contact.normal;
-    missing.start.first_point = missing.start.second_point = contact.first.point;
-    missing.start.distance = contact.distance;
-  } else if (bodies.second != swept_ground) {
-    missing.start = *closest_points(bodies_.surface(bodies.first), bodies_.surface(bodies.second),
-                                    features, Moment::start, any_distance);
-  }
-  return *m_.candidates.insert(place, missing);
-}
-
 void SweptSearch::follow_ends() {
   bodies_.set_end(world_);
   if (bodies_.search_is_valid()) return;
@@ -123,11 +87,47 @@ bool SweptSearch::find_collisions() {
   blocked_.reset();
   follow_ends();
   bool collided = false;
-  for (SweptCandidate& candidate : m_.candidates) {
+  const auto all = std::span(m_.candidates);
+  for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+    const BodyPair bodies = all[first].bodies;
+    while (end < all.size() && all[end].bodies == bodies) ++end;
+    collided = find_collisions_of_pair(all.subspan(first, end - first)) || collided;
+  }
+  return collided;
+}
+
+bool SweptSearch::find_collisions_of_pair(std::span<SweptCandidate> candidates) {
+  bool collided = false;
+  m_.meetings.clear();
+  const std::size_t before = m_.contacts.size();
+  for (SweptCandidate& candidate : candidates) {
     const bool on_ground = candidate.bodies.second == swept_ground;
     collided = (on_ground ? goes_into_ground(candidate) : meets(candidate)) || collided;
   }
+  if (m_.contacts.size() == before) hold_where_they_meet();
   return collided;
+}
+
+/// What was placed at the start does not keep these apart: other features were nearest then, or
+/// the direction turns on the way. Without another contact the next round would do nothing.
+void SweptSearch::hold_where_they_meet() {
+  for (const auto& [candidate, fraction] : m_.meetings) {
+    SweptCandidate& meeting = m_.candidates[at(candidate)];
+    add(meeting, meeting.contact < 0 ? place(meeting, meeting.start, Moment::start)
+                                     : place_along_line(meeting, fraction));
+  }
+}
+
+/// The points that meet after a fraction of the step are kept apart along the line through them at
+/// its start: along no other would the impulse keep angular momentum.
+SweptContact SweptSearch::place_along_line(const SweptCandidate& candidate, double fraction) const {
+  SweptContact contact = place_at(candidate, fraction);
+  const Vec3 apart = contact.first.point - contact.second.point;
+  contact.distance = apart.norm();
+  if (contact.distance >= min_distance) contact.normal = apart / contact.distance;
+  contact.wanted =
+      std::min(distance_wanted(contact.first.body, contact.second.body), contact.distance);
+  return contact;
 }
 
 /// Whether two features come too near each other on their ways. It becomes a contact: of boxes as
@@ -144,6 +144,7 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
                                         candidate.features, distance, least);
   if (!fraction) return false;
   blocked_ = candidate.bodies;
+  m_.meetings.push_back({static_cast<int>(&candidate - m_.candidates.data()), *fraction});
   if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
     add(candidate, place_at(candidate, *fraction));
   } else if (candidate.contact < 0 && stands(candidate, candidate.start, Moment::start)) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,19 @@ struct ReturnedEnergyMemory {
   std::vector<Vec3> given;            // N s, per contact
 };
 
+/// Contacts of the same features, when another search has other candidates.
+struct RecalledContact {
+  int first = 0;
+  int last = 0;
+  bool is_found = false;  // by the other search
+};
+
+/// Features that come too near each other on their ways.
+struct Meeting {
+  int candidate = 0;
+  double fraction = 0.0;  // of the step
+};
+
 struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
@@ -42,6 +56,9 @@ struct SweptMemory {
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
   std::vector<SweptContact> first_contacts;  // those of the start, once the end is solved for
   std::vector<SweptImpulse> first_impulses;
+  std::vector<Meeting> meetings;
+  std::vector<RecalledContact> recalled;
+  std::vector<int> entry_of_contact;  // in the list of those that are recalled, before it is sorted
   std::vector<double> work_of_start;  // J, of each of those
   std::vector<Vec3>
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
@@ -103,17 +120,23 @@ class SweptSearch {
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
   void offer(const BodyPair& bodies, const NearFeatures& features);
+  /// Gives the contacts that there are to the candidates of another search.
   void recall_contacts();
-  SweptCandidate& candidate_of(const SweptContact& contact);
+  void list_recalled();
+  void put_back_missing();
+  SweptCandidate missing_candidate(const RecalledContact& recalled) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;
   SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
                      Moment moment) const;
+  SweptContact place_along_line(const SweptCandidate& candidate, double fraction) const;
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
   SweptContact move_to_end(const SweptCandidate& candidate) const;
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
+  bool find_collisions_of_pair(std::span<SweptCandidate> candidates);
   bool meets(SweptCandidate& candidate);
+  void hold_where_they_meet();
   bool sinks_in(SweptCandidate& candidate);
   bool goes_into_ground(SweptCandidate& candidate);
   bool add_if_it_meets(SweptCandidate& candidate);

@@ -18,7 +18,15 @@ constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
 constexpr double penalty_growth = 30.0;
 
+int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
+  return impulse.first().moves() ? contact.first.body : contact.second.body;
+}
+
 }  // namespace
+
+int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impulse) {
+  return island_of(moved_body(contact, impulse));
+}
 
 int SweptSolver::root(int body) {
   while (parents_[at(body)] != body) {
@@ -30,16 +38,18 @@ int SweptSolver::root(int body) {
 
 void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses) {
   std::iota(parents_.begin(), parents_.end(), 0);
-  for (const SweptContact& contact : contacts) {
-    if (contact.second.body == swept_ground) continue;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SweptContact& contact = contacts[i];
+    if (!impulses[i].first().moves() || !impulses[i].second().moves()) continue;
     const int one = root(contact.first.body), other = root(contact.second.body);
     parents_[at(std::max(one, other))] = std::min(one, other);
   }
   islands_.assign(parents_.size(), -1);
   begin_.assign(1, 0);
   has_boxes_.clear();
-  for (const SweptContact& contact : contacts) {
-    int& island = islands_[at(root(contact.first.body))];
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SweptContact& contact = contacts[i];
+    int& island = islands_[at(root(moved_body(contact, impulses[i])))];
     if (island < 0) {
       island = static_cast<int>(begin_.size()) - 1;
       begin_.push_back(0);
@@ -55,15 +65,21 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
   filled_.assign(begin_.begin(), begin_.end());
   ordered_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const int island = islands_[at(root(contacts[i].first.body))];
+    const int island = island_of(contacts[i], impulses[i]);
     ordered_[filled_[at(island)]++] = &impulses[i];
   }
 }
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-                        double tolerance) {
+                        double tolerance, std::size_t first_new) {
   divide(contacts, impulses);
-  for (int i = 0; i < island_count(); ++i) solve_island(i, tolerance);
+  is_new_.assign(at(island_count()), 0);
+  for (std::size_t i = first_new; i < contacts.size(); ++i) {
+    is_new_[at(island_of(contacts[i], impulses[i]))] = 1;
+  }
+  for (int i = 0; i < island_count(); ++i) {
+    if (is_new_[at(i)] != 0) solve_island(i, tolerance);
+  }
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {

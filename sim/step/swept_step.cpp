@@ -81,13 +81,14 @@ class SweptStep {
       if (shift_near_boxes(world_, m_, search_, fraction_)) search_.follow_ends();
       search_.start();
     });
+    std::size_t first_new = 0;  // contact that was not yet solved for
     for (int round = 0; round < max_rounds; ++round) {
       bool collides = false;
       if (!m_.contacts.empty()) {
         std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
           aim_at_distances();
-          solve_all();
+          solve_since(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);
         });
         if (failed) {
@@ -95,6 +96,7 @@ class SweptStep {
           return failed;
         }
       }
+      first_new = m_.contacts.size();
       run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
@@ -114,9 +116,9 @@ class SweptStep {
     return of_soft ? of_soft : of_rigid;  // both have kept what they started from
   }
 
-  void solve_all() {
+  void solve_since(std::size_t first_new) {
     if (m_.contacts.empty()) return;
-    m_.solver.solve(m_.contacts, m_.impulses, tolerance());
+    m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new);
   }
 
   /// m/s.
@@ -158,7 +160,7 @@ class SweptStep {
     bodies_.begin_at_end(world_);
     for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
     warm_start();
-    solve_all();
+    solve_since(0);
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       m_.work += m_.impulses[i].work(m_.end_velocities[i]);

@@ -47,6 +47,8 @@ class SweptSide {
   /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
   Mat3 mobility() const;
 
+  /// False of the ground and of boxes that nothing moves.
+  bool moves() const { return box_ || count_ > 0; }
   /// What an impulse moves: a box, or so many vertices (their changes); neither, if nothing moves
   /// the side.
   BoxChange* box() const { return box_; }

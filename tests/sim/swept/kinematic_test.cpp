@@ -59,6 +59,25 @@ TEST(Kinematic, ABallIsPressedBetweenASlabAndAPlateAndCrossesNeither) {
   EXPECT_GT(volume(world.soft[0].mesh->topology, world.soft[0].positions), 1.0);
 }
 
+TEST(Kinematic, ABallDoesTheSameBesideAnotherThatIsFarAway) {
+  for (const bool has_slab : {true, false}) {
+    World alone;
+    alone.soft = {make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 8.2})};
+    alone.soft[0].material.n = 0.5;
+    if (has_slab) alone.rigid = {make_kinematic({90.0, 10.0, 1.0}, {30.0, 0.0, 4.5})};
+    World beside = alone;
+    beside.soft.push_back(make_body(make_sphere(2.0, 10, 7), {60.0, 0.5, 9.0}));
+    beside.soft[1].material.n = 0.2;
+    Stepper one(alone), other(beside);
+    for (int i = 0; i < 120; ++i) {
+      ASSERT_FALSE(one.step(alone));
+      ASSERT_FALSE(other.step(beside));
+      ASSERT_TRUE(alone.soft[0].positions.rows() == beside.soft[0].positions.rows()) << i;
+      ASSERT_TRUE(alone.soft[0].velocities.rows() == beside.soft[0].velocities.rows()) << i;
+    }
+  }
+}
+
 TEST(Kinematic, WhatIsOfNoFiniteMassHasNoEnergyAndNoMomentum) {
   World world;
   world.rigid = {make_kinematic({1.0, 1.0, 1.0}, {0.0, 0.0, 5.0}, {3.0, 0.0, 0.0})};
