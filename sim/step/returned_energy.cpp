@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/response/vibration.h"
+#include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
 namespace {
@@ -102,6 +103,136 @@ double slow_vibrations(World& world, SweptMemory& memory, int island, double exc
   return taken;
 }
 
+Mat3 inertia_in_world(const RigidBox& box) {
+  const Mat3 axes = box.orientation.toRotationMatrix();
+  return axes * body_inertia(box).asDiagonal() * axes.transpose();
+}
+
+/// The bodies of an island, one vertex or box after the other.
+class IslandMotion {
+ public:
+  IslandMotion(World& world, SweptMemory& memory, int island)
+      : world_(world), memory_(memory), island_(island) {
+    find_mean();
+    find_rotation();
+  }
+
+  /// J.
+  double energy() const {
+    double sum = 0.0;
+    visit_vertices([&](double mass, const Vec3& x, const Vec3& v) {
+      sum += 0.5 * mass * (v - at_point(x)).squaredNorm();
+    });
+    visit_boxes([&](const RigidBox& box) {
+      const Vec3 spin = box.angular_velocity - angular_velocity_;
+      sum += 0.5 * box.mass * (box.velocity - at_point(box.position)).squaredNorm() +
+             0.5 * spin.dot(inertia_in_world(box) * spin);
+    });
+    return sum;
+  }
+
+  void slow(double factor) {
+    for_each_soft([&](SoftBody& body) {
+      for (int v = 0; v < body.positions.size(); ++v) {
+        const Vec3 common = at_point(body.positions[v]);
+        body.velocities[v] = common + factor * (body.velocities[v] - common);
+      }
+    });
+    visit_boxes([&](RigidBox& box) {
+      const Vec3 common = at_point(box.position);
+      box.velocity = common + factor * (box.velocity - common);
+      box.angular_velocity =
+          angular_velocity_ + factor * (box.angular_velocity - angular_velocity_);
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_soft(const Visit& visit) const {
+    for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
+      if (memory_.solver.island_of(i) == island_) visit(world_.soft[at(i)]);
+    }
+  }
+  template <class Visit>
+  void visit_vertices(const Visit& visit) const {
+    for_each_soft([&](const SoftBody& body) {
+      for (int v = 0; v < body.positions.size(); ++v) {
+        visit(body.material.vertex_mass, Vec3(body.positions[v]), Vec3(body.velocities[v]));
+      }
+    });
+  }
+  template <class Visit>
+  void visit_boxes(const Visit& visit) const {
+    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
+      if (memory_.solver.island_of(memory_.bodies.of_box(i)) == island_) visit(world_.rigid[at(i)]);
+    }
+  }
+
+  void find_mean() {
+    double mass = 0.0;
+    const auto add = [&](double m, const Vec3& x, const Vec3& v) {
+      mass += m;
+      centre_ += m * x;
+      velocity_ += m * v;
+    };
+    visit_vertices(add);
+    visit_boxes([&](const RigidBox& box) { add(box.mass, box.position, box.velocity); });
+    centre_ /= mass;
+    velocity_ /= mass;
+  }
+
+  void find_rotation() {
+    Vec3 turning = Vec3::Zero();
+    Mat3 inertia = Mat3::Zero();
+    const auto add = [&](double m, const Vec3& x, const Vec3& v) {
+      const Vec3 arm = x - centre_;
+      turning += m * arm.cross(v - velocity_);
+      inertia += m * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    };
+    visit_vertices(add);
+    visit_boxes([&](const RigidBox& box) {
+      add(box.mass, box.position, box.velocity);
+      const Mat3 own = inertia_in_world(box);
+      turning += own * box.angular_velocity;
+      inertia += own;
+    });
+    angular_velocity_ = inertia.ldlt().solve(turning);
+  }
+
+  /// m/s, of the rigid motion.
+  Vec3 at_point(const Vec3& point) const {
+    return velocity_ + angular_velocity_.cross(point - centre_);
+  }
+
+  World& world_;
+  SweptMemory& memory_;
+  int island_;
+  Vec3 centre_ = Vec3::Zero();
+  Vec3 velocity_ = Vec3::Zero();
+  Vec3 angular_velocity_ = Vec3::Zero();
+};
+
+bool is_held(SweptMemory& memory, int island) {
+  return std::ranges::any_of(memory.solver.impulses_of(island), [](const SweptImpulse* impulse) {
+    return !impulse->first().moves() || !impulse->second().moves();
+  });
+}
+
+/// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
+/// with their momentum and angular momentum: these stay as they are. All velocities against each
+/// other shrink by the same factor, so that at contacts what parts still parts. Returns what was
+/// taken: no more than there is, and nothing if the ground or a box that nothing moves holds the
+/// island.
+double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
+  if (is_held(memory, island)) return 0.0;
+  IslandMotion motion(world, memory, island);
+  const double there_is = motion.energy();
+  const double taken = std::min(energy, there_is);
+  if (!(taken > 0.0)) return 0.0;
+  motion.slow(std::sqrt(1.0 - taken / there_is));
+  return taken;
+}
+
 }  // namespace
 
 void limit_returned_energy(SweptMemory& memory, double tolerance) {
@@ -112,8 +243,14 @@ double take_back_excess_work(World& world, SweptMemory& memory) {
   double taken = 0.0;
   if (is_implicit(world.settings.integrator)) return taken;
   for (std::size_t i = 0; i < memory.work_of_islands.size(); ++i) {
+    const int island = static_cast<int>(i);
     const double work = memory.work_of_islands[i];
-    if (work > 0.0) taken += slow_vibrations(world, memory, static_cast<int>(i), work);
+    if (!(work > 0.0)) continue;
+    const double of_vibrations = slow_vibrations(world, memory, island, work);
+    taken += of_vibrations;
+    if (of_vibrations < work) {
+      taken += take_from_relative_motion(world, memory, island, work - of_vibrations);
+    }
   }
   return taken;
 }

@@ -32,6 +32,7 @@ struct ImpactOptions {
   StudyOptions study;
   int runs = 1000;
   std::uint64_t seed = 1;
+  int first = 0;
 };
 
 struct ImpactRow {
@@ -52,7 +53,7 @@ std::vector<ImpactRow> run_impacts(const ImpactOptions& options) {
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < rows.size() && !interrupted(); i = next++) {
-      rows[i].impact = random_impact(options.seed, static_cast<int>(i));
+      rows[i].impact = random_impact(options.seed, options.first + static_cast<int>(i));
       rows[i].result = run_impact(rows[i].impact);
     }
   };
@@ -83,14 +84,15 @@ std::string table_text(const std::vector<ImpactRow>& rows) {
   return table.text();
 }
 
-std::string csv_text(const std::vector<ImpactRow>& rows) {
+std::string csv_text(const std::vector<ImpactRow>& rows, int first) {
   Csv csv({"number", "bodies", "speed_m_per_s", "steps_per_second", "outcome", "seconds",
            "greatest_contact_work", "message"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto& [impact, result] = rows[i];
-    csv.add_row({csv_cell(static_cast<int>(i)), csv_cell(impact.bodies), csv_cell(impact.speed),
-                 csv_cell(result.steps_per_second), csv_cell(outcome_text(rows[i])),
-                 csv_cell(result.seconds), csv_cell(result.most_work), csv_cell(result.message)});
+    csv.add_row({csv_cell(first + static_cast<int>(i)), csv_cell(impact.bodies),
+                 csv_cell(impact.speed), csv_cell(result.steps_per_second),
+                 csv_cell(outcome_text(rows[i])), csv_cell(result.seconds),
+                 csv_cell(result.most_work), csv_cell(result.message)});
   }
   return csv.text();
 }
@@ -98,6 +100,7 @@ std::string csv_text(const std::vector<ImpactRow>& rows) {
 nlohmann::json summary_json(const ImpactOptions& options, const std::vector<ImpactRow>& rows) {
   nlohmann::json json = study_head(options.study);
   json["seed"] = options.seed;
+  json["first"] = options.first;
   json["runs"] = rows.size();
   for (const std::string_view outcome : impact_outcomes) json["outcomes"][outcome] = 0;
   double most_work = 0.0;
@@ -110,10 +113,11 @@ nlohmann::json summary_json(const ImpactOptions& options, const std::vector<Impa
 }
 
 /// Those that did not hold can be run again as scenes.
-void write_scenes(const StudyFolder& folder, const std::vector<ImpactRow>& rows) {
+void write_scenes(const StudyFolder& folder, const std::vector<ImpactRow>& rows, int first) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].has_held()) continue;
-    const auto path = folder.write(fmt::format("impact_{}.toml", i), rows[i].impact.scene);
+    const auto path = folder.write(fmt::format("impact_{}.toml", first + static_cast<int>(i)),
+                                   rows[i].impact.scene);
     fmt::print("{}: {}, {} at {:.1f} m/s: {}\n", path.string(), outcome_text(rows[i]),
                rows[i].impact.bodies, rows[i].impact.speed, rows[i].result.message);
   }
@@ -133,10 +137,10 @@ bool are_as_promised(const std::vector<ImpactRow>& rows) {
 ExitCode run_impact_study(const ImpactOptions& options) {
   const StudyFolder folder(options.study.out);
   const std::vector<ImpactRow> rows = run_impacts(options);
-  folder.write("impacts.csv", csv_text(rows));
+  folder.write("impacts.csv", csv_text(rows, options.first));
   const nlohmann::json summary = summary_json(options, rows);
   folder.write("impacts.json", summary.dump(2) + '\n');
-  write_scenes(folder, rows);
+  write_scenes(folder, rows, options.first);
   fmt::print("{}\nContacts added at most {:.2g} of the energy of the impact in a step\n{}\n",
              table_text(rows), summary["greatest_contact_work"].get<double>(),
              folder.path().string());
@@ -154,6 +158,9 @@ void add_impact_study(CLI::App& study, Action& action, std::span<const std::stri
   command->add_option("--runs", options->runs, "How many impacts [1000]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
+  command->add_option("--first", options->first, "The number of the first impact [0]")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--seed", options->seed, "Of the random numbers [1]")->type_name("N");
   command->callback(
       [options, &action] { action = [options] { return run_impact_study(*options); }; });

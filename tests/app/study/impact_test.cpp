@@ -32,6 +32,17 @@ TEST(ImpactRun, HoldsAndContactsAddNoEnergy) {
   }
 }
 
+/// A plate edge that passes an edge of a sphere, whose nearest points at the start were others: it
+/// must be held all the same. And two boxes that turn so far in a step that impulses at its ends
+/// add energy: without a vibration it comes from their motion against each other.
+TEST(ImpactRun, HoldsWhatTurnsOnItsWay) {
+  for (const int number : {28, 38}) {
+    const ImpactResult result = run_impact(random_impact(3, number));
+    EXPECT_EQ(result.outcome, ImpactOutcome::held) << number << ": " << result.message;
+    EXPECT_LE(result.most_work, 1e-9) << number;
+  }
+}
+
 /// The paper's contacts are found at the ends of steps: between them bodies pass each other.
 TEST(ImpactRun, SeesBodiesThatPassThroughEachOtherWithinAStep) {
   RandomImpact impact;
