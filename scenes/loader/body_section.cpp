@@ -22,10 +22,6 @@ constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::fixed, "static"},
     Named<BodyKind>{BodyKind::moved, "moved"},
 };
-constexpr std::array interpolations = {
-    Named<sim::Interpolation>{sim::Interpolation::linear, "linear"},
-    Named<sim::Interpolation>{sim::Interpolation::smooth, "smooth"},
-};
 constexpr std::array rests = {
     Named<Rest>{Rest::shape, "shape"},
     Named<Rest>{Rest::equilibrium, "equilibrium"},
@@ -75,7 +71,7 @@ Section body_section(BodyScene& body) {
       .keys = {
           {"name", &body.name, any(), "", "of this body alone", check_body_name},
           selector({"kind", kind, any(), "",
-                    "gas-filled membrane, or box: free, fixed, or moved at its velocities"}),
+                    "gas-filled membrane, or box: free, fixed, or moved as its keys say"}),
           of_shape(
               selector({"shape", shape, any(), "", "a body that is not soft is always a box"})),
           only(round, {"radius", &body.radius, length(), "m",
@@ -137,7 +133,7 @@ Section body_section(BodyScene& body) {
           {"rotation", &body.rotation, between(-360, 360), "degrees",
            "about world x, then y, then z"},
           only(of_own_velocity, {"velocity", &body.velocity, place(), "m/s",
-                                 "at the start; of a moved body always"}),
+                                 "at the start; of a moved body always, unless motion has keys"}),
           only(of_own_velocity, {"angular_velocity", &body.angular_velocity, place(), "rad/s",
                                  "about world axes; likewise"}),
           only(moved_bodies, selector({"motion.path", &body.motion.path, place(), "s, m, m, m",
@@ -145,9 +141,8 @@ Section body_section(BodyScene& body) {
           only(moved_bodies,
                selector({"motion.rotation", &body.motion.rotation, place(), "s, degrees x 3",
                          "likewise: turned about world x, then y, then z"})),
-          only(moved_bodies,
-               {"motion.interpolation", word(body.motion.interpolation, interpolations), any(), "",
-                "between keys"}),
+          only(moved_bodies, {"motion.smooth", &body.motion.smooth, any(), "",
+                              "between keys a smooth curve; false: even speed"}),
 
           {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
           {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},

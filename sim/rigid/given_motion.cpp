@@ -49,21 +49,21 @@ Vec3 rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& 
 
 }  // namespace
 
-Vec3 value_at(std::span<const KeyFrame> keys, Interpolation interpolation, double time) {
+Vec3 value_at(std::span<const KeyFrame> keys, bool smooth, double time) {
   if (keys.empty()) return Vec3::Zero();
   if (time <= time_of(keys.front())) return value_of(keys.front());
   if (time >= time_of(keys.back())) return value_of(keys.back());
   std::size_t next = 1;
   while (time_of(keys[next]) <= time) ++next;
   const double part = (time - time_of(keys[next - 1])) / duration(keys[next - 1], keys[next]);
-  if (interpolation == Interpolation::smooth) return cubic(keys, next - 1, part);
+  if (smooth) return cubic(keys, next - 1, part);
   return (1.0 - part) * value_of(keys[next - 1]) + part * value_of(keys[next]);
 }
 
 Pose pose_at(const GivenMotion& motion, double time) {
   const KeyFrames& keys = motion.keys;
-  const Vec3 degrees = value_at(keys.rotation, keys.interpolation, time);
-  return {motion.position + value_at(keys.path, keys.interpolation, time),
+  const Vec3 degrees = value_at(keys.rotation, keys.smooth, time);
+  return {motion.position + value_at(keys.path, keys.smooth, time),
           rotation_of_degrees(degrees) * motion.orientation};
 }
 

@@ -11,7 +11,7 @@ namespace pneuma::sim {
 /// cubic of Fritsch and Butland (1984, "A method for constructing local monotone piecewise cubic
 /// interpolants"): where values rise from key to key, so does the curve; at the first and last key,
 /// and where values turn back, its slope is 0.
-Vec3 value_at(std::span<const KeyFrame> keys, Interpolation interpolation, double time);
+Vec3 value_at(std::span<const KeyFrame> keys, bool smooth, double time);
 
 struct Pose {
   Vec3 position;  // m

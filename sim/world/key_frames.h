@@ -10,20 +10,15 @@
 
 namespace pneuma::sim {
 
-/// Between keys. Both pass through every key; before the first and after the last all is at rest.
-enum class Interpolation {
-  linear,  // even speed from key to key
-  smooth,  // a cubic without overshoot; its speed has no jumps
-};
-
 /// A time in s, then what is reached by it along x, y, z.
 using KeyFrame = std::array<double, 4>;
 
-/// Where a box is, whatever it meets: from where it starts, moved and turned by these.
+/// Where a box is, whatever it meets: from where it starts, moved and turned by these, and at rest
+/// before the first and after the last.
 struct KeyFrames {
   std::vector<KeyFrame> path;      // m
   std::vector<KeyFrame> rotation;  // degrees about world x, then y, then z
-  Interpolation interpolation = Interpolation::smooth;
+  bool smooth = true;  // a cubic without overshoot and without jumps of speed, or even speeds
 
   bool empty() const { return path.empty() && rotation.empty(); }
   bool operator==(const KeyFrames&) const = default;

@@ -30,12 +30,11 @@ TEST(MotionKeys, SetTheirMembersAndReadBack) {
   const Scene scene = load(moved +
                            "motion.path = [[0, 0, 0, 0], [1.5, 0, 0, -3]]\n"
                            "motion.rotation = [[2, 0, 0, 90]]\n"
-                           "motion.interpolation = \"linear\"\n");
+                           "motion.smooth = false\n");
   const sim::KeyFrames& motion = scene.bodies[0].motion;
-  EXPECT_EQ(motion.path,
-            (std::vector<sim::KeyFrame>{{0.0, 0.0, 0.0, 0.0}, {1.5, 0.0, 0.0, -3.0}}));
+  EXPECT_EQ(motion.path, (std::vector<sim::KeyFrame>{{0.0, 0.0, 0.0, 0.0}, {1.5, 0.0, 0.0, -3.0}}));
   EXPECT_EQ(motion.rotation, (std::vector<sim::KeyFrame>{{2.0, 0.0, 0.0, 90.0}}));
-  EXPECT_EQ(motion.interpolation, sim::Interpolation::linear);
+  EXPECT_FALSE(motion.smooth);
   EXPECT_EQ(difference(parse_scene(print_scene(scene), "x.toml"), scene), "");
   EXPECT_EQ(load(moved, {"body.motion.path=[[0, 1, 2, 3]]"}).bodies[0].motion.path.size(), 1u);
 }
@@ -48,7 +47,7 @@ TEST(MotionKeys, SayWhatIsAllowed) {
   expect_refused(moved + "motion.path = [[-1, 1, 2, 3]]\n", {"x.toml:3:17", "before the start"});
   expect_refused(moved + "motion.path = [[1, 0, 0, 0], [1, 0, 0, 1]]\n",
                  {"x.toml:3:30", "times must rise"});
-  expect_refused(moved + "motion.interpolation = \"smoth\"\n", {"smooth"});
+  expect_refused(moved + "motion.smooth = 1\n", {"true or false"});
 }
 
 TEST(MotionKeys, TakeThePlaceOfVelocities) {
@@ -56,7 +55,7 @@ TEST(MotionKeys, TakeThePlaceOfVelocities) {
                  {"x.toml:4:1", "have no motion"});
   for (const char* kind : {"static", "rigid", "soft"}) {
     expect_refused("kind = \"" + std::string(kind) + "\"\nmotion.path = [[0, 0, 0, 0]]\n",
-                   {"x.toml:3:1", "moved bodies only"});
+                   {"x.toml:3:8", "moved bodies only"});
   }
 }
 

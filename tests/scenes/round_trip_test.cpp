@@ -125,6 +125,7 @@ void make_consistent(Scene& scene) {
     if (body.kind != BodyKind::soft && scene.settings.contact != sim::ContactMethod::swept) {
       body.kind = BodyKind::rigid;
     }
+    if (body.kind != BodyKind::moved) body.motion = {};
     if (body.shape == Shape::torus && body.kind == BodyKind::soft) {
       body.tube_radius = body.radius / 3.0;
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);

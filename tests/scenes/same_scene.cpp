@@ -105,7 +105,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("angular_velocity", angular_velocity, b.angular_velocity);
   c.member("motion.path", motion.path, b.motion.path);
   c.member("motion.rotation", motion.rotation, b.motion.rotation);
-  c.member("motion.interpolation", motion.interpolation, b.motion.interpolation);
+  c.member("motion.smooth", motion.smooth, b.motion.smooth);
   c.member("copies", copies, b.copies);
   c.member("spacing", spacing, b.spacing);
   c.member("jitter", jitter, b.jitter);

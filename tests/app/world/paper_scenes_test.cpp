@@ -60,7 +60,7 @@ const PaperScene paper_scenes[] = {
     {"one_sphere", one_body, 0.0, 1e-5, 0.1, false},
     {"one_torus", one_body, 0.0, 1e-4, 0.2, false},
     {"pins", soft_body_and_boxes, 0.0, 1e-4, 1.0, true},
-    {"press", soft_body_and_plate, 0.001, 1.6, 0.9, true},
+    {"press", soft_body_and_plate, 0.001, 1.6, 0.9, false},
     {"pressure_firm", one_body, 0.0, 2e-4, 0.05, false},
     {"pressure_soft", one_body, 0.0, 1e-5, 0.2, false},
     {"sphere_in_torus", soft_bodies, 0.011, 2e-4, 0.05, true},
