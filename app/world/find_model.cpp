@@ -61,9 +61,9 @@ fs::path find_model(const std::string& file, const fs::path& scene_folder) {
     if (fs::exists(candidate, ignored)) return candidate;
     searched.push_back(candidate.string());
   }
-  throw assets::ModelError(fmt::format("{}: no such model file{}; looked for {}", file,
-                                       near_name(path.filename().string(), folders),
-                                       fmt::join(searched, ", ")));
+  throw assets::ModelError(fmt::format("{}: no such model file; looked for {}{}", file,
+                                       fmt::join(searched, ", "),
+                                       near_name(path.filename().string(), folders)));
 }
 
 sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body) {

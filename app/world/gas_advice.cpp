@@ -17,6 +17,10 @@ namespace {
 /// Times its volume: a body that grows further has no more than its first picture in common with
 /// the shape in the scene file.
 constexpr double most_growth = 2.0;
+/// Times its volume: less is called crushed.
+constexpr double least_share = 0.5;
+/// Times its volume: what is advised for.
+constexpr double carried_share = 0.8;
 
 std::optional<double> max_held(const sim::SoftBody& body) {
   try {
@@ -26,7 +30,32 @@ std::optional<double> max_held(const sim::SoftBody& body) {
   }
 }
 
-GasAdvice gas_advice(const sim::SoftBody& body, int max_vertices) {
+/// m^2 as seen from above; of a body with folds more, as what is hidden counts too.
+double ground_plan(const sim::SoftBody& body) {
+  double twice = 0.0;
+  for (const sim::Triangle& t : body.mesh->topology.triangles()) {
+    const sim::Vec3 a(body.positions[t[0]]), b(body.positions[t[1]]), c(body.positions[t[2]]);
+    twice += 0.5 * std::abs((b - a).cross(c - a).z());
+  }
+  return 0.5 * twice;
+}
+
+/// Springs are left out: they hold a shape against its gas, and hardly against a weight.
+void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, GasAdvice& advice) {
+  const sim::GasLaw law = sim::gas_law(body.material);
+  const double gravity = -settings.gravity.z();
+  if (!settings.ground || gravity <= 0.0 || law.strength == 0.0) return;
+  const double area = ground_plan(body);
+  const double weight = body.material.vertex_mass * advice.vertices * gravity;
+  const double needed = law.ambient_pressure + weight / area;
+  advice.pressed = advice.volume * std::pow(sim::absolute_pressure(law, advice.volume) / needed,
+                                            1.0 / law.exponent);
+  advice.light_vertex_mass = body.material.vertex_mass *
+                             sim::gauge_pressure(law, carried_share * advice.volume) * area /
+                             weight;
+}
+
+GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, int max_vertices) {
   GasAdvice advice;
   advice.body = body.name;
   advice.vertices = body.mesh->topology.vertex_count();
@@ -35,17 +64,20 @@ GasAdvice gas_advice(const sim::SoftBody& body, int max_vertices) {
   if (!advice.left_out) advice.settled = settled_volume(body);
   advice.k = body.material.k;
   if (advice.blown_up()) advice.max_held = max_held(body);
+  predict_pressed(body, settings, advice);
   return advice;
 }
 
 }  // namespace
+
+bool GasAdvice::crushed() const { return pressed && *pressed < least_share * volume; }
 
 bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
 
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
   for (const DistinctBody& body : distinct_bodies(world)) {
-    advices.push_back(gas_advice(*body.first, max_vertices));
+    advices.push_back(gas_advice(*body.first, world.settings, max_vertices));
     advices.back().count = body.count;
     if (!advices.back().left_out) max_vertices -= advices.back().vertices;
   }
@@ -75,6 +107,14 @@ std::string gas_warning(const GasAdvice& advice) {
       "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
       "springs of k = {:g} N/m hold",
       grows, base::text_below(*advice.max_held), advice.k);
+}
+
+std::string weight_warning(const GasAdvice& advice) {
+  return fmt::format(
+      "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; "
+      "give it a vertex_mass of at most {} kg, or more gas",
+      body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume,
+      base::text_below(advice.light_vertex_mass));
 }
 
 }  // namespace pneuma::app

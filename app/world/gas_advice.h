@@ -19,8 +19,13 @@ struct GasAdvice {
   std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
                                    // can hold in its shape; none: it cannot hold it at all
   double k = 0.0;                  // N/m, of its springs
+  // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
+  // it, or no weight.
+  std::optional<double> pressed;
+  double light_vertex_mass = 0.0;  // kg, with which that would be nearly its volume
 
   bool blown_up() const;  // to more than twice its volume
+  bool crushed() const;   // by its weight, to less than half its volume
 };
 
 /// Vertices of all distinct bodies for which there is advice: before a run it is to take well below
@@ -28,8 +33,7 @@ struct GasAdvice {
 inline constexpr int quick_advice = 3'000, patient_advice = 30'000;
 
 /// Of one body for each mesh and material, up to so many vertices in all. There is no advice
-/// against bodies that shrink: springs are at rest in the shape or stretched by its gas, so that
-/// only weight and contacts press a body together.
+/// against bodies that contacts press together.
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices = patient_advice);
 
 /// "27.7 m^3 at the start, 94.1 m^3 (3.4 times) at rest without weight".
@@ -37,5 +41,8 @@ std::string volumes_text(const GasAdvice& advice);
 
 /// A line about a body that is blown up, with what keeps its size.
 std::string gas_warning(const GasAdvice& advice);
+
+/// A line about a body that its weight crushes, with what would carry it.
+std::string weight_warning(const GasAdvice& advice);
 
 }  // namespace pneuma::app

@@ -4,6 +4,8 @@
 
 #include "app/world/build_world.h"
 #include "scenes/loader/load_scene.h"
+#include "sim/mesh/measure.h"
+#include "sim/step/stepper.h"
 
 namespace pneuma::app {
 namespace {
@@ -29,6 +31,28 @@ TEST(GasAdvice, WhatItSaysKeepsTheSize) {
   const GasAdvice held = advices_on(body + n + "\nrest = \"equilibrium\"\n").at(0);
   EXPECT_FALSE(held.blown_up()) << warning;
   EXPECT_NEAR(held.settled.value() / held.volume, 1.0, 0.01) << warning;
+}
+
+/// m^3, on the ground, as rk4 finds it.
+double volume_after(const std::string& text, double seconds) {
+  sim::World world = build_world(scenes::parse_scene(text, "test.toml"));
+  sim::Stepper stepper(world);
+  while (sim::time(world) < seconds) EXPECT_FALSE(stepper.step(world));
+  return sim::volume(world.soft[0].mesh->topology, world.soft[0].positions);
+}
+
+TEST(GasAdvice, WhatIsTooHeavyForItsGasIsCrushed) {
+  const auto ball = [](const std::string& n, const std::string& mass) {
+    return "[simulation]\nsteps_per_second = 480\n[[body]]\nposition = [0, 0, 3.1]\nn = " + n +
+           "\nvertex_mass = " + mass + "\n";
+  };
+  const GasAdvice heavy = advices_on(ball("0.2", "2")).at(0);
+  ASSERT_TRUE(heavy.crushed());
+  const std::string warning = weight_warning(heavy);
+  const std::string mass = number_after(warning, "vertex_mass of at most ");
+  EXPECT_FALSE(advices_on(ball("0.2", mass)).at(0).crushed()) << warning;
+  EXPECT_LT(volume_after(ball("0.2", "2"), 4.0), 0.6 * heavy.volume);
+  EXPECT_GT(volume_after(ball("0.2", mass), 4.0), 0.75 * heavy.volume) << warning;
 }
 
 TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
