@@ -49,6 +49,7 @@ std::string_view to_string(ContactKind kind) {
 
 Plan make_plan(const World& world) {
   const std::size_t soft = world.soft.size(), rigid = world.rigid.size();
+  const bool free_boxes = !std::ranges::all_of(world.rigid, &RigidBox::is_kinematic);
   const bool ground = world.settings.ground.has_value();
   Plan plan;
 
@@ -65,13 +66,15 @@ Plan make_plan(const World& world) {
   item(plan, Stage::resolve_contacts) = item(plan, Stage::find_contacts);
 
   const char* no_ground = "no ground";
+  const char* no_free_box = rigid > 0 ? "every box is static or moved" : "no rigid box";
   item(plan, ContactKind::soft_ground) =
       needs(ground && soft > 0, ground ? "no soft body" : no_ground);
   item(plan, ContactKind::rigid_ground) =
-      needs(ground && rigid > 0, ground ? "no rigid box" : no_ground);
+      needs(ground && free_boxes, ground ? no_free_box : no_ground);
   item(plan, ContactKind::soft_soft) = needs(soft > 1, "fewer than two soft bodies");
   item(plan, ContactKind::soft_rigid) = needs(soft > 0 && rigid > 0, "not both soft and rigid");
-  item(plan, ContactKind::rigid_rigid) = needs(rigid > 1, "fewer than two rigid boxes");
+  item(plan, ContactKind::rigid_rigid) =
+      needs(rigid > 1 && free_boxes, rigid > 1 ? no_free_box : "fewer than two rigid boxes");
 
   const auto filled = std::ranges::count_if(
       world.soft, [](const SoftBody& body) { return has_filled_centre(*body.mesh); });

@@ -189,6 +189,18 @@ TEST(Plan, HasWhatTheKindsOfBodiesNeed) {
   EXPECT_EQ(left_out(make_plan(all)), (Names{"soft_ground", "rigid_ground"}));
 }
 
+TEST(Plan, BoxesThatNothingMovesMeetNeitherTheGroundNorEachOther) {
+  World world = torus_with_cubes();
+  for (RigidBox& box : world.rigid) box.is_kinematic = true;
+  const Plan plan = make_plan(world);
+  EXPECT_FALSE(plan.runs(ContactKind::rigid_ground));
+  EXPECT_FALSE(plan.runs(ContactKind::rigid_rigid));
+  EXPECT_TRUE(plan.runs(ContactKind::soft_rigid));
+  world.rigid[0].is_kinematic = false;
+  EXPECT_TRUE(make_plan(world).runs(ContactKind::rigid_ground));
+  EXPECT_TRUE(make_plan(world).runs(ContactKind::rigid_rigid));
+}
+
 TEST(Plan, OfSweptContactsHasNeitherParticlesNorBodiesMovedApart) {
   World world = torus_with_cubes();
   add(world, sphere({0.0, 0.0, 20.0}));
