@@ -53,6 +53,7 @@ json gas_json(const std::vector<GasAdvice>& gas) {
                       {"volume_m3", advice.volume},
                       {"settled_volume_m3", number(advice.settled)},
                       {"blown_up", advice.blown_up()},
+                      {"crushed", advice.crushed()},
                       {"max_held_mol", number(advice.max_held)}});
   }
   return result;
@@ -103,10 +104,11 @@ json run_statistics_json(const RunStatistics& run) {
         {"greatest_rise_between_frames", run.energy_rise.value},
         {"greatest_rise_at_s", run.energy_rise.time},
         {"all_rises", run.energy_rises},
-        {"span", run.energy_span}}},
+        {"span", run.energy_span},
+        {"work_of_moved_boxes", run.driven_work.value_or(0.0)}}},
       {"contacts_per_step", contacts_per_step_json(run.contacts)},
       {"volumes_m3", std::move(volumes)},
-      {"free", run.free},
+      {"free", run.pushed_by.empty()},
       {"momentum",
        {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},
       {"end_speed_m_per_s", run.end_speed},

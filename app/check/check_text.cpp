@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <sstream>
@@ -141,9 +142,13 @@ std::string energy_text(const RunStatistics& run) {
                         run.energy_rise.value, run.energy_rise.time, 100.0 * part, run.energy_span)
           : "none";
   text += named_line("", "greatest rise from one frame to the next: " + rise);
+  if (run.driven_work) {
+    text += named_line("", fmt::format("work of moved boxes: {:+.4g} J", *run.driven_work));
+  }
   return text + named_line("",
-                           "the gas counts as 0 J at 1 m^3 and less in any greater volume, weight "
-                           "as 0 J at the origin: only differences mean anything");
+                           "gas without ambient pressure counts as 0 J at 1 m^3 and less in any "
+                           "greater volume, weight as 0 J at the origin: only differences mean "
+                           "anything");
 }
 
 std::string contacts_text(const ContactTally& contacts) {
@@ -172,7 +177,9 @@ std::string volumes_text(const RunStatistics& run) {
 }
 
 std::string momentum_text(const RunStatistics& run) {
-  if (!run.free) return named_line("momentum", "changes by gravity and ground");
+  if (!run.pushed_by.empty()) {
+    return named_line("momentum", fmt::format("is changed by {}", fmt::join(run.pushed_by, ", ")));
+  }
   const auto drift = [](const sim::Vec3& start, const sim::Vec3& end, const char* unit) {
     return fmt::format("{:.6g} {} at the start, changed by {:.2g}", start.norm(), unit,
                        (end - start).norm());

@@ -36,6 +36,23 @@ double fastest_point(const sim::World& world) {
   return speed;
 }
 
+std::vector<std::string> what_pushes(const sim::World& world) {
+  std::vector<std::string> names;
+  if (!world.settings.gravity.isZero()) names.emplace_back("gravity");
+  if (world.settings.ground) names.emplace_back("the ground");
+  if (std::ranges::any_of(world.rigid, &sim::RigidBox::is_kinematic)) {
+    names.emplace_back("boxes that are static or moved");
+  }
+  return names;
+}
+
+bool has_moved_boxes(const sim::World& world) {
+  return std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
+    return box.is_kinematic &&
+           (box.motion || !box.velocity.isZero() || !box.angular_velocity.isZero());
+  });
+}
+
 /// Gathers the statistics while a run goes on.
 class Observer {
  public:
@@ -48,7 +65,8 @@ class Observer {
     result_.momentum_start = sim::momentum(start);
     result_.start_penetration = sim::max_penetration(start);
     result_.penetration = {result_.start_penetration, sim::time(start)};
-    result_.free = !start.settings.ground && start.settings.gravity.isZero();
+    result_.pushed_by = what_pushes(start);
+    if (has_moved_boxes(start)) result_.driven_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
@@ -59,6 +77,7 @@ class Observer {
 
   void after_step(const sim::World& world, const sim::Stepper& stepper) {
     result_.contacts.add(stepper.contacts());
+    if (result_.driven_work) *result_.driven_work += stepper.driven_work();
     if (2 * world.steps > all_steps_) result_.settled_contacts.add(stepper.contacts());
   }
 

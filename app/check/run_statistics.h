@@ -65,11 +65,15 @@ struct RunStatistics {
   sim::Energy energy_end;
   Peak energy_rise;           // J, the greatest from one frame to the next
   double energy_rises = 0.0;  // J, all of them together
-  double energy_span = 0.0;   // J, between the greatest and the least: what a rise is judged by
+  // J, of the boxes that are moved on what they pushed; none: there is no such box.
+  std::optional<double> driven_work;
+  double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 
   std::vector<VolumeRange> volumes;  // of the soft bodies
 
-  bool free = false;  // no ground and no gravity, so that momentum should stay
+  // "gravity", "the ground", ...: what changes the momentum of all bodies together. Drag, which
+  // takes a share of it, is not named.
+  std::vector<std::string> pushed_by;
   sim::Momentum momentum_start;
   sim::Momentum momentum_end;
 

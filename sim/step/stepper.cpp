@@ -161,6 +161,9 @@ double Stepper::contact_work() const {
   if (!w.options.measure_work) return 0.0;
   return w.swept ? w.swept->work : w.contact_work;
 }
+double Stepper::driven_work() const {
+  return workspace_->swept ? workspace_->swept->driven_work : 0.0;
+}
 const Plan& Stepper::plan() const { return workspace_->plan; }
 std::span<const Contact> Stepper::contacts() const { return workspace_->contacts; }
 const StageTimes& Stepper::stage_times() const { return workspace_->stage_times; }

@@ -66,6 +66,9 @@ class Stepper {
   /// boxes; otherwise, and of bodies that only meet the ground, the change of energy by contacts. 0
   /// unless the options have measure_work.
   double contact_work() const;
+  /// J, what the boxes that are moved have given to the energy of the bodies in the last step by
+  /// pushing them: not part of contact_work, which takes both sides together.
+  double driven_work() const;
 
  private:
   std::optional<Divergence> step_bodies(World& world);

@@ -280,6 +280,16 @@ Vec3 SweptSearch::end_velocity(const SweptContact& contact) const {
   return bodies_.end_velocity(world_, first) - bodies_.end_velocity(world_, second);
 }
 
+Vec3 SweptSearch::driven_velocity(const SweptContact& contact, Moment moment) const {
+  const auto of = [&](const SurfacePoint& side) -> Vec3 {
+    if (side.body == swept_ground || !is_kinematic(world_, side.body)) return Vec3::Zero();
+    return moment == Moment::start ? bodies_.start_velocity(start_, side)
+                                   : bodies_.end_velocity(world_, side);
+  };
+  const auto [first, second] = where_impulses_act(contact);
+  return of(second) - of(first);
+}
+
 const ContactMaterial& SweptSearch::material(int body) const {
   if (body == swept_ground) return *world_.settings.ground;
   return bodies_.is_rigid(body) ? world_.rigid[at(bodies_.box(body))].surface

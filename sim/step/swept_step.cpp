@@ -40,11 +40,12 @@ class SweptStep {
   std::optional<Divergence> advance(int halvings) {
     SweptStart& start = m_.starts[at(halvings)];
     start.warm_start_impulses = world_.warm_start_impulses;
-    const double work = m_.work;
+    const double work = m_.work, driven_work = m_.driven_work;
     const std::size_t contacts = w_.contacts.size();
     const auto take_all_back = [&] {
       take_back(start);
       m_.work = work;
+      m_.driven_work = driven_work;
       w_.contacts.resize(contacts);
     };
     fraction_ = std::ldexp(1.0, -halvings);
@@ -164,6 +165,7 @@ class SweptStep {
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       m_.work += m_.impulses[i].work(m_.end_velocities[i]);
+      m_.driven_work += driven_work(i, Moment::end);
     }
     bodies_.add_changes(world_);
     m_.work -= take_back_excess_work(world_, m_);
@@ -178,7 +180,14 @@ class SweptStep {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       m_.work_of_start.push_back(m_.impulses[i].work(search_.start_velocity(m_.contacts[i])));
       m_.work += m_.work_of_start.back();
+      m_.driven_work += driven_work(i, Moment::start);
     }
+  }
+
+  /// J, of what moves a side of the contact: by its velocity, while the work of contacts is by that
+  /// of one side against the other.
+  double driven_work(std::size_t contact, Moment moment) const {
+    return m_.impulses[contact].given().dot(search_.driven_velocity(m_.contacts[contact], moment));
   }
 
   /// What a pair of features has been given at the start.
@@ -338,7 +347,7 @@ class SweptStep {
 }  // namespace
 
 std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
-  workspace.swept->work = 0.0;
+  workspace.swept->work = workspace.swept->driven_work = 0.0;
   workspace.contacts.clear();
   return SweptStep(world, workspace).advance(0);
 }

@@ -73,7 +73,8 @@ TEST(CheckText, SaysHowLargeGasMakesABody) {
 }
 
 TEST(CheckText, SaysWhereEnergiesCountFrom) {
-  EXPECT_NE(check_text(report_of(sphere_text, true)).find("the gas counts as 0 J at 1 m^3"),
+  EXPECT_NE(check_text(report_of(sphere_text, true))
+                .find("gas without ambient pressure counts as 0 J at 1 m^3"),
             std::string::npos);
 }
 

@@ -34,7 +34,7 @@ TEST(RunStatistics, OfAFreeSoftBodyKeepsMomentumAndLosesEnergy) {
   EXPECT_FALSE(run.divergence);
   EXPECT_EQ(run.steps, 30);
   EXPECT_DOUBLE_EQ(run.seconds, 0.5);
-  EXPECT_TRUE(run.free);
+  EXPECT_TRUE(run.pushed_by.empty());
   // 58 vertices of 0.35 kg at 1 m/s.
   EXPECT_NEAR(run.momentum_start.linear.x(), 58 * 0.35, 1e-12);
   // Without drag nothing acts from outside; what is left is rounding, 30 steps of 58 sums.
@@ -70,6 +70,34 @@ position = [0.5, 0.1, 5.2]
   EXPECT_EQ(run.self_crossings.frames, 0);
 }
 
+TEST(RunStatistics, BookTheWorkOfMovedBoxes) {
+  // A plate at 2 m/s meets a box of 1 kg at rest, which leaves it at 4 m/s: 8 J.
+  const char* pushed = R"(
+duration = 1.0
+[ground]
+present = false
+[simulation]
+gravity = [0.0, 0.0, 0.0]
+[[body]]
+kind = "moved"
+size = [1.0, 4.0, 4.0]
+velocity = [2.0, 0.0, 0.0]
+restitution = 1.0
+[[body]]
+kind = "rigid"
+position = [2.0, 0.0, 0.0]
+mass = 1.0
+restitution = 1.0
+rho_g = 0.0
+)";
+  const RunStatistics run = statistics_of(pushed);
+  ASSERT_TRUE(run.driven_work);
+  // The impulse is solved for to a part of the skin.
+  EXPECT_NEAR(*run.driven_work, 8.0, 1e-6);
+  EXPECT_NEAR(run.energy_end.total() - run.energy_start.total(), *run.driven_work, 1e-6);
+  EXPECT_FALSE(statistics_of(free_sphere).driven_work);
+}
+
 TEST(RunStatistics, FollowTheVolumeOfEachBody) {
   const RunStatistics run = statistics_of(free_sphere);
   ASSERT_EQ(run.volumes.size(), 1u);
@@ -82,8 +110,10 @@ TEST(RunStatistics, FollowTheVolumeOfEachBody) {
 }
 
 TEST(RunStatistics, AreNotOfAFreeSceneUnderGravityOrOnAGround) {
-  EXPECT_FALSE(statistics_of(free_sphere, {"simulation.gravity=[0, 0, -9.81]"}).free);
-  EXPECT_FALSE(statistics_of(free_sphere, {"ground.present=true"}).free);
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(statistics_of(free_sphere, {"simulation.gravity=[0, 0, -9.81]"}).pushed_by,
+            Names{"gravity"});
+  EXPECT_EQ(statistics_of(free_sphere, {"ground.present=true"}).pushed_by, Names{"the ground"});
 }
 
 TEST(RunStatistics, CountContactsAndPenetrationOnTheGround) {
