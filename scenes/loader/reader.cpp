@@ -68,6 +68,9 @@ void Reader::read_others(const Table& table, const Section& section,
   const std::string_view around = table_around(section.table);
   const bool selectors_overridden =
       overridden_here || (around != section.table && selected_by_override_.contains(around));
+  const bool selector_refused = std::ranges::any_of(section.keys, [&](const Key& key) {
+    return key.selects && refused_.contains(member_of(key.slot));
+  });
   for (const Member& member : table) {
     if (std::find(children.begin(), children.end(), member.key) != children.end()) continue;
     const auto key = std::find_if(section.keys.begin(), section.keys.end(),
@@ -75,6 +78,7 @@ void Reader::read_others(const Table& table, const Section& section,
     if (key == section.keys.end()) {
       refuse_unknown(section, member, children);
     } else if (!key->applies) {
+      if (selector_refused) continue;  // by its right value the key may apply
       const bool from_file = member.value.at.override_index < 0;
       if (selectors_overridden && from_file) continue;
       if (!is_idle(section, *key, member)) refuse_inapplicable(section, *key, member);

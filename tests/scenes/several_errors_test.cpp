@@ -41,6 +41,17 @@ TEST(SeveralErrors, ARefusedValueCausesNoErrorsElsewhere) {
   }
 }
 
+TEST(SeveralErrors, AnUnknownKindCausesNoErrorsAboutKeysOfItsBody) {
+  try {
+    parse_scene("[[body]]\nkind = \"rigd\"\nsize = [2, 2, 2]\nmass = 3\nvelocty = 1\n", "x.toml");
+    FAIL();
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 2u) << error.what();
+    EXPECT_EQ(error.diagnostics()[0].line, 2);
+    EXPECT_EQ(error.diagnostics()[1].line, 5);
+  }
+}
+
 TEST(SeveralErrors, AFloodOfErrorsIsCutShort) {
   std::string text = "[[body]]\n";
   for (int i = 0; i < 1000; ++i) text.append("x").append(std::to_string(i)).append(" = 1\n");
