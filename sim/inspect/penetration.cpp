@@ -100,7 +100,7 @@ double depth_in_ground(const World& world) {
   for (const RigidBox& box : world.rigid) {
     if (!box.is_kinematic) low = std::min(low, placed_box(box).bounds.low.z());
   }
-  return -low;
+  return 0.0 - low;  // of 0: not -0
 }
 
 }  // namespace

@@ -10,6 +10,8 @@ namespace {
 /// Of the shorter of their shortest sides: boxes no further apart at the start of the step touch in
 /// the points of one contact, as boxes, and not by their features.
 constexpr double near_of_side = 0.02;
+/// Of the distance wanted: further than this boxes do not get into each other in a step.
+constexpr double allowed_sinking = 0.1;
 
 double reach_of(const OrientedBox& one, const OrientedBox& other) {
   return near_of_side * 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
@@ -69,27 +71,48 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   return true;
 }
 
-/// Whether boxes that touch turn or slide far into each other in the step: what the points of their
-/// contact at its start do not see. A shorter step does.
-bool SweptSearch::turn_into_each_other(const BodyPair& bodies) const {
-  const auto [first, second] = bodies;
+/// Boxes that turn or slide into each other, which the points of their contact at the start of the
+/// step do not see: they are held where they would be in each other at its end. What goes far needs
+/// a shorter step.
+bool SweptSearch::turn_into_each_other(SweptCandidate& first_point) {
+  const auto [first, second] = first_point.bodies;
+  const double allowed = allowed_sinking * distance_wanted(first, second);
+  if (greatest_relative_way(first, second) <= allowed) return false;
+  const auto after = find_box_contact(end_box(first), end_box(second));
+  if (!after || after->depth <= allowed) return false;
   const OrientedBox one = start_box(first), other = start_box(second);
   const double near_boxes = reach_of(one, other);
-  if (greatest_relative_way(first, second) <= near_boxes) return false;
   const auto before = find_box_contact_within(near_boxes, one, other);
-  const auto after = find_box_contact(end_box(first), end_box(second));
-  return after && after->depth > (before ? std::max(0.0, before->depth) : 0.0) + near_boxes;
+  const double sinks = after->depth - (before ? std::max(0.0, before->depth) : 0.0);
+  if (sinks <= allowed) return false;
+  if (sinks > near_boxes) blocked_ = first_point.bodies;
+  for (const BoxContactPoint& point : after->points()) {
+    add(first_point, place_before_end(first_point, after->normal, point));
+  }
+  return true;
 }
 
-/// Boxes that others push into each other, further than they were.
+/// A contact at the start of the step that keeps two boxes apart where they would be in each other
+/// at its end, along the normal that they have there.
+SweptContact SweptSearch::place_before_end(const SweptCandidate& candidate, const Vec3& normal,
+                                           const BoxContactPoint& point) const {
+  const auto [first, second] = candidate.bodies;
+  SweptContact contact = place(candidate, candidate.start, Moment::start);
+  contact.first.point = bodies_.point_before(world_, start_, first, point.point);
+  contact.second.point = bodies_.point_before(world_, start_, second, point.point);
+  meet_halfway(contact.first, contact.second);
+  contact.normal = normal;
+  contact.distance = -point.depth - normal.dot(displacement(contact));
+  return contact;
+}
+
+/// Boxes that turn, or that others push, into each other, further than they were.
 bool SweptSearch::sinks_in(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
   const bool is_first_point = candidate.features.first.index == 0;
-  if (is_first_point && turn_into_each_other(candidate.bodies)) {
-    blocked_ = candidate.bodies;
-    return true;
-  }
-  const double least = std::min(0.0, candidate.start.distance) - distance_wanted(first, second);
+  if (is_first_point && turn_into_each_other(candidate)) return true;
+  const double least =
+      std::min(0.0, candidate.start.distance) - allowed_sinking * distance_wanted(first, second);
   if (move_to_end(candidate).distance >= least) return false;
   if (candidate.contact < 0) add(candidate, place(candidate, candidate.start, Moment::start));
   return true;

@@ -210,6 +210,14 @@ Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
   return interpolate(point, [&](int v) -> Vec3 { return moving.end[v] - moving.start[v]; });
 }
 
+Vec3 SweptBodies::point_before(const World& world, const MotionStart& start, int body,
+                               const Vec3& at_end) const {
+  const RigidBox& now = world.rigid[at(box(body))];
+  const RigidStart& before = start.rigid[at(box(body))];
+  const Vec3 local = now.orientation.conjugate() * (at_end - now.position);
+  return before.position + before.orientation * local;
+}
+
 Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& point) const {
   if (point.body == swept_ground) return Vec3::Zero();
   if (is_rigid(point.body)) {

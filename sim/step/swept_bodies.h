@@ -67,6 +67,9 @@ class SweptBodies {
   /// m, where a point with these weights is at the start of the step.
   Vec3 start_point(const SurfacePoint& point) const;
   SweptSide side(const World& world, const SurfacePoint& point);
+  /// m, at the start of the step, of what is at a point of a box at its end.
+  Vec3 point_before(const World& world, const MotionStart& start, int body,
+                    const Vec3& at_end) const;
   /// m, from the start of the step to its end.
   Vec3 displacement(const World& world, const MotionStart& start, const SurfacePoint& point) const;
   /// m/s.

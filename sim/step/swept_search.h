@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
 #include "sim/step/swept_solver.h"
 
@@ -120,7 +121,9 @@ class SweptSearch {
   bool offer_near_boxes(const BodyPair& bodies);
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;
-  bool turn_into_each_other(const BodyPair& bodies) const;
+  bool turn_into_each_other(SweptCandidate& first_point);
+  SweptContact place_before_end(const SweptCandidate& candidate, const Vec3& normal,
+                                const BoxContactPoint& point) const;
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
   void offer(const BodyPair& bodies, const NearFeatures& features);

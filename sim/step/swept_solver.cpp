@@ -92,13 +92,13 @@ void SweptSolver::solve_island(int island, double tolerance) {
 
 void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
-  if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;
+  if (iterations_.correct(impulses, of_boxes, few_iterations) <= of_boxes) return;
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!newton_.improve(impulses, penalty)) {
-      correct_in_turn(impulses, tolerance, many_iterations - few_iterations);
+      iterations_.correct(impulses, tolerance, many_iterations - few_iterations);
       return;
     }
-    if (correct_in_turn(impulses, of_boxes, few_iterations) <= of_boxes) return;
+    if (iterations_.correct(impulses, of_boxes, few_iterations) <= of_boxes) return;
   }
 }
 

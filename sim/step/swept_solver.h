@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/step/swept_contact.h"
+#include "sim/swept/conjugate_iterations.h"
 #include "sim/swept/newton_solver.h"
 
 namespace pneuma::sim {
@@ -53,6 +54,7 @@ class SweptSolver {
   std::vector<std::size_t> begin_;
   std::vector<std::size_t> filled_;
   std::vector<SweptImpulse*> ordered_;  // by island
+  ConjugateIterations iterations_;
   NewtonSolver newton_;
 };
 

@@ -163,6 +163,13 @@ void SweptImpulse::replace_given(Vec4d given) {
   friction_impulse_ = friction;
 }
 
+void SweptImpulse::exceed(Vec4d impulse) {
+  const double along = dot(impulse, normal_);
+  normal_impulse_ += along;
+  friction_impulse_ += impulse - along * normal_;
+  apply(impulse);
+}
+
 void SweptImpulse::apply(Vec4d impulse) const {
   first_.apply(impulse);
   second_.apply(-impulse);

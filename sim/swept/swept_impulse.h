@@ -100,6 +100,12 @@ class SweptImpulse {
   /// One projected Gauss-Seidel correction. Returns by how much the relative velocity changed, m/s.
   double correct();
 
+  /// Adds to the impulse (N s) whatever its limits, which hold again after the next correction.
+  void exceed(Vec4d impulse);
+  /// N s on the first side, together with what was started from.
+  Vec4d impulse() const { return normal_impulse_ * normal_ + friction_impulse_; }
+  double mobility() const { return mobility_; }  // 1/kg, along the normal
+
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
   Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }

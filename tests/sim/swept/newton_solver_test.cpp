@@ -9,6 +9,7 @@
 #include <random>
 
 #include "sim/rigid/inertia.h"
+#include "sim/swept/conjugate_iterations.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -99,6 +100,24 @@ TEST(NewtonSolver, StopsAStackThatIterationsDoNotStop) {
   EXPECT_LT(stack.error(), 1e-6);
   correct_in_turn(iterated.impulses(), 0.0, 10'000);
   EXPECT_GT(iterated.error(), 0.01);
+}
+
+TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
+  Stack stack(std::vector(8, 1.0)), iterated(std::vector(8, 1.0));
+  ConjugateIterations().correct(stack.impulses(), 0.0, 200);
+  correct_in_turn(iterated.impulses(), 0.0, 1'000);
+  EXPECT_LT(stack.error(), iterated.error());
+}
+
+TEST(ConjugateIterations, EndWithinTheLimits) {
+  for (const int iterations : {1, 2, 3, 5, 8, 13}) {
+    Stack stack(std::vector(20, 1.0));
+    ConjugateIterations().correct(stack.impulses(), 0.0, iterations);
+    for (const SweptImpulse* impulse : stack.impulses()) {
+      EXPECT_GE(impulse->normal_impulse(), 0.0);
+      EXPECT_LE(impulse->friction_impulse().norm(), 0.5 * impulse->normal_impulse() + 1e-12);
+    }
+  }
 }
 
 TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
