@@ -13,21 +13,42 @@
 namespace pneuma::app {
 namespace {
 
-constexpr double settle_seconds = 0.5;
-/// What is measured after that, at every size: the same second of the same motion. A scene at rest
-/// takes a third of the time (its impulses are right at the first sweep), so that to measure as
-/// many steps as fit into the time would compare small scenes at rest with large ones in motion.
-constexpr double measured_seconds = 1.0;
+/// What is measured, at every size: the same part of the same motion. A scene at rest takes a third
+/// of the time (its impulses are right at the first sweep), so that to measure as many steps as fit
+/// into the time would compare small scenes at rest with large ones in motion.
+struct MeasuredPart {
+  double begin = 0.5;    // s, of the scene's time
+  double seconds = 1.0;  // of the same
+};
+/// Of two balls that meet: until they press each other most.
+constexpr MeasuredPart until_pressed{0.05, 0.25};
+
+double icosphere_vertices(int subdivisions) { return 10.0 * std::pow(4.0, subdivisions) + 2.0; }
 
 /// Vertices share a mass of 20 kg, and springs soften with their number, so that every size moves
 /// alike and is stable at 1/60 s.
 std::string icosphere(int subdivisions) {
-  const double vertices = 10.0 * std::pow(4.0, subdivisions) + 2.0;
+  const double vertices = icosphere_vertices(subdivisions);
   const double k = std::min(50.0, 50.0 * 642.0 / vertices);
   return fmt::format(
       "[[body]]\nshape = \"icosphere\"\nsubdivisions = {}\nposition = [0, 0, 3.1]\nn = 0.3\nk = "
       "{}\nvertex_mass = {}\n",
       subdivisions, k, 20.0 / vertices);
+}
+
+/// Two that meet at 4 m/s. Their material stays the same, so that the step shrinks with the edges.
+std::string icospheres_in_contact(int subdivisions) {
+  const auto ball = [&](int side) {
+    return fmt::format(
+        "[[body]]\nshape = \"icosphere\"\nsubdivisions = {}\nposition = [{}, 0, 0]\nvelocity = "
+        "[{}, 0, 0]\ninflation = 1.1\nk = 50\nvertex_mass = {}\n",
+        subdivisions, 3.01 * side, -2 * side, 20.0 / icosphere_vertices(subdivisions));
+  };
+  return fmt::format(
+             "[simulation]\ngravity = [0, 0, 0]\nsteps_per_second = {}\n[ground]\npresent = "
+             "false\n",
+             30 << subdivisions) +
+         ball(-1) + ball(1);
 }
 
 std::string spheres(int along) {
@@ -43,20 +64,20 @@ std::string stacks(int along) {
       along, along);
 }
 
-double median_step(const std::string& toml, double seconds) {
+double median_step(const std::string& toml, const MeasuredPart& part, double seconds) {
   const scenes::Scene scene = scenes::parse_scene(toml, "growth.toml");
   sim::World settled = build_world(scene);
   const int rate = settled.settings.steps_per_second;
   {
     sim::Stepper stepper(settled);
-    advance(stepper, settled, static_cast<std::int64_t>(settle_seconds * rate), scene.name);
+    advance(stepper, settled, static_cast<std::int64_t>(part.begin * rate), scene.name);
   }
   std::vector<double> times;
   const Budget budget({}, seconds, 1);
   while (budget.more(static_cast<std::int64_t>(times.size()))) {
     sim::World world = settled;
     sim::Stepper stepper(world);
-    for (int step = 0; step < measured_seconds * rate; ++step) {
+    for (int step = 0; step < part.seconds * rate; ++step) {
       const double start = thread_seconds();
       advance(stepper, world, 1, scene.name);
       times.push_back(thread_seconds() - start);
@@ -67,14 +88,16 @@ double median_step(const std::string& toml, double seconds) {
 
 GrowthSeries measure(const std::string& name, const std::vector<int>& steps,
                      const std::function<double(int)>& size,
-                     const std::function<std::string(int)>& scene, const GrowthOptions& options,
+                     const std::function<std::string(int)>& scene, const MeasuredPart& part,
+                     const GrowthOptions& options,
                      const std::function<void(const std::string&)>& say) {
   GrowthSeries series;
   series.name = name;
   std::vector<double> sizes, seconds;
   for (const int step : steps) {
     say(fmt::format("{:g} {}", size(step), name));
-    series.points.push_back({size(step), median_step(scene(step), options.seconds_per_point)});
+    series.points.push_back(
+        {size(step), median_step(scene(step), part, options.seconds_per_point)});
     sizes.push_back(series.points.back().size);
     seconds.push_back(series.points.back().step_seconds);
   }
@@ -87,22 +110,24 @@ GrowthSeries measure(const std::string& name, const std::vector<int>& steps,
 std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
                                        const std::function<void(const std::string&)>& say) {
   using Steps = std::vector<int>;
-  const auto vertices = [](int s) { return 10.0 * std::pow(4.0, s) + 2.0; };
+  const auto both = [](int s) { return 2.0 * icosphere_vertices(s); };
   const auto square = [](int along) { return 1.0 * along * along; };
   const auto stacked = [](int along) { return 5.0 * along * along; };
   const bool few = options.few;
-  return {
-      measure("vertices", few ? Steps{2, 3} : Steps{2, 3, 4, 5, 6}, vertices, icosphere, options,
-              say),
-      measure("soft spheres", few ? Steps{1, 3} : Steps{1, 3, 10, 18, 32}, square, spheres, options,
-              say),
-      measure("cubes", few ? Steps{1, 3} : Steps{1, 2, 4, 8, 14}, stacked, stacks, options, say)};
+  return {measure("vertices", few ? Steps{2, 3} : Steps{2, 3, 4, 5, 6}, icosphere_vertices,
+                  icosphere, {}, options, say),
+          measure("vertices in contact", few ? Steps{1, 2} : Steps{3, 4, 5, 6}, both,
+                  icospheres_in_contact, until_pressed, options, say),
+          measure("soft spheres", few ? Steps{1, 3} : Steps{1, 3, 10, 18, 32}, square, spheres, {},
+                  options, say),
+          measure("cubes", few ? Steps{1, 3} : Steps{1, 2, 4, 8, 14}, stacked, stacks, {}, options,
+                  say)};
 }
 
 Diagram growth_diagram(const std::vector<GrowthSeries>& series) {
   Diagram diagram;
   diagram.title = "Time of a step per piece, over the number of pieces";
-  diagram.x = {.label = "vertices of one body, soft spheres, or cubes", .logarithmic = true};
+  diagram.x = {.label = "vertices, soft spheres, or cubes", .logarithmic = true};
   diagram.y = {.label = "time of a step / number, us", .logarithmic = true};
   for (const GrowthSeries& one : series) {
     DiagramSeries line;

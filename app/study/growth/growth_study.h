@@ -27,8 +27,8 @@ struct GrowthOptions {
   double seconds_per_point = 1.0;  // of measuring, and never less than one run
 };
 
-/// Vertices of one icosphere on the ground, soft spheres side by side on the ground, stacks of five
-/// cubes. Of each, the second of its own time after the first half, again and again. Throws
+/// Vertices of one icosphere on the ground and of two that meet, soft spheres side by side on the
+/// ground, stacks of five cubes. Of each the same part of its motion, again and again. Throws
 /// DivergenceError and Interrupted.
 std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
                                        const std::function<void(const std::string&)>& say);
