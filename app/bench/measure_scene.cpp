@@ -184,6 +184,11 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
 
 PaperMethodFps measure_paper_method(const scenes::Scene& scene, const MeasureOptions& options) {
   if (sim::is_as_printed(scene.settings)) return {};
+  for (const scenes::BodyScene& body : scene.bodies) {
+    const bool is_free =
+        body.kind == scenes::BodyKind::soft || body.kind == scenes::BodyKind::rigid;
+    if (!is_free || !body.pinned.empty()) return {{}, "the paper's method holds and moves nothing"};
+  }
   scenes::Scene as_printed = scene;
   scenes::use_paper_method(as_printed);
   MeasureOptions simulation = options;

@@ -41,7 +41,7 @@ std::string bytes(double count) {
 double memory_gib(const WorldSize& size, const scenes::Scene& scene) {
   std::int64_t of_models = size.vertices;
   for (const scenes::BodyScene& body : scene.bodies) {
-    if (body.kind != scenes::BodyKind::soft) continue;
+    if (scenes::is_box(body)) continue;
     of_models -= scenes::vertex_count(body) * scenes::copy_count(body);
   }
   return scenes::estimated_memory_gib(scene) + scenes::estimated_memory_gib(of_models, 1);
@@ -56,6 +56,7 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
   std::string text = "Size\n";
   text += named_line("soft bodies", grouped(size.soft_bodies) + shared);
   text += named_line("rigid boxes", grouped(size.rigid_boxes));
+  if (size.obstacles > 0) text += named_line("other obstacles", grouped(size.obstacles));
   text += named_line("vertices", grouped(size.vertices));
   text += named_line("springs", grouped(size.springs));
   text += named_line("triangles", grouped(size.triangles));

@@ -43,14 +43,24 @@ std::vector<std::string> what_pushes(const sim::World& world) {
   if (std::ranges::any_of(world.rigid, &sim::RigidBox::is_kinematic)) {
     names.emplace_back("boxes that are static or moved");
   }
+  const auto has_pins = [&](bool all) {
+    return std::ranges::any_of(world.soft, [&](const sim::SoftBody& body) {
+      return body.pins && body.pins->are_all == all;
+    });
+  };
+  if (has_pins(true)) names.emplace_back("obstacles");
+  if (has_pins(false)) names.emplace_back("pins");
   return names;
 }
 
-bool has_moved_boxes(const sim::World& world) {
-  return std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
-    return box.is_kinematic &&
-           (box.motion || !box.velocity.isZero() || !box.angular_velocity.isZero());
+bool has_moved_obstacles(const sim::World& world) {
+  const bool has_moved_meshes = std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
+    return body.pins && body.pins->are_all && body.pins->are_moved;
   });
+  return has_moved_meshes || std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
+           return box.is_kinematic &&
+                  (box.motion || !box.velocity.isZero() || !box.angular_velocity.isZero());
+         });
 }
 
 /// Gathers the statistics while a run goes on.
@@ -66,7 +76,7 @@ class Observer {
     result_.start_penetration = sim::max_penetration(start);
     result_.penetration = {result_.start_penetration, sim::time(start)};
     result_.pushed_by = what_pushes(start);
-    if (has_moved_boxes(start)) result_.driven_work = 0.0;
+    if (has_moved_obstacles(start)) result_.driven_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {

@@ -24,7 +24,7 @@ MeshExporter::MeshExporter(const scenes::Scene& scene, const sim::World& world) 
   // build_world puts a body's copies one after the other, in the order of the scene.
   for (const scenes::BodyScene& body : scene.bodies) {
     const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
-    if (body.kind != scenes::BodyKind::soft) {
+    if (scenes::is_box(body)) {
       const sim::TriangleMesh box = sim::make_box(world.rigid.at(rigid_.size()).size, 1);
       rigid_.insert(rigid_.end(), copies, surface(box.vertices, box.triangles, body));
     } else {

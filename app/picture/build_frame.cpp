@@ -142,7 +142,7 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
   for (const scenes::BodyScene& body : scene.bodies) {
     const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
     const auto roughness = static_cast<float>(body.roughness);
-    if (body.kind != scenes::BodyKind::soft) {
+    if (scenes::is_box(body)) {
       const ShapePointer shape = rigid_shape(world.rigid.at(rigid_looks_.size()), body);
       rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness});
     } else {

@@ -9,6 +9,7 @@
 
 #include "app/world/fill_body.h"
 #include "app/world/find_model.h"
+#include "app/world/pin_body.h"
 #include "app/world/refuse_body.h"
 #include "app/world/step_advice.h"
 #include "scenes/loader/load_scene.h"
@@ -132,17 +133,22 @@ class Builder {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyScene& body = scene_.bodies[i];
       const auto starts = place_copies(body, Random(scene_.settings.seed, i));
-      if (body.kind != BodyKind::soft) {
+      if (scenes::is_box(body)) {
         vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
         for (const Start& start : starts) add_rigid(body, start);
       } else {
         const auto mesh = shared_mesh(body);
         count(body, mesh->topology.vertex_count());
+        if (body.kind != BodyKind::soft) {
+          for (const Start& start : starts) add_obstacle(body, start, mesh);
+          continue;
+        }
         check_gas(body, *mesh);
         const sim::SoftMaterial material = filled_material(scene_, body, mesh);
         const auto held =
             body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
         for (const Start& start : starts) add_soft(body, start, held, material);
+        if (!body.pinned.empty()) pin_copies(body, starts);
       }
     }
     return std::move(world_);
@@ -250,6 +256,22 @@ class Builder {
     world_.soft.push_back(std::move(body));
   }
 
+  void pin_copies(const BodyScene& body, const std::vector<Start>& starts) {
+    const std::span copies = std::span(world_.soft).last(starts.size());
+    check_regions(scene_, body, copies);
+    for (std::size_t i = 0; i < starts.size(); ++i) pin(body, starts[i].position, copies[i]);
+  }
+
+  /// A surface that nothing moves but its motion: a soft body without gas, of pinned vertices.
+  void add_obstacle(const BodyScene& scene, const Start& start,
+                    const std::shared_ptr<const sim::SoftMesh>& mesh) {
+    sim::SoftMaterial material;
+    material.n = 0.0;
+    material.surface = scene.surface;
+    add_soft(scene, start, mesh, material);
+    pin_all(scene, start.position, world_.soft.back());
+  }
+
   void add_rigid(const BodyScene& scene, const Start& start) {
     sim::RigidBox box;
     box.name = start.name;
@@ -287,7 +309,7 @@ std::vector<std::uint64_t> model_fingerprints(const scenes::Scene& scene, const 
   std::vector<std::uint64_t> fingerprints;
   std::size_t index = 0;  // of the body's first copy
   for (const BodyScene& body : scene.bodies) {
-    if (body.kind != BodyKind::soft) continue;
+    if (scenes::is_box(body)) continue;
     if (body.shape == Shape::model) fingerprints.push_back(fingerprint(*world.soft[index].mesh));
     index += static_cast<std::size_t>(scenes::copy_count(body));
   }

@@ -13,7 +13,8 @@ struct DistinctBody {
   int count = 1;               // of bodies with them
 };
 
-/// One soft body for each mesh and material: only those can differ before the first step.
+/// But for obstacles, one soft body for each mesh and material: only those can differ before the
+/// first step.
 std::vector<DistinctBody> distinct_bodies(const sim::World& world);
 
 /// "body 'ball'", "body 'ball.1' and 4 like it".

@@ -96,7 +96,7 @@ const scenes::BodyScene& in_scene(const scenes::Scene& scene, int body) {
   std::int64_t left = body;
   for (const bool soft : {true, false}) {
     for (const scenes::BodyScene& each : scene.bodies) {
-      if ((each.kind == scenes::BodyKind::soft) != soft) continue;
+      if (scenes::is_box(each) == soft) continue;
       left -= scenes::copy_count(each);
       if (left < 0) return each;
     }

@@ -1,5 +1,6 @@
 #include "app/world/world_size.h"
 
+#include <algorithm>
 #include <set>
 
 namespace pneuma::app {
@@ -22,7 +23,9 @@ WorldSize world_size(const sim::World& world) {
     size.triangles += topology.triangle_count();
     size.state_bytes += bytes(body.positions) + bytes(body.velocities);
   }
-  size.soft_bodies = static_cast<std::int64_t>(world.soft.size());
+  size.obstacles = std::ranges::count_if(
+      world.soft, [](const sim::SoftBody& body) { return body.pins && body.pins->are_all; });
+  size.soft_bodies = static_cast<std::int64_t>(world.soft.size()) - size.obstacles;
   size.rigid_boxes = static_cast<std::int64_t>(world.rigid.size());
   size.meshes = static_cast<std::int64_t>(meshes.size());
   constexpr std::int64_t box_state = 3 + 4 + 3 + 3;  // position, orientation, both velocities

@@ -10,7 +10,8 @@ namespace pneuma::app {
 struct WorldSize {
   std::int64_t soft_bodies = 0;
   std::int64_t rigid_boxes = 0;
-  std::int64_t meshes = 0;  // different ones; bodies of one shape share theirs
+  std::int64_t obstacles = 0;  // that are no boxes
+  std::int64_t meshes = 0;     // different ones; bodies of one shape share theirs
   std::int64_t vertices = 0;
   std::int64_t springs = 0;
   std::int64_t triangles = 0;

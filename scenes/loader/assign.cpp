@@ -66,6 +66,16 @@ class Assignment {
     *member = std::move(keys);
   }
 
+  void operator()(std::vector<Region>* member) const {
+    const auto* rows = std::get_if<Array>(&value_.data);
+    if (rows == nullptr || rows->empty()) {
+      refuse_type(value_, key_.name, "an array of rows [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+    std::vector<Region> regions;
+    for (const Value& row : *rows) regions.push_back(region(row));
+    *member = std::move(regions);
+  }
+
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     const bool present = flag();
     if (present && !*member) *member = sim::ContactMaterial{};
@@ -180,6 +190,22 @@ class Assignment {
                                             key_.name, key[0]));
     }
     return key;
+  }
+
+  Region region(const Value& row) const {
+    const auto* elements = std::get_if<Array>(&row.data);
+    if (elements == nullptr || elements->size() != 6) {
+      refuse_type(row, key_.name, "a row [xmin, ymin, zmin, xmax, ymax, zmax]");
+    }
+    Region ends;
+    for (std::size_t i = 0; i < 6; ++i) ends[i] = number((*elements)[i], element_name(i % 3));
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (ends[i] <= ends[i + 3]) continue;
+      refuse((*elements)[i + 3],
+             fmt::format("{} from {} m to {} m; a box ends where it begins or beyond",
+                         element_name(i), ends[i], ends[i + 3]));
+    }
+    return ends;
   }
 
   std::string element_name(std::size_t i) const {

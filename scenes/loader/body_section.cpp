@@ -36,11 +36,12 @@ constexpr std::array shapes = {
 
 Section body_section(BodyScene& body) {
   const bool soft = body.kind == BodyKind::soft;
-  const bool sphere = soft && body.shape == Shape::sphere;
-  const bool torus = soft && body.shape == Shape::torus;
-  const bool icosphere = soft && body.shape == Shape::icosphere;
-  const bool box = !soft || body.shape == Shape::box;
-  const bool model = soft && body.shape == Shape::model;
+  const bool rigid = body.kind == BodyKind::rigid;
+  const bool sphere = !rigid && body.shape == Shape::sphere;
+  const bool torus = !rigid && body.shape == Shape::torus;
+  const bool icosphere = !rigid && body.shape == Shape::icosphere;
+  const bool box = rigid || body.shape == Shape::box;
+  const bool model = !rigid && body.shape == Shape::model;
 
   const Applicability round{"spheres, icospheres and tori", sphere || torus || icosphere, true};
   const Applicability tori{"tori", torus, true};
@@ -52,9 +53,13 @@ Section body_section(BodyScene& body) {
   const Applicability soft_bodies{"soft bodies", soft};
   const Applicability filled_by_n{"soft bodies without gauge_pressure and inflation",
                                   soft && !body.gauge_pressure && !body.inflation};
-  const Applicability rigid_bodies{"rigid bodies", body.kind == BodyKind::rigid};
-  const Applicability free_bodies{"soft and rigid bodies", soft || body.kind == BodyKind::rigid};
-  const Applicability moved_bodies{"moved bodies", body.kind == BodyKind::moved};
+  const Applicability rigid_bodies{"rigid bodies", rigid};
+  const Applicability free_bodies{"soft and rigid bodies", soft || rigid};
+  const bool handled = soft && !body.pinned.empty();
+  const Applicability moved_bodies{"moved bodies, and soft bodies with pinned,",
+                                   body.kind == BodyKind::moved || handled};
+  const Applicability handled_bodies{"soft bodies with pinned and a motion",
+                                     handled && !body.motion.empty()};
   const bool by_keys = body.kind == BodyKind::moved && !body.motion.empty();
   const Applicability of_own_velocity{"bodies that are not static and have no motion",
                                       body.kind != BodyKind::fixed && !by_keys};
@@ -71,9 +76,10 @@ Section body_section(BodyScene& body) {
       .keys = {
           {"name", &body.name, any(), "", "of this body alone", check_body_name},
           selector({"kind", kind, any(), "",
-                    "gas-filled membrane, or box: free, fixed, or moved as its keys say"}),
+                    "gas-filled membrane; rigid box; obstacle: fixed, or moved as its keys say"}),
           of_shape(
-              selector({"shape", shape, any(), "", "a body that is not soft is always a box"})),
+              selector({"shape", shape, any(), "",
+                        "rigid: always a box; static and moved: a box unless told otherwise"})),
           only(round, {"radius", &body.radius, length(), "m",
                        "of a sphere; of the centre line of a torus"}),
           only(tori, {"tube_radius", &body.tube_radius, length(), "m", "less than radius"}),
@@ -136,13 +142,19 @@ Section body_section(BodyScene& body) {
                                  "at the start; of a moved body always, unless motion has keys"}),
           only(of_own_velocity, {"angular_velocity", &body.angular_velocity, place(), "rad/s",
                                  "about world axes; likewise"}),
-          only(moved_bodies, selector({"motion.path", &body.motion.path, place(), "s, m, m, m",
-                                       "keys in time: how far it is then from its position"})),
+          only(soft_bodies, selector({"pinned", &body.pinned, place(), "m",
+                                      "vertices that start in one of these boxes, in world "
+                                      "coordinates, stay there or follow motion"})),
+          only(moved_bodies,
+               selector({"motion.path", &body.motion.path, place(), "s, m, m, m",
+                         "keys in time: how far it, or what is pinned, is from its start"})),
           only(moved_bodies,
                selector({"motion.rotation", &body.motion.rotation, place(), "s, degrees x 3",
-                         "likewise: turned about world x, then y, then z"})),
+                         "likewise: turned about its position: world x, then y, then z"})),
           only(moved_bodies, {"motion.smooth", &body.motion.smooth, any(), "",
                               "between keys a smooth curve; false: even speed"}),
+          only(handled_bodies, {"motion.still", &body.still, place(), "m",
+                                "pinned vertices that start in these boxes stay where they are"}),
 
           {"copies", &body.copies, between(1, 1'000'000), "", "along x, y, z"},
           {"spacing", &body.spacing, place(), "m", "between copies along x, y, z"},

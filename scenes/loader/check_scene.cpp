@@ -112,7 +112,7 @@ class Checks {
   }
 
   void check_body(const BodyScene& body, Origin header) {
-    const bool soft = body.kind == BodyKind::soft;
+    const bool soft = !is_box(body);
     if (soft && body.shape == Shape::torus && body.tube_radius >= body.radius &&
         reader_.valid({&body.tube_radius, &body.radius})) {
       report_.add(
@@ -142,8 +142,13 @@ class Checks {
   }
 
   void check_kinematic(const BodyScene& body, Origin header) {
-    if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
     if (scene_.settings.contact == sim::ContactMethod::swept) return;
+    if (!body.pinned.empty()) {
+      report_.add(reader_.origin({&body.pinned, &scene_.settings.contact}, header),
+                  "pinned vertices need swept contacts; set simulation.contact = \"swept\" and no "
+                  "method = \"paper\", or leave pinned out");
+    }
+    if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
     report_.add(reader_.origin({&body.kind, &scene_.settings.contact}, header),
                 fmt::format("kind = \"{}\" needs swept contacts; set simulation.contact = "
                             "\"swept\" and no method = \"paper\", or make the body rigid",

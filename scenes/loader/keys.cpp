@@ -33,6 +33,17 @@ std::string vector_text(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", number_text(v.x()), number_text(v.y()), number_text(v.z()));
 }
 
+template <class Row>
+std::string rows_text(const std::vector<Row>& rows) {
+  std::vector<std::string> texts;
+  for (const Row& row : rows) {
+    std::vector<std::string> numbers;
+    std::ranges::transform(row, std::back_inserter(numbers), number_text);
+    texts.push_back(fmt::format("[{}]", fmt::join(numbers, ", ")));
+  }
+  return rows.empty() ? std::string() : fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
 struct ValueText {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(const double* value) const { return number_text(*value); }
@@ -56,14 +67,9 @@ struct ValueText {
     return fmt::format("[{}]", fmt::join(texts, ", "));
   }
   std::string operator()(const std::vector<sim::KeyFrame>* value) const {
-    if (value->empty()) return {};
-    std::vector<std::string> rows;
-    for (const sim::KeyFrame& row : *value) {
-      rows.push_back(fmt::format("[{}, {}, {}, {}]", number_text(row[0]), number_text(row[1]),
-                                 number_text(row[2]), number_text(row[3])));
-    }
-    return fmt::format("[{}]", fmt::join(rows, ", "));
+    return rows_text(*value);
   }
+  std::string operator()(const std::vector<Region>* value) const { return rows_text(*value); }
   std::string operator()(const std::optional<sim::ContactMaterial>* value) const {
     return value->has_value() ? "true" : "false";
   }
@@ -83,6 +89,9 @@ struct TypeText {
   std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
   std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
   std::string operator()(const std::vector<sim::KeyFrame>*) const { return "rows [time, x, y, z]"; }
+  std::string operator()(const std::vector<Region>*) const {
+    return "rows [xmin, ymin, zmin, xmax, ymax, zmax]";
+  }
   std::string operator()(const std::optional<sim::ContactMaterial>*) const {
     return "true or false";
   }

@@ -38,7 +38,7 @@ struct Word {
 using Slot = std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
                           std::optional<double>*, std::optional<Vec3>*, std::array<int, 3>*,
                           std::vector<std::string>*, std::vector<sim::KeyFrame>*,
-                          std::optional<sim::ContactMaterial>*, Word>;
+                          std::vector<Region>*, std::optional<sim::ContactMaterial>*, Word>;
 
 /// The address that identifies a slot's member.
 const void* member_of(const Slot& slot);

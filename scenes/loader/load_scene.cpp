@@ -98,6 +98,8 @@ class Loader {
       body.rest_place = place_of_key(&body.rest);
       body.position_place = place_of_key(&body.position);
       body.model_place = place_of_key(&body.model.file);
+      body.pinned_place = place_of_key(&body.pinned);
+      body.still_place = place_of_key(&body.still);
     }
     return headers;
   }
@@ -111,9 +113,11 @@ class Loader {
   /// Its other keys are then judged as a box's.
   void make_box(const Table& table, BodyScene& body, Origin header) {
     const bool is_given = find(table, "shape") != nullptr && reader_.valid({&body.shape});
+    if (is_given && body.kind != BodyKind::rigid) return;
     if (is_given && body.shape != Shape::box) {
       report_.add(reader_.origin({&body.shape}, header),
-                  "a body that is not soft is always a box; leave shape out or make the body soft");
+                  "a rigid body is always a box; leave shape out, or make the body soft, static or "
+                  "moved");
     }
     body.shape = Shape::box;
   }

@@ -67,7 +67,7 @@ std::string scene_text(Scene scene, bool comments) {
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     BodyScene unsaid = default_body(i);
-    if (scene.bodies[i].kind != BodyKind::soft) unsaid.shape = Shape::box;
+    if (is_box(scene.bodies[i])) unsaid.shape = Shape::box;
     text += "\n[[body]]\n";
     text += section_text(body_section(scene.bodies[i]), body_section(unsaid), comments, as_printed);
   }

@@ -15,7 +15,7 @@ std::int64_t vertex_count(const BodyScene& body) {
   const std::int64_t stacks = body.stacks;
   const std::int64_t slices = body.slices;
   const std::int64_t divisions = body.divisions;
-  if (body.kind != BodyKind::soft) return 8;
+  if (is_box(body)) return 8;
   switch (body.shape) {
     case Shape::sphere:
       return 2 + (stacks - 1) * slices;

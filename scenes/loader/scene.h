@@ -20,9 +20,13 @@ using sim::Vec3;
 enum class BodyKind {
   soft,
   rigid,
-  fixed,  // "static": a box that never moves
-  moved,  // a box that keeps its velocities, whatever it meets
+  fixed,  // "static": it never moves
+  moved,  // it keeps its velocities or follows its motion, whatever it meets
 };
+
+/// A box along x, y, z: where it begins, then where it ends along each, m.
+using Region = std::array<double, 6>;
+
 enum class Shape { sphere, torus, box, icosphere, model };
 
 /// When a soft body's springs are at rest.
@@ -53,11 +57,11 @@ struct Place {
 struct BodyScene {
   Place place;  // of its [[body]]
   // Of its keys; where one is left out, of its [[body]].
-  Place rest_place, position_place, model_place;
+  Place rest_place, position_place, model_place, pinned_place, still_place;
   std::string name;  // unique; by default "body1", "body2", ...
   BodyKind kind = BodyKind::soft;
 
-  Shape shape = Shape::sphere;  // a rigid body is always a box
+  Shape shape = Shape::sphere;  // a rigid body is always a box; static and moved ones unless told
   double radius = 3.0;          // m: sphere, icosphere; of a torus the centre line
   double tube_radius = 1.0;     // m: torus
   int stacks = 8;               // sphere, torus
@@ -82,7 +86,9 @@ struct BodyScene {
   Vec3 velocity = Vec3::Zero();          // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
 
-  sim::KeyFrames motion;  // of a moved body, in place of velocities
+  std::vector<Region> pinned;  // soft: vertices that start in one of these are held
+  sim::KeyFrames motion;       // of a moved body, in place of velocities; of pinned vertices
+  std::vector<Region> still;   // of the pinned vertices: these do not follow the motion
 
   std::array<int, 3> copies = {1, 1, 1};  // along x, y, z
   Vec3 spacing = {3.0, 3.0, 3.0};         // m between copies
@@ -153,6 +159,11 @@ struct Scene {
   PictureScene picture;
   Limits limits;
 };
+
+/// Whether it becomes a sim::RigidBox: else it has a mesh of its own.
+inline bool is_box(const BodyScene& body) {
+  return body.kind == BodyKind::rigid || (body.kind != BodyKind::soft && body.shape == Shape::box);
+}
 
 /// Vertices of one copy; a rigid box has 8. 0 for a model: only its file knows, and it is read when
 /// the world is built, which checks the limits again.

@@ -67,11 +67,13 @@ RestingLengths resting_lengths(double shortest_side) {
 
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts) {
   const VertexArray& positions = world.soft[at(soft)].positions;
+  const Pins* pins = world.soft[at(soft)].pins.get();
+  const auto is_pinned = [&](int v) { return pins && pins->is_pinned[at(v)] != 0; };
   // The implicit integrators keep vertices above the ground: what rests on it is at z = 0 exactly.
   const bool rests_at_zero = is_implicit(world.settings.integrator);
   for (int v = 0; v < positions.size(); ++v) {
     const double height = positions[v].z();
-    if (!(rests_at_zero ? height <= 0.0 : height < 0.0)) continue;
+    if (!(rests_at_zero ? height <= 0.0 : height < 0.0) || is_pinned(v)) continue;
     contacts.push_back({vertex_side(soft, v), {}, positions[v], Vec3::UnitZ(), -height});
   }
 }

@@ -38,6 +38,7 @@ Energy& operator+=(Energy& sum, const Energy& term) {
 Energy energy(const SoftBody& body, const Vec3& gravity) {
   const SoftMaterial& material = body.material;
   Energy result;
+  if (body.pins && body.pins->are_all) return result;  // likewise
   result.kinetic = 0.5 * material.vertex_mass * body.velocities.rows().squaredNorm();
   result.spring = spring_energy(*body.mesh, body.positions, material.k);
   result.gas = gas_energy(material, volume(body.mesh->topology, body.positions));
@@ -55,6 +56,7 @@ Energy energy(const World& world) {
 
 Momentum momentum(const SoftBody& body) {
   Momentum sum;
+  if (body.pins && body.pins->are_all) return sum;
   for (int v = 0; v < body.positions.size(); ++v) {
     const Vec3 linear = body.material.vertex_mass * body.velocities[v];
     sum.linear += linear;

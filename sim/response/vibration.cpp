@@ -14,7 +14,9 @@ struct RigidMotion {
   Vec4d velocity{};
   Vec4d angular_velocity{};
 
+  /// Of a body with pins: none, since nothing turns or moves it as a whole.
   explicit RigidMotion(const SoftBody& body) {
+    if (body.pins) return;
     const VertexReader x(body.positions), v(body.velocities);
     const int count = body.positions.size();
     for (int i = 0; i < count; ++i) {

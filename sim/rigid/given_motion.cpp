@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/mesh/rotation.h"
+#include "sim/rigid/rigid_motion.h"
 
 namespace pneuma::sim {
 namespace {
@@ -63,8 +64,12 @@ Vec3 value_at(std::span<const KeyFrame> keys, bool smooth, double time) {
 Pose pose_at(const GivenMotion& motion, double time) {
   const KeyFrames& keys = motion.keys;
   const Vec3 degrees = value_at(keys.rotation, keys.smooth, time);
-  return {motion.position + value_at(keys.path, keys.smooth, time),
-          rotation_of_degrees(degrees) * motion.orientation};
+  Pose pose{motion.position + value_at(keys.path, keys.smooth, time) + time * motion.velocity,
+            rotation_of_degrees(degrees) * motion.orientation};
+  if (!motion.angular_velocity.isZero(0.0)) {
+    pose.orientation = turned(pose.orientation, time * motion.angular_velocity);
+  }
+  return pose;
 }
 
 void aim_given_motions(World& world) {

@@ -1,4 +1,4 @@
-// Boxes that are moved by keys in time.
+// Boxes that are moved by keys in time, and where such keys lead.
 #pragma once
 
 #include <span>
@@ -21,8 +21,9 @@ struct Pose {
 /// At a time in s.
 Pose pose_at(const GivenMotion& motion, double time);
 
-/// Gives each box that has a motion the velocities that lead to where it is at the end of the next
-/// step, which is what contacts need: between its ends a step knows even motion only.
+/// Gives each box that has a motion the velocities that lead to where it is at
+/// the end of the next step, which is what contacts need: between its ends a step knows even motion
+/// only.
 void aim_given_motions(World& world);
 
 /// Puts these boxes where they are at a time, s: after a step they differ by rounding only, which

@@ -63,6 +63,13 @@ void EulerSolver::set_floor(int vertex, double height) {
   energy_.floor[at(vertex)] = height;
 }
 
+void EulerSolver::set_pins(const Pins* pins) {
+  energy_.is_pinned = pins ? pins->is_pinned.data() : nullptr;
+  for (int v = 0; has_pins() && v < positions_.size(); ++v) {
+    if (is_pinned(energy_, v)) energy_.floor[at(v)] = -std::numeric_limits<double>::infinity();
+  }
+}
+
 bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& guess) {
   set_energy(beta, base);
   const double tolerance = std::max(tolerance_fraction * mean_rest_length_,
@@ -90,6 +97,10 @@ void EulerSolver::set_energy(double beta, const EulerBase& base) {
       base.state.positions.rows() + beta / slowing * base.state.velocities.rows();
   const Vec3 fall = beta * beta / slowing * gravity_;
   for (int v = 0; v < energy_.target.size(); ++v) energy_.target[v] += fall;
+  for (int v = 0; has_pins() && v < energy_.target.size(); ++v) {
+    if (!is_pinned(energy_, v)) continue;
+    energy_.target[v] = base.state.positions[v] + beta * base.state.velocities[v];
+  }
 
   const double dashpot = dashpot_constant(material_) / beta;
   energy_.stiffness = material_.k + dashpot;
@@ -129,6 +140,9 @@ bool EulerSolver::begin(const VertexArray& guess, bool from_here) {
 }
 
 void EulerSolver::put_where_allowed(VertexArray& positions) const {
+  for (int v = 0; has_pins() && v < positions.size(); ++v) {
+    if (is_pinned(energy_, v)) positions[v] = energy_.target[v];
+  }
   if (!energy_.ground) return;
   for (int v = 0; v < positions.size(); ++v) {
     positions[v].z() = std::max(positions[v].z(), energy_.floor[at(v)]);
@@ -173,9 +187,10 @@ bool EulerSolver::correct_friction() {
   return other || change > friction_bound_change * sum;
 }
 
-/// Springs and gas do not move the centre: what is left of that, in the air, is the minimisation's
-/// tolerance.
+/// Springs and gas do not move the centre, unless something holds the body: what is left of that,
+/// in the air, is the minimisation's tolerance.
 void EulerSolver::keep_momentum() {
+  if (has_pins()) return;
   const Vec3 move = mean(energy_.target) - mean(positions_);
   for (int v = 0; energy_.ground && v < positions_.size(); ++v) {
     if (normal_force(v) > 0.0) return;

@@ -31,6 +31,9 @@ class EulerSolver {
   /// No ground, or at and above which height (m) each vertex is to stay.
   void set_no_ground() { energy_.ground = false; }
   void set_floor(int vertex, double height);
+  /// Null: no vertex is pinned. Others keep the velocity that they have at the start of a step. To
+  /// be called after the floor is set, which is none for these.
+  void set_pins(const Pins* pins);
 
   /// Of the vertices' springs.
   double mean_rest_length() const { return mean_rest_length_; }
@@ -56,6 +59,7 @@ class EulerSolver {
   void set_energy(double beta, const EulerBase& base);
   bool begin(const VertexArray& guess, bool from_here);
   void put_where_allowed(VertexArray& positions) const;
+  bool has_pins() const { return energy_.is_pinned != nullptr; }
   double normal_force(int v) const { return minimiser_.floor_force(energy_, v); }
   void predict_friction(const EulerBase& base);
   bool correct_friction();

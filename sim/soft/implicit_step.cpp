@@ -26,15 +26,17 @@ constexpr double extrapolation = 1.0 + std::numbers::sqrt2;
 class ImplicitStep {
  public:
   ImplicitStep(const SoftMesh& mesh, const SoftMaterial& material, const Settings& settings,
-               const SoftState& start, ImplicitScratch& scratch)
+               const SoftState& start, ImplicitScratch& scratch, const Pins* pins)
       : mesh_(mesh),
         material_(material),
         settings_(settings),
         s_(scratch),
+        pins_(pins),
         step_(time_step(settings)),
         centre_(mean(start.positions)) {
     take_start(start);
     take_floor(start);
+    s_.solver.set_pins(pins);
   }
 
   bool run(ImplicitReport& report) {
@@ -74,6 +76,8 @@ class ImplicitStep {
   }
 
  private:
+  bool does_work() const { return pins_ && pins_->are_moved; }
+
   void take_start(const SoftState& start) {
     for (int v = 0; v < start.positions.size(); ++v) {
       s_.start.state.positions[v] = start.positions[v] - centre_;
@@ -160,7 +164,7 @@ class ImplicitStep {
     s_.result.positions.rows() = s_.solver.positions().rows();
     s_.result.velocities.rows() =
         (s_.result.positions.rows() - s_.extrapolated.state.positions.rows()) / part;
-    return potential(s_.result.positions) <= start_energy_;
+    return does_work() || potential(s_.result.positions) <= start_energy_;
   }
 
   void extrapolate(double part) {
@@ -199,8 +203,8 @@ class ImplicitStep {
   bool limit_energy() {
     VertexArray& velocities = s_.result.velocities;
     const double left = std::max(0.0, start_energy_ - potential(s_.result.positions));
-    if (kinetic(velocities) <= left) return false;
-    const Vec3 common = mean(velocities);
+    if (does_work() || kinetic(velocities) <= left) return false;
+    const Vec3 common = pins_ ? Vec3(Vec3::Zero()) : mean(velocities);
     const double of_common = 0.5 * material_.vertex_mass * velocities.size() * common.squaredNorm();
     const Vec3 kept = of_common <= left ? common : Vec3(Vec3::Zero());
     for (int v = 0; v < velocities.size(); ++v) velocities[v] -= kept;
@@ -214,6 +218,7 @@ class ImplicitStep {
   const SoftMaterial& material_;
   const Settings& settings_;
   ImplicitScratch& s_;
+  const Pins* pins_;
   double step_;
   Vec3 centre_;
   double start_energy_ = 0.0;  // J, and its rounding on top
@@ -233,9 +238,9 @@ ImplicitScratch::ImplicitScratch(const SoftMesh& mesh)
 ImplicitReport implicit_step(const SoftMesh& mesh, const SoftMaterial& material,
                              const Settings& settings, const SoftState& start,
                              VertexArray& positions, VertexArray& velocities,
-                             ImplicitScratch& scratch) {
+                             ImplicitScratch& scratch, const Pins* pins) {
   ImplicitReport report;
-  ImplicitStep step(mesh, material, settings, start, scratch);
+  ImplicitStep step(mesh, material, settings, start, scratch, pins);
   if (step.run(report)) step.write(positions, velocities);
   return report;
 }

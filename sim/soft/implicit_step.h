@@ -72,10 +72,11 @@ struct ImplicitReport {
 
 /// Writes the state one step of the settings after `start`, by their integrator, implicit_euler or
 /// sdirk2. The material's pressure must be uniform. A start that has gas but no volume, or is not
-/// finite, is left as it is, and its volume, or not a number, reported.
+/// finite, is left as it is, and its volume, or not a number, reported. Pinned vertices keep the
+/// velocities that they start with; if some move, they do work, and the energy may grow.
 ImplicitReport implicit_step(const SoftMesh& mesh, const SoftMaterial& material,
                              const Settings& settings, const SoftState& start,
                              VertexArray& positions, VertexArray& velocities,
-                             ImplicitScratch& scratch);
+                             ImplicitScratch& scratch, const Pins* pins = nullptr);
 
 }  // namespace pneuma::sim

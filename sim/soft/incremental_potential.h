@@ -6,10 +6,12 @@
 // and rest lengths of springs and dashpots together (implicit_step.h says which). gas(V) is that of
 // gas_law.h, -nRT ln V unless chosen otherwise. E grows without bound as V -> 0 and as |x| ->
 // infinity, so that it has a minimum with V > 0. Where there is a ground, x is to stay above it,
-// and some vertices at their friction anchors.
+// and some vertices at their friction anchors. Pinned vertices are at y, which is where they are to
+// be.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "sim/mesh/soft_mesh.h"
@@ -27,6 +29,8 @@ struct IncrementalPotential {
   std::vector<double> rest_lengths;  // r, m, per edge
   GasLaw gas;                        // of no strength: V may be anything
 
+  const std::uint8_t* is_pinned = nullptr;  // per vertex: it is at its target; null: none is
+
   bool ground = false;
   std::vector<double> floor;  // m, per vertex: z is not to be below
 
@@ -36,6 +40,14 @@ struct IncrementalPotential {
   std::vector<double> friction_bound;  // N, per vertex: max friction; 0 if anchored
   double regularisation_length = 1.0;  // m from the anchor at which friction reaches its bound
 };
+
+/// Whether some coordinates may be held.
+inline bool has_bounds(const IncrementalPotential& energy) {
+  return energy.ground || energy.is_pinned != nullptr;
+}
+inline bool is_pinned(const IncrementalPotential& energy, int v) {
+  return energy.is_pinned != nullptr && energy.is_pinned[v] != 0;
+}
 
 /// From its friction anchor to a vertex, across the ground, m.
 inline Eigen::Vector2d slide(const IncrementalPotential& energy, const VertexArray& positions,

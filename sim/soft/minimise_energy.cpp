@@ -73,12 +73,14 @@ double EnergyMinimiser::floor_force(const IncrementalPotential& energy, int vert
 }
 
 /// Active set: heights of floor vertices with an outward gradient (Bertsekas, Projected Newton
-/// methods, 1982), and x and y of vertices at their friction anchors.
+/// methods, 1982), x and y of vertices at their friction anchors, and all of pinned ones.
 void EnergyMinimiser::find_active_set(const IncrementalPotential& energy) {
-  if (!energy.ground) return;
+  if (!has_bounds(energy)) return;
   for (int v = 0; v < gradient_.size(); ++v) {
-    const ActiveBounds active{floor_force(energy, v) > 0.0,
-                              energy.friction && energy.anchored[at(v)]};
+    const bool pinned = is_pinned(energy, v);
+    const ActiveBounds active{
+        pinned || (energy.ground && floor_force(energy, v) > 0.0),
+        pinned || (energy.ground && energy.friction && energy.anchored[at(v)])};
     has_factors_ &= active == active_set_[at(v)];
     active_set_[at(v)] = active;
   }
@@ -98,7 +100,7 @@ void EnergyMinimiser::find_hessian(const IncrementalPotential& energy) {
   has_factors_ = false;
   hessian_without_rank_one(mesh_, energy, point_, opposite_, matrix_);
   matrix_.add_identity(diagonal_shift_);
-  for (int v = 0; energy.ground && v < gradient_.size(); ++v) {
+  for (int v = 0; has_bounds(energy) && v < gradient_.size(); ++v) {
     if (active_set_[at(v)].anchor) {
       matrix_.fix(v, 0);
       matrix_.fix(v, 1);
@@ -112,7 +114,7 @@ void EnergyMinimiser::find_rank_one(const IncrementalPotential& energy) {
   if (energy.gas.strength > 0.0) {
     rank_one_.rows() =
         std::sqrt(pressure_slope(energy.gas, point_.volume)) * point_.volume_gradient.rows();
-    if (energy.ground) clear_active(rank_one_);
+    if (has_bounds(energy)) clear_active(rank_one_);
   } else {
     rank_one_.rows().setZero();
   }

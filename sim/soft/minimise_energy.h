@@ -60,8 +60,8 @@ class EnergyMinimiser {
  private:
   /// Which of a vertex' coordinates are in the active set: they do not move.
   struct ActiveBounds {
-    bool height = false;  // z, on the floor, which pushes
-    bool anchor = false;  // x and y, at the friction anchor
+    bool height = false;  // z: on the floor, which pushes, or pinned
+    bool anchor = false;  // x and y: at the friction anchor, or pinned
     friend bool operator==(const ActiveBounds&, const ActiveBounds&) = default;
   };
 

@@ -178,7 +178,10 @@ std::optional<Divergence> find_first_divergence(const World& world,
                                                 Workers& workers) {
   outcomes.resize(world.soft.size());
   workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
-    for (int i = begin; i < end; ++i) outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
+    for (int i = begin; i < end; ++i) {
+      if (is_kinematic(world, i)) continue;
+      outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
+    }
   });
   for (const std::optional<Divergence>& outcome : outcomes) {
     if (outcome) return outcome;

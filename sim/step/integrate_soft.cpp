@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "sim/soft/damping.h"
+#include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/stages.h"
 
@@ -10,6 +11,7 @@ namespace {
 /// The state becomes the start of the step. What explicit integrators write they never read before:
 /// the memory of the two states may change hands.
 void hand_over(SoftBody& body, SoftState& start, bool keep) {
+  if (is_still(body) && start.positions.size() == body.positions.size()) return;
   if (keep || start.positions.size() != body.positions.size()) {
     start.positions = body.positions;
     start.velocities = body.velocities;
@@ -23,11 +25,22 @@ void hand_over(SoftBody& body, SoftState& start, bool keep) {
 std::optional<Divergence> integrate(const World& world, SoftBody& body, const SoftState& start,
                                     IntegratorScratch& scratch) {
   const Settings& settings = world.settings;
+  const Pins* pins = body.pins.get();
+  if (pins && pins->are_all) {
+    hold_pins(body, start, time_step(settings));
+    return std::nullopt;
+  }
   double min_volume = 0.0;
   if (scratch.implicit) {
     min_volume = implicit_step(*body.mesh, body.material, settings, start, body.positions,
-                               body.velocities, *scratch.implicit)
+                               body.velocities, *scratch.implicit, pins)
                      .volume;
+  } else if (pins) {
+    const SoftAcceleration acceleration(*body.mesh, body.material, settings.gravity,
+                                        scratch.acceleration);
+    min_volume = explicit_step(settings.integrator, PinnedAcceleration(acceleration, *pins),
+                               time_step(settings), start, body.positions, body.velocities,
+                               scratch.explicit_step);
   } else {
     const SoftAcceleration acceleration(*body.mesh, body.material, settings.gravity,
                                         scratch.acceleration);
@@ -37,6 +50,7 @@ std::optional<Divergence> integrate(const World& world, SoftBody& body, const So
   if (body.material.damping == Damping::literal) {
     body.velocities.rows() *= 1.0 - literal_fraction(body.material);
   }
+  hold_pins(body, start, time_step(settings));
   return find_divergence(world, body, start, min_volume);
 }
 
@@ -47,7 +61,8 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
   const auto block = [&](int begin, int end, int thread) {
     for (int i = begin; i < end; ++i) {
       const int mesh = memory.mesh_of_body[at(i)];
-      hand_over(world.soft[at(i)], start[at(i)], is_implicit(world.settings.integrator));
+      hand_over(world.soft[at(i)], start[at(i)],
+                is_implicit(world.settings.integrator) || is_kinematic(world, i));
       memory.outcomes[at(i)] =
           integrate(world, world.soft[at(i)], start[at(i)], memory.scratch[at(thread)][at(mesh)]);
     }

@@ -1,5 +1,7 @@
 #include "sim/step/motion_start.h"
 
+#include "sim/soft/pins.h"
+
 namespace pneuma::sim {
 
 RigidStart motion_of(const RigidBox& box) {
@@ -28,6 +30,7 @@ void keep_rigid(const World& world, std::vector<RigidStart>& start) {
 
 void restore_soft(World& world, const std::vector<SoftState>& start) {
   for (std::size_t i = 0; i < start.size(); ++i) {
+    if (is_still(world.soft[i])) continue;
     world.soft[i].positions = start[i].positions;
     world.soft[i].velocities = start[i].velocities;
   }

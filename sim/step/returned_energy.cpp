@@ -212,7 +212,10 @@ class IslandMotion {
   Vec3 angular_velocity_ = Vec3::Zero();
 };
 
-bool is_held(SweptMemory& memory, int island) {
+bool is_held(const World& world, SweptMemory& memory, int island) {
+  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
+    if (world.soft[at(i)].pins && memory.solver.island_of(i) == island) return true;
+  }
   return std::ranges::any_of(memory.solver.impulses_of(island), [](const SweptImpulse* impulse) {
     return !impulse->first().moves() || !impulse->second().moves();
   });
@@ -221,10 +224,10 @@ bool is_held(SweptMemory& memory, int island) {
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. All velocities against each
 /// other shrink by the same factor, so that at contacts what parts still parts. Returns what was
-/// taken: no more than there is, and nothing if the ground or a box that nothing moves holds the
-/// island.
+/// taken: no more than there is, and nothing if the ground, a body that nothing moves, or pins
+/// hold the island.
 double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
-  if (is_held(memory, island)) return 0.0;
+  if (is_held(world, memory, island)) return 0.0;
   IslandMotion motion(world, memory, island);
   const double there_is = motion.energy();
   const double taken = std::min(energy, there_is);

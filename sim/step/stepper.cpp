@@ -6,6 +6,7 @@
 
 #include "sim/inspect/inspect.h"
 #include "sim/rigid/given_motion.h"
+#include "sim/soft/pins.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
 #include "sim/step/swept_step.h"
@@ -80,8 +81,13 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     : options(std::move(given)),
       plan(options.plan ? *options.plan : make_plan(world)),
       workers(options.threads),
-      has_given_motions(std::ranges::any_of(
-          world.rigid, [](const RigidBox& box) { return box.motion != nullptr; })),
+      has_given_motions(
+          std::ranges::any_of(world.rigid,
+                              [](const RigidBox& box) { return box.motion != nullptr; }) ||
+          std::ranges::any_of(
+              world.soft, [](const SoftBody& body) { return body.pins && body.pins->are_moved; })),
+      has_pins(std::ranges::any_of(world.soft,
+                                   [](const SoftBody& body) { return body.pins != nullptr; })),
       motion_start{std::vector<SoftState>(world.soft.size()),
                    std::vector<RigidStart>(world.rigid.size())},
       integrate_soft(world, options.threads),
@@ -103,8 +109,11 @@ Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 std::optional<Divergence> Stepper::step(World& world) {
   if (!workspace_->has_given_motions) return step_bodies(world);
   aim_given_motions(world);
+  aim_pins(world);
   auto divergence = step_bodies(world);
-  if (!divergence) place_given_motions(world, time(world));
+  if (divergence) return divergence;
+  place_given_motions(world, time(world));
+  place_pins(world, time(world));
   return divergence;
 }
 
@@ -141,6 +150,7 @@ std::optional<Divergence> Stepper::step_bodies(World& world) {
     restore(world, w, divergence->stage);
     return divergence;
   }
+  if (w.has_pins) hold_pins(world, w.motion_start.soft);
   w.contact_work = energy_if(w.options.measure_work, world) - before_contacts;
   if (w.options.after_part) w.options.after_part(world);
 

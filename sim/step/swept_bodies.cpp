@@ -1,12 +1,14 @@
 #include "sim/step/swept_bodies.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "sim/mesh/primitives.h"
 #include "sim/rigid/rigid_motion.h"
+#include "sim/soft/pins.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {
@@ -28,6 +30,9 @@ constexpr double skins_around = 1.5;
 /// Of its longest way in the step: by so much impulses move its end before all is searched again.
 constexpr double allowed_of_way = 0.5;
 
+/// Of a whole vertex: a point nearer to pinned vertices is held by them.
+constexpr double least_mobility = 1e-3;
+
 /// m, of vertices from where they are in another array.
 double greatest_distance(const VertexArray& one, const VertexArray& other) {
   return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
@@ -45,7 +50,10 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     }
     surfaces_.emplace_back().tree = tree;
     skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
-    changes_.emplace_back(body.positions.size());
+    const bool is_obstacle = body.pins && body.pins->are_all;
+    changes_.emplace_back(is_obstacle ? 0 : body.positions.size());
+    is_still_.push_back(is_still(body) ? 1 : 0);
+    has_pins_ = has_pins_ || body.pins;
   }
   for (const RigidBox& box : world.rigid) {
     const TriangleMesh mesh = make_box(box.size, 1);
@@ -58,6 +66,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     surface.start = surface.end = VertexArray(corners_.back().size());
     skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
   }
+  is_still_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
   kicked_.resize(world.soft.size());
@@ -85,7 +94,7 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
 
 void SweptBodies::set_end(const World& world) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    if (is_followed_[i] != 0) surfaces_[i].end = world.soft[i].positions;
+    if (is_followed_[i] != 0 && is_still_[i] == 0) surfaces_[i].end = world.soft[i].positions;
   }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     const RigidBox& box = world.rigid[at(i)];
@@ -132,9 +141,18 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
 /// In another search of the step only of what has left its allowance, so that what happens to one
 /// body does not change how others are searched.
 BoundingSphere SweptBodies::refit_way(int body) {
-  MovingSurface& surface = surfaces_[at(body)];
   if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) refit_anew(body);
-  const WayBox& around = surface.nodes.front();
+  return sphere_about_root(body);
+}
+
+BoundingSphere SweptBodies::sphere_of_still(const World& world, const MotionStart& start,
+                                            int soft) {
+  if (surface(soft).start.size() == 0) follow(world, start, soft);
+  return sphere_about_root(soft);
+}
+
+BoundingSphere SweptBodies::sphere_about_root(int body) const {
+  const WayBox& around = surface(body).nodes.front();
   return {to_vec3(0.5 * (around.low + around.high)),
           0.5 * to_vec3(around.high - around.low).norm()};
 }
@@ -152,17 +170,23 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
                                    std::vector<BodyPair>& pairs) {
   spheres_.clear();
   for (int i = 0; i < count(); ++i) {
-    spheres_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : sphere_about_way(world, start, i));
+    if (is_still_[at(i)] != 0) {
+      spheres_.push_back(sphere_of_still(world, start, i));
+    } else {
+      spheres_.push_back(is_followed_[at(i)] != 0 ? refit_way(i)
+                                                  : sphere_about_way(world, start, i));
+    }
   }
   sweep_and_prune_.find(spheres_, pairs);
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
-      if (is_followed_[at(body)] == 0) follow(world, start, body);
+      if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);
     }
   }
 }
 
 bool SweptBodies::is_within_allowance(int body) const {
+  if (is_still_[at(body)] != 0) return true;
   return greatest_distance(surface(body).end, searched_ends_[at(body)]) <= allowance(body);
 }
 
@@ -193,8 +217,27 @@ Vec3 SweptBodies::start_point(const SurfacePoint& point) const {
 SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
   if (point.body == swept_ground || is_kinematic(world, point.body)) return {};
   if (is_rigid(point.body)) return {box_changes_[at(box(point.body))], point.point};
-  return {changes_[at(point.body)], vertices(point), point.weights,
-          world.soft[at(point.body)].material.vertex_mass};
+  const SoftBody& soft = world.soft[at(point.body)];
+  if (soft.pins) return pinned_side(soft, point);
+  return {changes_[at(point.body)], vertices(point), point.weights, soft.material.vertex_mass};
+}
+
+/// Pinned vertices have no part in it.
+SweptSide SweptBodies::pinned_side(const SoftBody& body, const SurfacePoint& point) {
+  std::array<int, 3> free{};
+  FeatureWeights weights{};
+  std::size_t count = 0;
+  double mobility = 0.0;  // of a whole vertex
+  for (std::size_t i = 0; const int v : vertices(point)) {
+    const double weight = point.weights[i++];
+    if (is_pinned(body, v)) continue;
+    free[count] = v;
+    weights[count++] = weight;
+    mobility += weight * weight;
+  }
+  if (mobility < least_mobility) return {};
+  return {changes_[at(point.body)], std::span(free).first(count), weights,
+          body.material.vertex_mass};
 }
 
 Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
@@ -269,6 +312,7 @@ void SweptBodies::shift_boxes(World& world) const {
 std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
                                                   IntegrateSoftMemory& integrate_soft) {
   for (int i = 0; i < soft_count_; ++i) {
+    if (is_kinematic(world, i)) continue;
     if (moved_again_[at(i)] == 0 && changes_[at(i)].rows().isZero(0.0)) continue;
     moved_again_[at(i)] = 1;
     SoftState& kicked = kicked_[at(i)];
@@ -288,7 +332,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
 
 void SweptBodies::add_changes(World& world) const {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    world.soft[i].velocities.rows() += changes_[i].rows();
+    if (changes_[i].size() > 0) world.soft[i].velocities.rows() += changes_[i].rows();
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     world.rigid[i].velocity += to_vec3(box_changes_[i].velocity);

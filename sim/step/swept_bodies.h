@@ -70,6 +70,8 @@ class SweptBodies {
   /// m, at the start of the step, of what is at a point of a box at its end.
   Vec3 point_before(const World& world, const MotionStart& start, int body,
                     const Vec3& at_end) const;
+  /// Whether some soft body has pinned vertices, so that a side of it may not move.
+  bool has_pins() const { return has_pins_; }
   /// m, from the start of the step to its end.
   Vec3 displacement(const World& world, const MotionStart& start, const SurfacePoint& point) const;
   /// m/s.
@@ -98,6 +100,9 @@ class SweptBodies {
   BoundingSphere sphere_about_way(const World& world, const MotionStart& start, int soft) const;
   BoundingSphere refit_way(int body);
   void refit_anew(int body);
+  BoundingSphere sphere_about_root(int body) const;
+  BoundingSphere sphere_of_still(const World& world, const MotionStart& start, int soft);
+  SweptSide pinned_side(const SoftBody& body, const SurfacePoint& point);
   bool is_within_allowance(int body) const;
   void follow(const World& world, const MotionStart& start, int soft);
   std::span<const int> vertices(const SurfacePoint& point) const;
@@ -113,6 +118,8 @@ class SweptBodies {
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
   std::vector<std::uint8_t> is_lone_;      // per body
+  std::vector<std::uint8_t> is_still_;     // per body: an obstacle that is fitted once for all
+  bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
   std::vector<std::uint8_t> is_searched_;  // per body: whether a search of this step was for it
   std::vector<double> skins_;

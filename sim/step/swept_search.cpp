@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/soft/pins.h"
+
 namespace pneuma::sim {
 namespace {
 
@@ -58,7 +60,9 @@ void SweptSearch::find_near_ground() {
     if (bodies_.is_lone(i) || is_kinematic(world_, i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
+    const SoftBody* body = bodies_.is_rigid(i) ? nullptr : &world_.soft[at(i)];
     for (int v = 0; v < surface.start.size(); ++v) {
+      if (body && is_pinned(*body, v)) continue;
       if (std::min(surface.start[v].z(), surface.end[v].z()) >= height) continue;
       m_.candidates.push_back({{i, swept_ground}, {{FeatureKind::vertex, v}, {}}, {}});
     }
@@ -113,8 +117,9 @@ bool SweptSearch::find_collisions_of_pair(std::span<SweptCandidate> candidates) 
 void SweptSearch::hold_where_they_meet() {
   for (const auto& [candidate, fraction] : m_.meetings) {
     SweptCandidate& meeting = m_.candidates[at(candidate)];
-    add(meeting, meeting.contact < 0 ? place(meeting, meeting.start, Moment::start)
-                                     : place_along_line(meeting, fraction));
+    const SweptContact contact = meeting.contact < 0 ? place(meeting, meeting.start, Moment::start)
+                                                     : place_along_line(meeting, fraction);
+    if (is_moved(contact)) add(meeting, contact);
   }
 }
 
@@ -142,7 +147,7 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
       std::min(kept_of_start * distance, kept_of_wanted * distance_wanted(first, second));
   const auto fraction = time_of_meeting(bodies_.surface(first), bodies_.surface(second),
                                         candidate.features, distance, least);
-  if (!fraction) return false;
+  if (!fraction || !is_moved(place(candidate, candidate.start, Moment::start))) return false;
   blocked_ = candidate.bodies;
   m_.meetings.push_back({static_cast<int>(&candidate - m_.candidates.data()), *fraction});
   if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
@@ -232,8 +237,7 @@ SweptContact SweptSearch::place_at(const SweptCandidate& candidate, double fract
   return contact;
 }
 
-std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& candidate,
-                                                      bool acted) const {
+std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& candidate, bool acted) {
   const auto [first, second] = candidate.bodies;
   if (second == swept_ground) {
     const SweptContact contact = place_on_ground(candidate, Moment::end);
@@ -249,7 +253,8 @@ std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& cand
   const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
                                       candidate.features, Moment::end, reach);
   if (!closest || !(acted || stands(candidate, *closest, Moment::end))) return std::nullopt;
-  return place(candidate, *closest, Moment::end);
+  const SweptContact contact = place(candidate, *closest, Moment::end);
+  return is_moved(contact) ? std::optional(contact) : std::nullopt;
 }
 
 /// The points of a contact that is placed as boxes will meet lie apart until then.
@@ -327,6 +332,12 @@ void SweptSearch::find_approach(SweptContact& contact, const Vec3& kicked) const
   contact.drift = mean - (before + 0.5 * gained);
 }
 
+bool SweptSearch::is_moved(const SweptContact& contact) {
+  if (!bodies_.has_pins()) return true;
+  return bodies_.side(world_, contact.first).moves() ||
+         bodies_.side(world_, contact.second).moves();
+}
+
 bool SweptSearch::add_if_it_meets(SweptCandidate& candidate) {
   const auto [first, second] = candidate.bodies;
   const SweptContact contact = second == swept_ground
@@ -335,6 +346,7 @@ bool SweptSearch::add_if_it_meets(SweptCandidate& candidate) {
   if (contact.distance + contact.normal.dot(displacement(contact)) > near_distance(first, second))
     return false;
   if (second != swept_ground && !stands(candidate, candidate.start, Moment::start)) return false;
+  if (!is_moved(contact)) return false;
   add(candidate, contact);
   return true;
 }

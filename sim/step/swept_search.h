@@ -95,7 +95,7 @@ class SweptSearch {
   /// Where the features of a candidate are nearest at the end, if they are in contact then or
   /// `acted` on each other at the start. None if another pair stands for it, or if nothing says
   /// where they would part.
-  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted) const;
+  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted);
   SweptImpulse impulse(const SweptContact& contact, double friction);
 
   /// Of the first side against the second, m.
@@ -148,6 +148,8 @@ class SweptSearch {
   bool goes_into_ground(SweptCandidate& candidate);
   bool add_if_it_meets(SweptCandidate& candidate);
   void add(SweptCandidate& candidate, SweptContact contact);
+  /// Whether an impulse moves a side of it: pinned vertices do not.
+  bool is_moved(const SweptContact& contact);
 
   const World& world_;
   const MotionStart& start_;

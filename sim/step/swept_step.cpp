@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/ground_contact.h"
 #include "sim/step/returned_energy.h"
@@ -172,6 +173,7 @@ class SweptStep {
     remember();
     report();
     if (world_.settings.ground) meet_ground();
+    if (w_.has_pins) hold_pins(world_, start().soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
 
@@ -307,7 +309,7 @@ class SweptStep {
   /// Those that nothing else can touch.
   void meet_ground() {
     for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
-      if (!bodies_.is_lone(i)) continue;
+      if (!bodies_.is_lone(i) || is_kinematic(world_, i)) continue;
       const double before = energy_if_measured(i);
       meet_ground_alone(world_, i, start().soft[at(i)], w_.contacts, m_.before_ground);
       m_.work += energy_if_measured(i) - before;

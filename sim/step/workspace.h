@@ -17,6 +17,7 @@ struct StepWorkspace {
   Plan plan;
   Workers workers;
   bool has_given_motions;
+  bool has_pins;
   StageTimes stage_times{};
 
   MotionStart motion_start;

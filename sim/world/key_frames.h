@@ -24,11 +24,13 @@ struct KeyFrames {
   bool operator==(const KeyFrames&) const = default;
 };
 
-/// The same of one box.
+/// The same of one box, or of the vertices of a soft body that follow it.
 struct GivenMotion {
   KeyFrames keys;
   Vec3 position = Vec3::Zero();                                     // m, what they start from
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // likewise
+  Vec3 velocity = Vec3::Zero();                                     // m/s, on top of the keys
+  Vec3 angular_velocity = Vec3::Zero();                             // rad/s, world axes, likewise
 };
 
 }  // namespace pneuma::sim

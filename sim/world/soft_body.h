@@ -8,6 +8,7 @@
 #include "sim/mesh/soft_mesh.h"
 #include "sim/mesh/vertex_array.h"
 #include "sim/world/contact_material.h"
+#include "sim/world/pins.h"
 
 namespace pneuma::sim {
 
@@ -49,8 +50,9 @@ struct SoftBody {
   std::string name;
   std::shared_ptr<const SoftMesh> mesh;
   SoftMaterial material;
-  VertexArray positions;   // m
-  VertexArray velocities;  // m/s
+  VertexArray positions;             // m
+  VertexArray velocities;            // m/s
+  std::shared_ptr<const Pins> pins;  // if some of its vertices are held
 };
 
 }  // namespace pneuma::sim

@@ -53,7 +53,9 @@ struct World {
 /// lie to each other and to the ground is no matter of contacts.
 inline bool is_kinematic(const World& world, int body) {
   const int box = body - static_cast<int>(world.soft.size());
-  return box >= 0 && world.rigid[at(box)].is_kinematic;
+  if (box >= 0) return world.rigid[at(box)].is_kinematic;
+  const SoftBody& soft = world.soft[at(body)];
+  return soft.pins && soft.pins->are_all;
 }
 
 inline double time(const World& world) {

@@ -169,11 +169,7 @@ const std::vector<BrokenScene> inapplicable_keys = {
      4,
      8,
      {"kind = \"static\" needs swept contacts"}},
-    {"rigid_sphere",
-     rigid("shape = \"sphere\""),
-     3,
-     9,
-     {"a body that is not soft is always a box"}},
+    {"rigid_sphere", rigid("shape = \"sphere\""), 3, 9, {"a rigid body is always a box"}},
 };
 
 const std::vector<BrokenScene> wrong_types = {

@@ -93,7 +93,7 @@ TEST(Model, MistakesInTheFileHaveTheirPlace) {
   expect_in(refusal(one_model + "model.colour = 2\n"), {"x.toml:5:", "'model.colour'"});
   expect_in(refusal(one_model + "model.file.name = 2\n"), {"x.toml:5:"});
   expect_in(refusal("[[body]]\nkind = \"rigid\"\nshape = \"model\"\nmodel.file = \"a.ply\"\n"),
-            {"a body that is not soft is always a box"});
+            {"a rigid body is always a box"});
   expect_in(refusal("[[body]]\nname = \"model\"\n"), {"is the name of a table"});
 }
 

@@ -55,7 +55,7 @@ TEST(MotionKeys, TakeThePlaceOfVelocities) {
                  {"x.toml:4:1", "have no motion"});
   for (const char* kind : {"static", "rigid", "soft"}) {
     expect_refused("kind = \"" + std::string(kind) + "\"\nmotion.path = [[0, 0, 0, 0]]\n",
-                   {"x.toml:3:8", "moved bodies only"});
+                   {"x.toml:3:8", "moved bodies, and soft bodies with pinned, only"});
   }
 }
 

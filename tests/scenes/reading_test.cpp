@@ -237,7 +237,8 @@ TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene soft = parse_scene(soft_body, "soft.toml");
   BodyScene body;
   EXPECT_EQ(keys_at_default(body_section(soft.bodies[0]), body_section(body)),
-            std::vector<std::string>({"body.kind", "body.gauge_pressure", "body.inflation"}));
+            std::vector<std::string>(
+                {"body.kind", "body.gauge_pressure", "body.inflation", "body.pinned"}));
 }
 
 TEST(Reading, KeysOfTheOtherShapesSetTheirMembers) {

@@ -88,6 +88,13 @@ struct SetAtRandom {
       member->push_back({time, value.x(), value.y(), value.z()});
     }
   }
+  void operator()(std::vector<Region>* member) const {
+    for (int rows = *rc::gen::inRange(0, 3); rows > 0; --rows) {
+      const Vec3 one = any_vector(key.range), other = any_vector(key.range);
+      const Vec3 low = one.cwiseMin(other), high = one.cwiseMax(other);
+      member->push_back({low.x(), low.y(), low.z(), high.x(), high.y(), high.z()});
+    }
+  }
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     if (*rc::gen::arbitrary<bool>()) member->reset();
   }
@@ -122,11 +129,11 @@ void make_consistent(Scene& scene) {
     for (BodyScene& body : scene.bodies) sim::use_paper_method(body.material);
   }
   for (BodyScene& body : scene.bodies) {
-    if (body.kind != BodyKind::soft && scene.settings.contact != sim::ContactMethod::swept) {
-      body.kind = BodyKind::rigid;
-    }
-    if (body.kind != BodyKind::moved) body.motion = {};
-    if (body.shape == Shape::torus && body.kind == BodyKind::soft) {
+    const bool is_swept = scene.settings.contact == sim::ContactMethod::swept;
+    if (body.kind != BodyKind::soft || !is_swept) body.pinned.clear();
+    if (body.kind != BodyKind::moved && body.pinned.empty()) body.motion = {};
+    if (body.pinned.empty() || body.motion.empty()) body.still.clear();
+    if (body.shape == Shape::torus) {
       body.tube_radius = body.radius / 3.0;
       RC_PRE(body.tube_radius > 0.0 && body.tube_radius < body.radius);
     }
@@ -165,7 +172,10 @@ Scene any_scene() {
     BodyScene& body = scene.bodies[i];
     body.name = *rc::gen::arbitrary<bool>() ? default_name(i) : "x-" + std::to_string(i);
     set_at_random(body_section(body), true);
-    if (body.kind != BodyKind::soft) body.shape = Shape::box;
+    const bool is_swept =
+        scene.settings.contact == sim::ContactMethod::swept && !sim::is_as_printed(scene.settings);
+    if (body.kind != BodyKind::soft && !is_swept) body.kind = BodyKind::rigid;
+    if (body.kind == BodyKind::rigid) body.shape = Shape::box;
     set_at_random(body_section(body), false);
   }
   make_consistent(scene);

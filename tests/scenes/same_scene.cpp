@@ -76,11 +76,11 @@ void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
-  const auto& [place, rest_place, position_place, model_place, name, kind, shape, radius,
-               tube_radius, stacks, slices, subdivisions, divisions, size, model, rest,
-               gauge_pressure, inflation, material, mass, rho_g, surface, position, rotation,
-               velocity, angular_velocity, motion, copies, spacing, jitter, tumble, colours,
-               colour_axis, roughness] = a;
+  const auto& [place, rest_place, position_place, model_place, pinned_place, still_place, name,
+               kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions, size,
+               model, rest, gauge_pressure, inflation, material, mass, rho_g, surface, position,
+               rotation, velocity, angular_velocity, pinned, motion, still, copies, spacing, jitter,
+               tumble, colours, colour_axis, roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -105,6 +105,8 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("angular_velocity", angular_velocity, b.angular_velocity);
   c.member("motion.path", motion.path, b.motion.path);
   c.member("motion.rotation", motion.rotation, b.motion.rotation);
+  c.member("pinned", pinned, b.pinned);
+  c.member("motion.still", still, b.still);
   c.member("motion.smooth", motion.smooth, b.motion.smooth);
   c.member("copies", copies, b.copies);
   c.member("spacing", spacing, b.spacing);

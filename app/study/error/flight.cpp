@@ -40,6 +40,13 @@ void check(const scenes::Scene& scene, const sim::World& world) {
         scene.name));
   }
   for (const sim::SoftBody& body : world.soft) {
+    if (body.pins) {
+      throw UsageError(
+          fmt::format("{}: {} is pinned, which the solutions to compare with know nothing of: name "
+                      "another body "
+                      "with --body",
+                      scene.name, body.name));
+    }
     if (body.material.damping != sim::Damping::literal) continue;
     throw UsageError(fmt::format(
         "{}: the damping of {} is literal, which depends on the step and so has no solution to "

@@ -24,8 +24,9 @@ struct Flight {
 };
 
 /// Asked for or not, a world in which nothing touches in the time is in free flight. Throws
-/// UsageError for a body that is not there, when nothing is left that could have an error, and for
-/// `literal` damping, which is no differential equation; and scenes::SceneError.
+/// UsageError for a body that is not there, when nothing is left that could have an error, for a
+/// pinned body, and for `literal` damping, which is no differential equation; and
+/// scenes::SceneError.
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options);
 
 }  // namespace pneuma::app

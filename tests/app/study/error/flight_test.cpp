@@ -63,6 +63,9 @@ TEST(Flight, RefusesWhatCannotBeStudied) {
   EXPECT_THROW(prepare_flight(small_scene(), options(0.5, false, "bal")), UsageError);
   EXPECT_THROW(prepare_flight(small_scene(box), options(0.5, true, "box")), UsageError);
   EXPECT_THROW(prepare_flight(small_scene("damping = \"literal\"\n"), options(0.5)), UsageError);
+  EXPECT_THROW(
+      prepare_flight(small_scene("pinned = [[-99, -99, -99, 99, 99, 99]]\n"), options(0.5)),
+      UsageError);
 }
 
 }  // namespace

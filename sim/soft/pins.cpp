@@ -1,0 +1,75 @@
+#include "sim/soft/pins.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/rigid/given_motion.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Calls visit(vertex, place) with where the motion puts each vertex that follows it, m.
+template <class Visit>
+void for_each_followed(const SoftBody& body, double time, const Visit& visit) {
+  if (!body.pins || !body.pins->are_moved) return;
+  const Pins& pins = *body.pins;
+  const Pose pose = pose_at(pins.motion, time);
+  const Mat3 turn = pose.orientation.toRotationMatrix();
+  for (int v = 0; v < body.positions.size(); ++v) {
+    if (pins.follows[at(v)] == 0) continue;
+    const Vec3 arm = Vec3(pins.start[v]) - pins.motion.position;
+    visit(v, Vec3(pose.position + turn * arm));
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Pins> make_pins(const VertexArray& positions,
+                                      std::vector<std::uint8_t> is_pinned,
+                                      std::vector<std::uint8_t> follows, GivenMotion motion) {
+  const auto is_set = [](std::uint8_t value) { return value != 0; };
+  Pins pins;
+  pins.are_all = std::ranges::all_of(is_pinned, is_set);
+  pins.are_moved = std::ranges::any_of(follows, is_set);
+  pins.is_pinned = std::move(is_pinned);
+  pins.follows = std::move(follows);
+  pins.start = positions;
+  pins.motion = std::move(motion);
+  return std::make_shared<const Pins>(std::move(pins));
+}
+
+void aim_pins(World& world) {
+  const double step = time_step(world.settings);
+  const double end = static_cast<double>(world.steps + 1) / world.settings.steps_per_second;
+  for (SoftBody& body : world.soft) {
+    for_each_followed(body, end, [&](int v, const Vec3& place) {
+      body.velocities[v] = (place - Vec3(body.positions[v])) / step;
+    });
+  }
+}
+
+void place_pins(SoftBody& body, double time) {
+  for_each_followed(body, time, [&](int v, const Vec3& place) { body.positions[v] = place; });
+}
+
+void place_pins(World& world, double time) {
+  for (SoftBody& body : world.soft) place_pins(body, time);
+}
+
+void hold_pins(SoftBody& body, const SoftState& start, double step) {
+  if (!body.pins || is_still(body)) return;
+  for (int v = 0; v < body.positions.size(); ++v) {
+    if (body.pins->is_pinned[at(v)] == 0) continue;
+    const Vec3 velocity = start.velocities[v];
+    body.velocities[v] = velocity;
+    body.positions[v] = Vec3(start.positions[v]) + step * velocity;
+  }
+}
+
+void hold_pins(World& world, const std::vector<SoftState>& start) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    hold_pins(world.soft[i], start[i], time_step(world.settings));
+  }
+}
+
+}  // namespace pneuma::sim

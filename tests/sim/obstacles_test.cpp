@@ -1,0 +1,113 @@
+// Obstacles of any shape: soft bodies of which all vertices are pinned.
+#include <gtest/gtest.h>
+
+#include "sim/inspect/crossings.h"
+#include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+SoftBody make_obstacle(const TriangleMesh& mesh, const Vec3& position,
+                       const Vec3& velocity = {0, 0, 0}) {
+  SoftBody body = make_body(mesh, position);
+  body.name = "obstacle";
+  body.material.n = 0.0;
+  body.material.surface = {0.0, 0.5};
+  const auto count = at(body.positions.size());
+  GivenMotion motion;
+  motion.position = position;
+  motion.velocity = velocity;
+  const std::uint8_t moves = velocity.isZero() ? 0 : 1;
+  body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
+                        std::vector<std::uint8_t>(count, moves), motion);
+  return body;
+}
+
+SoftBody make_ball(const Vec3& position) {
+  SoftBody ball = make_body(make_icosphere(1.0, 2), position);
+  ball.material.n = 0.1;
+  ball.material.k = 60.0;
+  ball.material.vertex_mass = 0.02;
+  ball.material.surface = {0.0, 0.5};
+  return ball;
+}
+
+RigidBox make_slab(const Vec3& size, const Vec3& position) {
+  RigidBox box = make_rigid(size, position);
+  box.is_kinematic = true;
+  box.surface = {0.0, 0.5};
+  return box;
+}
+
+TEST(Obstacles, HoldABallAsAStaticBoxOfTheirShapeDoes) {
+  const Vec3 size(6.0, 6.0, 1.0), place(0.0, 0.0, 3.0);
+  World on_box, on_mesh;
+  on_box.soft = {make_ball({0.2, 0.1, 4.7})};
+  on_mesh.soft = on_box.soft;
+  on_box.rigid = {make_slab(size, place)};
+  on_mesh.soft.push_back(make_obstacle(make_box(size, 12), place));
+  for (World* world : {&on_box, &on_mesh}) {
+    world->soft[0].material.rho_g = 0.1;
+    world->settings.steps_per_second = 240;
+    ASSERT_FALSE(run(*world, 3.0));
+    EXPECT_EQ(crossings(*world).between_bodies, 0);
+  }
+  // Their skins differ by hundredths of an edge.
+  EXPECT_NEAR(mean(on_box.soft[0].positions).z(), mean(on_mesh.soft[0].positions).z(), 0.01);
+  EXPECT_NEAR(mean(on_box.soft[0].positions).x(), mean(on_mesh.soft[0].positions).x(), 0.01);
+}
+
+TEST(Obstacles, StayToTheLastBitAndAreNoPartOfEnergyAndMomentum) {
+  for (const Integrator integrator : {Integrator::rk4, Integrator::sdirk2}) {
+    World world;
+    world.settings.integrator = integrator;
+    world.settings.steps_per_second = 240;
+    world.soft = {make_obstacle(make_torus(1.5, 0.8, 16, 12), {0.0, 0.0, 1.0}),
+                  make_ball({0.2, 0.1, 2.6})};
+    const VertexArray before = world.soft[0].positions;
+    EXPECT_EQ(energy(world.soft[0], world.settings.gravity).total(), 0.0);
+    Stepper stepper(world);
+    for (int i = 0; i < 120; ++i) {
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->what;
+      ASSERT_EQ(i % 8 == 0 ? crossings(world).between_bodies : 0, 0) << "after step " << i;
+    }
+    EXPECT_TRUE(world.soft[0].positions.rows() == before.rows());
+    EXPECT_TRUE(world.soft[0].velocities.rows().isZero(0.0));
+    EXPECT_GT(mean(world.soft[1].positions).z(), 1.3);  // above the hole, held by its rim
+  }
+}
+
+TEST(Obstacles, ThatMoveTakeABoxAndABallAlong) {
+  World world;
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.settings.steps_per_second = 240;
+  world.soft = {make_obstacle(make_icosphere(1.0, 2), {-2.5, 0.0, 0.0}, {2.0, 0.0, 0.0}),
+                make_ball({0.0, 0.0, 0.0})};
+  world.rigid = {make_rigid({1.0, 4.0, 4.0}, {2.0, 0.0, 0.0}, 2.0)};
+  Stepper stepper(world);
+  for (int i = 0; i < 480; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << divergence->what;
+    ASSERT_EQ(i % 8 == 0 ? crossings(world).between_bodies : 0, 0) << "after step " << i;
+  }
+  EXPECT_NEAR(mean(world.soft[0].positions).x(), 1.5, 1e-12);
+  EXPECT_GT(mean(world.soft[1].positions).x(), 2.0);
+  EXPECT_GT(world.rigid[0].velocity.x(), 0.5);
+}
+
+TEST(Obstacles, MayLieInEachOtherAndInTheGround) {
+  World world;
+  world.soft = {make_obstacle(make_icosphere(1.0, 2), {0.0, 0.0, 0.0}),
+                make_obstacle(make_icosphere(1.0, 1), {0.5, 0.0, 0.3})};
+  world.rigid = {make_slab({1.0, 1.0, 1.0}, {0.0, 0.5, 0.0})};
+  ASSERT_FALSE(run(world, 0.5));
+  EXPECT_EQ(max_penetration(world), 0.0);
+  EXPECT_EQ(crossings(world).between_bodies, 0);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
