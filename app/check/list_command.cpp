@@ -21,18 +21,35 @@ using Align = Table::Align;
 constexpr std::size_t figure_width = 32;
 constexpr std::size_t title_width = 46;
 
-std::string list_text(const std::vector<CatalogueEntry>& entries) {
+/// INVALID: an error, in place of a title.
+std::string title_of(const CatalogueEntry& entry) {
+  return wrapped(entry.error.empty() ? entry.title : "INVALID: " + entry.error, title_width);
+}
+
+std::string of_paper_text(const std::vector<CatalogueEntry>& entries) {
   Table table({{"scene", Align::left},
                {"the paper's figure or row", Align::left},
                {"paper\nfps", Align::right},
                {"title", Align::left}});
   for (const CatalogueEntry& entry : entries) {
-    const std::string title = entry.error.empty() ? entry.title : "INVALID: " + entry.error;
-    table.add_row({entry.name, entry.figure.empty() ? "-" : wrapped(entry.figure, figure_width),
-                   entry.paper_fps ? fmt::format("{:g}", *entry.paper_fps) : "-",
-                   wrapped(title, title_width)});
+    if (entry.figure.empty()) continue;
+    table.add_row({entry.name, wrapped(entry.figure, figure_width),
+                   entry.paper_fps ? fmt::format("{:g}", *entry.paper_fps) : "-", title_of(entry)});
   }
   return table.text();
+}
+
+std::string others_text(const std::vector<CatalogueEntry>& entries) {
+  Table table({{"scene", Align::left}, {"title", Align::left}});
+  for (const CatalogueEntry& entry : entries) {
+    if (entry.figure.empty()) table.add_row({entry.name, title_of(entry)});
+  }
+  return table.text();
+}
+
+std::string list_text(const std::vector<CatalogueEntry>& entries) {
+  return of_paper_text(entries) + "\nBodies that are held or moved, and models:\n\n" +
+         others_text(entries);
 }
 
 nlohmann::json list_json(const std::vector<CatalogueEntry>& entries) {

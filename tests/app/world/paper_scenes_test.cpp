@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What runs, in the order in which it does: one body on the ground, several soft bodies, a soft
-// body and boxes, all kinds.
+// What runs, in the order in which it does: one body on the ground, several soft
+// bodies, a soft body and boxes, all kinds.
 const std::string one_body = "integrate_soft find_contacts resolve_contacts : soft_ground";
 const std::string soft_bodies =
     "integrate_soft find_contacts resolve_contacts : soft_ground soft_soft";
@@ -54,11 +54,13 @@ struct PaperScene {
 };
 
 const PaperScene paper_scenes[] = {
+    {"bowl", soft_bodies, 1e-4, 1e-5, 0.04, true},
     {"cat_on_sphere", soft_bodies, 0.006, 1e-4, 0.3, false},
-    // Rams and plates do work on what they press, and take it back: the energy rises and falls.
+    // Rams, plates and handles do work, and take it back: the energy rises and falls.
     {"compactor", soft_bodies_and_given_boxes, 0.001, 1.2, 7.0, true},
     {"cubes_on_torus", soft_body_and_boxes, 0.01, 1.2e-4, 13.0, true},  // some cubes still fall
-    {"model", one_body, 0.0, 1e-4, 0.2, false},                         // a cat on four paws: 4e-5
+    {"held_balloon", soft_body_and_given_boxes, 1e-4, 2.1, 0.5, false},
+    {"model", one_body, 0.0, 1e-4, 0.2, false},  // a cat on four paws: 4e-5
     {"one_sphere", one_body, 0.0, 1e-5, 0.1, false},
     {"one_torus", one_body, 0.0, 1e-4, 0.2, false},
     {"pins", soft_body_and_given_boxes, 0.0, 1e-4, 1.0, true},
@@ -73,6 +75,7 @@ const PaperScene paper_scenes[] = {
     // The torus slowly comes down between the spheres.
     {"torus_three_spheres", soft_bodies, 0.031, 1e-3, 1.5, true},
     {"torus_three_spheres_four_cubes", everything, 0.004, 1e-4, 0.15, true},
+    {"twisted_torus", soft_bodies, 1e-4, 1.6, 0.35, false},
     {"two_spheres", soft_bodies, 0.0, 1e-5, 0.3, false},
     {"two_spheres_contact", soft_bodies, 0.005, 1e-4, 0.1, true},
 };
