@@ -12,7 +12,7 @@ namespace {
 constexpr double near = 1.5;
 /// What features keep of their distance on their way: of that at the start, and of that wanted.
 constexpr double kept_of_start = 0.1;
-constexpr double kept_of_wanted = 0.5;
+constexpr double kept_of_wanted = 0.05;
 /// m. At less than this the direction between two points is rounding.
 constexpr double min_distance = 1e-9;
 constexpr double any_distance = std::numeric_limits<double>::infinity();

@@ -31,19 +31,6 @@ std::optional<ClosestPoints> closest(const NearFeatures& pair, const Corners& fi
   return mirrored(*found);
 }
 
-double distance_between(const NearFeatures& pair, const Corners& first, const Corners& second) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  switch (pair.first.kind) {
-    case FeatureKind::edge:
-      return test_edge_edge({first[0], first[1]}, {second[0], second[1]}, any)->distance;
-    case FeatureKind::vertex:
-      return test_vertex_triangle(first[0], second, any)->distance;
-    case FeatureKind::triangle:
-      break;
-  }
-  return test_vertex_triangle(second[0], first, any)->distance;
-}
-
 /// Where a pair's corners are at the start of the step, and their ways to its end. The same motion
 /// for all changes no distance: their mean is left out.
 struct PairMotion {
@@ -85,11 +72,25 @@ struct PairMotion {
     }
   }
 
-  /// m.
-  double distance_at(double fraction, const NearFeatures& pair) const {
+  ClosestPoints closest_at(double fraction, const NearFeatures& pair) const {
     Corners a = first, b = second;
     advance(a, b, fraction);
-    return distance_between(pair, a, b);
+    return *closest(pair, a, b, std::numeric_limits<double>::infinity());
+  }
+
+  /// The fraction of the step up to which, after `fraction`, the first lies further than `least`
+  /// (m) beyond the second along a direction; 1 or more: to its end.
+  double free_until(double fraction, const Vec3& direction, double least) const {
+    double soonest = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double nearing = direction.dot(second_way[j] - first_way[i]);
+        if (nearing <= 0.0) continue;
+        const double apart = direction.dot(first[i] - second[j]);
+        soonest = std::min(soonest, (apart - least) / nearing);
+      }
+    }
+    return std::max(soonest, fraction);
   }
 };
 
@@ -202,31 +203,30 @@ bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& secon
   return stands_for(of_first, pair.first.index, closest.first);
 }
 
+// Conservative advancement along the line between the nearest points: what slides past is far from
+// meeting, however fast.
 std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSurface& second,
                                       const NearFeatures& pair, double distance, double least) {
-  constexpr double advanced = 0.9;   // of what is certainly free
-  constexpr double met = 0.2;        // of the least distance: nearer to it, and they meet
-  constexpr int max_advances = 200;  // in practice a dozen
+  constexpr double advanced = 0.9;  // of what is certainly free
+  constexpr double met = 0.2;       // of the least distance: nearer to it, and they meet
+  constexpr int max_advances = 50;  // in practice a few
   const PairMotion motion(first, second, pair);
-  const double greatest = motion.greatest();
-  double free = distance - least, moved = 0.0;
+  if (advanced * (distance - least) >= motion.greatest()) return std::nullopt;
+  double fraction = 0.0;
   for (int i = 0; i < max_advances; ++i) {
-    const double advance = advanced * free;
-    if (moved + advance >= greatest) return std::nullopt;
-    moved += advance;
-    free = motion.distance_at(moved / greatest, pair) - least;
+    const ClosestPoints closest = motion.closest_at(fraction, pair);
+    const double free = closest.distance - least;
     if (free < met * least) break;
+    const Vec3 apart = (closest.first_point - closest.second_point) / closest.distance;
+    fraction = motion.free_until(fraction, apart, least + (1.0 - advanced) * free);
+    if (fraction >= 1.0) return std::nullopt;
   }
-  return moved / greatest;
+  return fraction;
 }
 
 ClosestPoints closest_points_at(const MovingSurface& first, const MovingSurface& second,
                                 const NearFeatures& pair, double fraction) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  const PairMotion motion(first, second, pair);
-  Corners a = motion.first, b = motion.second;
-  motion.advance(a, b, fraction);
-  return *closest(pair, a, b, any);
+  return PairMotion(first, second, pair).closest_at(fraction, pair);
 }
 
 }  // namespace pneuma::sim

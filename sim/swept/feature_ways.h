@@ -30,9 +30,10 @@ bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& secon
 /// After which fraction of their ways the features have come to within 1.2 times `least` (m, above
 /// zero and less than their distance at the start); none if they stay further apart. Conservative:
 /// they may also just come near that. Never misses a crossing: each advance is shorter than the
-/// features would need to meet at their greatest relative speed (additive continuous collision
-/// detection; Li, Kaufman and Jiang 2021, "Codimensional incremental potential contact", section
-/// 5).
+/// features would need to meet at their speeds along the line between their nearest points
+/// (conservative advancement; Mirtich 1996, "Impulse-based dynamic simulation of rigid body
+/// systems"; by sums of what is certainly free, Li, Kaufman and Jiang 2021,
+/// "Codimensional incremental potential contact", section 5).
 std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSurface& second,
                                       const NearFeatures& pair, double distance, double least);
 
