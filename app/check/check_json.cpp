@@ -105,7 +105,7 @@ json run_statistics_json(const RunStatistics& run) {
         {"greatest_rise_at_s", run.energy_rise.time},
         {"all_rises", run.energy_rises},
         {"span", run.energy_span},
-        {"work_of_moved_boxes", run.driven_work.value_or(0.0)}}},
+        {"work_of_moved_bodies", run.driven_work.value_or(0.0)}}},
       {"contacts_per_step", contacts_per_step_json(run.contacts)},
       {"volumes_m3", std::move(volumes)},
       {"free", run.pushed_by.empty()},

@@ -144,7 +144,7 @@ std::string energy_text(const RunStatistics& run) {
           : "none";
   text += named_line("", "greatest rise from one frame to the next: " + rise);
   if (run.driven_work) {
-    text += named_line("", fmt::format("work of moved boxes: {:+.4g} J", *run.driven_work));
+    text += named_line("", fmt::format("work of moved bodies: {:+.4g} J", *run.driven_work));
   }
   return text + named_line("",
                            "gas without ambient pressure counts as 0 J at 1 m^3 and less in any "

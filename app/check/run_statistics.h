@@ -65,7 +65,7 @@ struct RunStatistics {
   sim::Energy energy_end;
   Peak energy_rise;           // J, the greatest from one frame to the next
   double energy_rises = 0.0;  // J, all of them together
-  // J, of the boxes that are moved on what they pushed; none: there is no such box.
+  // J, of the bodies that are moved on what they pushed; none: there is no such body.
   std::optional<double> driven_work;
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 

@@ -66,7 +66,7 @@ class Stepper {
   /// boxes; otherwise, and of bodies that only meet the ground, the change of energy by contacts. 0
   /// unless the options have measure_work.
   double contact_work() const;
-  /// J, what the boxes that are moved have given to the energy of the bodies in the last step by
+  /// J, what the bodies that are moved have given to the energy of the bodies in the last step by
   /// pushing them: not part of contact_work, which takes both sides together.
   double driven_work() const;
 

@@ -67,7 +67,7 @@ struct SweptMemory {
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   VertexArray before_ground;            // of a soft body that meets nothing else
   double work = 0.0;                    // J, of all contacts of the last step
-  double driven_work = 0.0;             // J, of the boxes that are moved
+  double driven_work = 0.0;             // J, of the bodies that are moved
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.
@@ -103,7 +103,7 @@ class SweptSearch {
   /// m/s, where impulses act.
   Vec3 start_velocity(const SweptContact& contact) const;
   Vec3 end_velocity(const SweptContact& contact) const;
-  /// m/s, where impulses act: of the second side if it is a moved box, less that of the first if
+  /// m/s, where impulses act: of the second side if it is moved, less that of the first if
   /// that one is.
   Vec3 driven_velocity(const SweptContact& contact, Moment moment) const;
 
