@@ -1,6 +1,7 @@
 #include "sim/collision/find_body_contacts.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/point_in_body.h"
@@ -68,12 +69,12 @@ RestingLengths resting_lengths(double shortest_side) {
 void find_soft_ground(const World& world, int soft, std::vector<Contact>& contacts) {
   const VertexArray& positions = world.soft[at(soft)].positions;
   const Pins* pins = world.soft[at(soft)].pins.get();
-  const auto is_pinned = [&](int v) { return pins && pins->is_pinned[at(v)] != 0; };
   // The implicit integrators keep vertices above the ground: what rests on it is at z = 0 exactly.
   const bool rests_at_zero = is_implicit(world.settings.integrator);
+  const double above = rests_at_zero ? std::numeric_limits<double>::denorm_min() : 0.0;
   for (int v = 0; v < positions.size(); ++v) {
     const double height = positions[v].z();
-    if (!(rests_at_zero ? height <= 0.0 : height < 0.0) || is_pinned(v)) continue;
+    if (!(height < above) || (pins && pins->is_pinned[at(v)] != 0)) continue;
     contacts.push_back({vertex_side(soft, v), {}, positions[v], Vec3::UnitZ(), -height});
   }
 }

@@ -5,6 +5,7 @@
 
 #include "sim/base/text.h"
 #include "sim/mesh/measure.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
 
@@ -30,12 +31,26 @@ std::string fastest_text(const SoftBody& body, int vertex) {
          base::text(Vec3(body.velocities[vertex]).norm()) + " m/s";
 }
 
-std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body) {
-  // A sum is finite only if all its terms are, and far quicker to look at; likewise the squares.
-  const double squares = body.velocities.rows().squaredNorm();
-  if (std::isfinite(body.positions.rows().sum()) && squares <= max_speed * max_speed) {
-    return std::nullopt;
+/// Sums over all vertices, which are finite only if all their terms are, and far quicker to look
+/// at.
+struct MotionSums {
+  double positions = 0.0;  // m, of all coordinates
+  double squares = 0.0;    // (m/s)^2, of all velocities
+};
+
+MotionSums motion_sums(const SoftBody& body) {
+  const VertexReader x(body.positions), v(body.velocities);
+  Vec4d positions{}, squares{};
+  for (int i = 0; i < body.positions.size(); ++i) {
+    positions += x[i];
+    squares = fma(v[i], v[i], squares);
   }
+  return {sum_of_lanes(positions), sum_of_lanes(squares)};
+}
+
+std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body,
+                                           const MotionSums& sums) {
+  if (std::isfinite(sums.positions) && sums.squares <= max_speed * max_speed) return std::nullopt;
   for (int v = 0; v < body.positions.size(); ++v) {
     const std::string name = "vertex " + std::to_string(v);
     if (!Vec3(body.positions[v]).allFinite() || !Vec3(body.velocities[v]).allFinite()) {
@@ -121,19 +136,20 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
 /// S1 > 50 K0. In the latter case sqrt S1 - sqrt S0 > 0.85 sqrt S1, while lengths change by no more
 /// than their ends move: (sqrt S1 - sqrt S0)^2 <= k/2 sum (|dx_a| + |dx_b|)^2 <= k sum d |dx|^2,
 /// where d is the number of springs of a vertex.
-bool may_have_gained_energy(const SoftBody& body, const SoftState& start) {
-  const double kinetic_before = start.velocities.rows().squaredNorm();
-  if (body.velocities.rows().squaredNorm() > 0.5 * max_gain * kinetic_before) return true;
+/// `squares`: of the velocities at the end, (m/s)^2.
+bool may_have_gained_energy(const SoftBody& body, const SoftState& start, double squares) {
   const SoftMesh& mesh = *body.mesh;
+  const VertexReader x(body.positions), x0(start.positions), v0(start.velocities);
+  Vec4d squares_before{}, squared_ways{};
+  for (int i = 0; i < body.positions.size(); ++i) {
+    const Vec4d way = x[i] - x0[i];
+    squares_before = fma(v0[i], v0[i], squares_before);
+    squared_ways = fma(mesh.valence_weights[at(i)] * way, way, squared_ways);
+  }
+  const double kinetic_before = sum_of_lanes(squares_before);
+  if (squares > 0.5 * max_gain * kinetic_before) return true;
   const double mean_springs = 2.0 * mesh.topology.edge_count() / mesh.topology.vertex_count();
-  const Eigen::Map<const Eigen::RowVectorXd> relative_valence(mesh.valence_weights.data(),
-                                                              body.positions.size());
-  const double moved = (body.positions.rows() - start.positions.rows())
-                           .colwise()
-                           .squaredNorm()
-                           .cwiseProduct(relative_valence)
-                           .sum();
-  const double strained = body.material.k * mean_springs * moved;
+  const double strained = body.material.k * mean_springs * sum_of_lanes(squared_ways);
   return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * kinetic_before;
 }
 
@@ -142,10 +158,12 @@ bool may_have_gained_energy(const SoftBody& body, const SoftState& start) {
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
                                           const SoftState& start, double min_volume) {
   constexpr Stage stage = Stage::integrate_soft;
-  if (auto wild = find_wild_vertex(world, stage, body)) return wild;
+  const MotionSums sums = motion_sums(body);
+  if (auto wild = find_wild_vertex(world, stage, body, sums)) return wild;
   if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
   // The implicit integrators check the energy themselves.
-  if (is_implicit(world.settings.integrator) || !may_have_gained_energy(body, start)) {
+  if (is_implicit(world.settings.integrator) ||
+      !may_have_gained_energy(body, start, sums.squares)) {
     return std::nullopt;
   }
   return find_gained_energy(world, body, start);
@@ -153,7 +171,8 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
 
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body) {
   constexpr Stage stage = Stage::resolve_contacts;
-  if (auto wild = find_wild_vertex(world, stage, body)) return wild;
+  const MotionSums sums = motion_sums(body);
+  if (auto wild = find_wild_vertex(world, stage, body, sums)) return wild;
   if (gas_strength(body.material) == 0.0) return std::nullopt;
   const double left = volume(body.mesh->topology, body.positions);
   if (left > 0.0) return std::nullopt;

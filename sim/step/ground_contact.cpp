@@ -24,14 +24,26 @@ void put_onto_ground(World& world, const SoftState& start, const Contact& contac
   positions[v] = position;
 }
 
-void resolve_alone(World& world, const SoftState& start, const Contact& contact) {
-  SoftBody& body = world.soft[at(contact.first.body)];
+namespace {
+
+ContactMaterial with_ground(const World& world, int soft) {
+  return combine(world.soft[at(soft)].material.surface, *world.settings.ground);
+}
+
+void rest_on_ground(World& world, const SoftState& start, const Contact& contact,
+                    const ContactMaterial& pair) {
+  VertexArray& velocities = world.soft[at(contact.first.body)].velocities;
   const int v = contact.first.feature.index;
-  const ContactMaterial pair = combine(body.material.surface, *world.settings.ground);
-  Vec3 velocity = body.velocities[v];
+  Vec3 velocity = velocities[v];
   const bool sticks = meet_ground(-start.velocities[v].z(), pair, velocity);
-  body.velocities[v] = velocity;
+  velocities[v] = velocity;
   put_onto_ground(world, start, contact, sticks);
+}
+
+}  // namespace
+
+void resolve_alone(World& world, const SoftState& start, const Contact& contact) {
+  rest_on_ground(world, start, contact, with_ground(world, contact.first.body));
 }
 
 void keep_volume(SoftBody& body, const VertexArray& before) {
@@ -51,6 +63,8 @@ std::optional<Bounce> bounce_of(const World& world, const SoftState& start, cons
                                 const ContactMaterial& pair) {
   const SoftBody& body = world.soft[at(contact.first.body)];
   const int v = contact.first.feature.index;
+  const double fastest = -std::min(start.velocities[v].z(), body.velocities[v].z());
+  if (pair.restitution * fastest < min_bounce_speed) return std::nullopt;
   Vec3 velocity = body.velocities[v];
   const GroundImpact impact = ground_impact(start.positions[v].z(), start.velocities[v].z(),
                                             body.positions[v].z(), velocity.z());
@@ -62,12 +76,12 @@ std::optional<Bounce> bounce_of(const World& world, const SoftState& start, cons
 void bounce_or_rest(World& world, int soft, const SoftState& start,
                     std::span<const Contact> contacts) {
   SoftBody& body = world.soft[at(soft)];
-  const ContactMaterial pair = combine(body.material.surface, *world.settings.ground);
+  const ContactMaterial pair = with_ground(world, soft);
   const bool any = std::ranges::any_of(contacts, [&](const Contact& contact) {
     return bounce_of(world, start, contact, pair).has_value();
   });
   if (!any) {
-    for (const Contact& contact : contacts) resolve_alone(world, start, contact);
+    for (const Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
     return;
   }
   const Vec3& gravity = world.settings.gravity;
@@ -75,7 +89,7 @@ void bounce_or_rest(World& world, int soft, const SoftState& start,
   for (const Contact& contact : contacts) {
     const auto bounced = bounce_of(world, start, contact, pair);
     if (!bounced) {
-      resolve_alone(world, start, contact);
+      rest_on_ground(world, start, contact, pair);
       continue;
     }
     body.velocities[contact.first.feature.index] = bounced->velocity;
@@ -92,7 +106,8 @@ void resolve_on_ground(World& world, int soft, const SoftState& start,
   if (!is_implicit(world.settings.integrator)) return bounce_or_rest(world, soft, start, contacts);
   SoftBody& body = world.soft[at(soft)];
   before = body.positions;
-  for (const Contact& contact : contacts) resolve_alone(world, start, contact);
+  const ContactMaterial pair = with_ground(world, soft);
+  for (const Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
   keep_volume(body, before);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "sim/collision/bounding_sphere.h"
 #include "sim/mesh/primitives.h"
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
@@ -120,15 +121,14 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
   }
 }
 
-BoundingSphere SweptBodies::sphere_about_way(const World& world, const MotionStart& start,
-                                             int soft) const {
+Bounds SweptBodies::bounds_of_way(const World& world, const MotionStart& start, int soft) const {
   const VertexArray& from = start.soft[at(soft)].positions;
   const VertexArray& to = world.soft[at(soft)].positions;
   Bounds way = bounds(from);
   way.include(bounds(to));
   const double margin =
       allowed_of_way * greatest_distance(from, to) + (1.0 + skins_around) * skin(soft);
-  return {way.centre(), 0.5 * (way.high - way.low + Vec3::Constant(2.0 * margin)).norm()};
+  return {way.low - Vec3::Constant(margin), way.high + Vec3::Constant(margin)};
 }
 
 void SweptBodies::follow(const World& world, const MotionStart& start, int soft) {
@@ -140,21 +140,19 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
 
 /// In another search of the step only of what has left its allowance, so that what happens to one
 /// body does not change how others are searched.
-BoundingSphere SweptBodies::refit_way(int body) {
+Bounds SweptBodies::refit_way(int body) {
   if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) refit_anew(body);
-  return sphere_about_root(body);
+  return root_bounds(body);
 }
 
-BoundingSphere SweptBodies::sphere_of_still(const World& world, const MotionStart& start,
-                                            int soft) {
+Bounds SweptBodies::bounds_of_still(const World& world, const MotionStart& start, int soft) {
   if (surface(soft).start.size() == 0) follow(world, start, soft);
-  return sphere_about_root(soft);
+  return root_bounds(soft);
 }
 
-BoundingSphere SweptBodies::sphere_about_root(int body) const {
+Bounds SweptBodies::root_bounds(int body) const {
   const WayBox& around = surface(body).nodes.front();
-  return {to_vec3(0.5 * (around.low + around.high)),
-          0.5 * to_vec3(around.high - around.low).norm()};
+  return {to_vec3(around.low), to_vec3(around.high)};
 }
 
 void SweptBodies::refit_anew(int body) {
@@ -168,16 +166,21 @@ void SweptBodies::refit_anew(int body) {
 
 void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
                                    std::vector<BodyPair>& pairs) {
+  ways_.clear();
   spheres_.clear();
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
-      spheres_.push_back(sphere_of_still(world, start, i));
+      ways_.push_back(bounds_of_still(world, start, i));
     } else {
-      spheres_.push_back(is_followed_[at(i)] != 0 ? refit_way(i)
-                                                  : sphere_about_way(world, start, i));
+      ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : bounds_of_way(world, start, i));
     }
+    spheres_.push_back({ways_.back().centre(), 0.5 * ways_.back().size().norm()});
   }
   sweep_and_prune_.find(spheres_, pairs);
+  // Boxes are looked at as boxes, over a distance of their own.
+  std::erase_if(pairs, [&](const BodyPair& pair) {
+    return !is_rigid(pair.first) && !overlap(ways_[at(pair.first)], ways_[at(pair.second)]);
+  });
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
       if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);

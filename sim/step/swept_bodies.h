@@ -97,11 +97,11 @@ class SweptBodies {
 
  private:
   /// What refit_way would give, of a body that is not followed.
-  BoundingSphere sphere_about_way(const World& world, const MotionStart& start, int soft) const;
-  BoundingSphere refit_way(int body);
+  Bounds bounds_of_way(const World& world, const MotionStart& start, int soft) const;
+  Bounds refit_way(int body);
   void refit_anew(int body);
-  BoundingSphere sphere_about_root(int body) const;
-  BoundingSphere sphere_of_still(const World& world, const MotionStart& start, int soft);
+  Bounds root_bounds(int body) const;
+  Bounds bounds_of_still(const World& world, const MotionStart& start, int soft);
   SweptSide pinned_side(const SoftBody& body, const SurfacePoint& point);
   bool is_within_allowance(int body) const;
   void follow(const World& world, const MotionStart& start, int soft);
@@ -132,7 +132,8 @@ class SweptBodies {
   std::vector<BoxChange> shifts_;          // of the boxes, or empty
   std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
   std::vector<SoftState> kicked_;          // per soft body
-  std::vector<BoundingSphere> spheres_;
+  std::vector<Bounds> ways_;               // per body, with what it keeps around it
+  std::vector<BoundingSphere> spheres_;    // about these
   SweepAndPrune sweep_and_prune_;
 };
 
