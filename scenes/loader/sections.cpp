@@ -60,6 +60,7 @@ std::string with_contact(std::string_view what, const sim::Settings& settings) {
 Section simulation_section(Scene& scene) {
   sim::Settings& settings = scene.settings;
   const Applicability impulses = contacts_by_impulses(settings);
+  const Applicability swept{"contact = \"swept\"", !impulses.applies, false, &settings.contact};
   return {
       .table = "simulation",
       .what = with_contact("a simulation", settings),
@@ -93,6 +94,9 @@ Section simulation_section(Scene& scene) {
                                     between(1, 10'000), "",
                                     "over an island of contacts; at most 3 if none of them is "
                                     "a box's with another or the ground"})),
+          only(swept, of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
+                                 "bodies that touch, none faster for half a second, leave the step "
+                                 "until something touches them; 0: never"})),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

@@ -8,7 +8,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x33414d55454e50ULL;  // "PNEUMA3" as little-endian bytes
+constexpr std::uint64_t magic = 0x34414d55454e50ULL;  // "PNEUMA4" as little-endian bytes
 
 /// Appends plain values; the format is this machine's own byte order.
 class Writer {
@@ -113,6 +113,18 @@ void get(Reader& reader, const World& world, ParticlePair& pair) {
   pair.near = near != 0;
 }
 
+void get_rest(Reader& reader, World& world) {
+  const std::size_t bodies = world.soft.size() + world.rigid.size();
+  world.rest.assign(reader.count(), {});
+  if (!world.rest.empty() && world.rest.size() != bodies) {
+    throw CheckpointError("the saved state has other bodies at rest than there are");
+  }
+  for (BodyRest& rest : world.rest) {
+    reader.get(rest.quiet_steps);
+    reader.get(rest.group);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> save_state(const World& world) {
@@ -152,6 +164,11 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(pair.first);
     writer.put(pair.second);
   }
+  writer.put(world.rest.size());
+  for (const BodyRest& rest : world.rest) {
+    writer.put(rest.quiet_steps);
+    writer.put(rest.group);
+  }
   writer.put(state_hash(world));
   return writer.take();
 }
@@ -185,6 +202,7 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   }
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
+  get_rest(reader, loaded);
   reader.expect(state_hash(loaded), "checksum");
   reader.end();
   world = std::move(loaded);

@@ -16,15 +16,6 @@ void add_list(base::Hash& hash, const std::vector<int>& values) {
   for (const int value : values) hash.add(value);
 }
 
-Energy energy(const RigidBox& box, const Vec3& gravity) {
-  Energy result;
-  if (box.is_kinematic) return result;  // of no finite mass
-  result.kinetic =
-      0.5 * box.mass * box.velocity.squaredNorm() + 0.5 * box.angular_velocity.dot(spin(box));
-  result.gravity = -box.mass * gravity.dot(box.position);
-  return result;
-}
-
 Energy& operator+=(Energy& sum, const Energy& term) {
   sum.kinetic += term.kinetic;
   sum.spring += term.spring;
@@ -44,6 +35,15 @@ Energy energy(const SoftBody& body, const Vec3& gravity) {
   result.gas = gas_energy(material, volume(body.mesh->topology, body.positions));
   result.gravity =
       -material.vertex_mass * body.positions.size() * gravity.dot(mean(body.positions));
+  return result;
+}
+
+Energy energy(const RigidBox& box, const Vec3& gravity) {
+  Energy result;
+  if (box.is_kinematic) return result;  // of no finite mass
+  result.kinetic =
+      0.5 * box.mass * box.velocity.squaredNorm() + 0.5 * box.angular_velocity.dot(spin(box));
+  result.gravity = -box.mass * gravity.dot(box.position);
   return result;
 }
 
@@ -117,6 +117,9 @@ std::uint64_t state_hash(const World& world) {
   }
   for (const DepenetratingPair& pair : world.depenetrating)
     add_list(hash, {pair.first, pair.second});
+  for (std::size_t i = 0; i < world.rest.size(); ++i) {
+    if (world.rest[i].group >= 0) add_list(hash, {static_cast<int>(i), world.rest[i].group});
+  }
   return hash.value();
 }
 

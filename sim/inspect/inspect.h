@@ -28,6 +28,7 @@ struct Momentum {
 
 Energy energy(const World& world);
 Energy energy(const SoftBody& body, const Vec3& gravity);
+Energy energy(const RigidBox& box, const Vec3& gravity);
 Momentum momentum(const World& world);
 Momentum momentum(const SoftBody& body);
 

@@ -8,6 +8,7 @@
 #include "sim/mesh/vec4d.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -198,7 +199,7 @@ std::optional<Divergence> find_first_divergence(const World& world,
   outcomes.resize(world.soft.size());
   workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
-      if (is_kinematic(world, i)) continue;
+      if (is_fixed(world, i)) continue;
       outcomes[at(i)] = find_divergence(world, world.soft[at(i)]);
     }
   });

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/collision/contact.h"
-#include "sim/step/motion_start.h"
+#include "sim/response/motion_start.h"
 
 namespace pneuma::sim {
 

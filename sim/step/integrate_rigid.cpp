@@ -1,5 +1,6 @@
 #include "sim/rigid/rigid_motion.h"
 #include "sim/step/stages.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -20,8 +21,10 @@ std::optional<Divergence> integrate(const World& world, RigidBox& box) {
 
 std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start) {
   keep_rigid(world, start);
-  for (RigidBox& box : world.rigid) {
-    if (auto divergence = integrate(world, box)) return divergence;
+  const int soft = static_cast<int>(world.soft.size());
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    if (is_asleep(world, soft + static_cast<int>(i))) continue;
+    if (auto divergence = integrate(world, world.rigid[i])) return divergence;
   }
   return std::nullopt;
 }

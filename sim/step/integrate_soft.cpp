@@ -4,6 +4,7 @@
 #include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/stages.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -62,7 +63,8 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
     for (int i = begin; i < end; ++i) {
       const int mesh = memory.mesh_of_body[at(i)];
       hand_over(world.soft[at(i)], start[at(i)],
-                is_implicit(world.settings.integrator) || is_kinematic(world, i));
+                is_implicit(world.settings.integrator) || is_fixed(world, i));
+      if (is_asleep(world, i)) continue;
       memory.outcomes[at(i)] =
           integrate(world, world.soft[at(i)], start[at(i)], memory.scratch[at(thread)][at(mesh)]);
     }

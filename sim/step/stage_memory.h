@@ -15,8 +15,8 @@
 #include "sim/response/contact_impulse.h"
 #include "sim/response/contact_islands.h"
 #include "sim/response/depenetrate_pairs.h"
+#include "sim/response/motion_start.h"
 #include "sim/soft/integrators.h"
-#include "sim/step/motion_start.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::sim {

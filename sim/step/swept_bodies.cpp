@@ -11,6 +11,7 @@
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stages.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -53,7 +54,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
     const bool is_obstacle = body.pins && body.pins->are_all;
     changes_.emplace_back(is_obstacle ? 0 : body.positions.size());
-    is_still_.push_back(is_still(body) ? 1 : 0);
+    is_obstacle_.push_back(is_still(body) ? 1 : 0);
     has_pins_ = has_pins_ || body.pins;
   }
   for (const RigidBox& box : world.rigid) {
@@ -67,7 +68,9 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     surface.start = surface.end = VertexArray(corners_.back().size());
     skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
   }
+  is_obstacle_.resize(surfaces_.size());
   is_still_.resize(surfaces_.size());
+  is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
   kicked_.resize(world.soft.size());
@@ -87,9 +90,19 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
   is_searched_.assign(surfaces_.size(), 0);
   std::fill_n(is_followed_.begin(), soft_count_, std::uint8_t{0});
   std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
+  find_what_is_still(world);
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    if (is_still_[at(soft_count_ + i)] != 0) continue;
     const RigidStart& box = start.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
+  }
+}
+
+void SweptBodies::find_what_is_still(const World& world) {
+  for (int i = 0; i < count(); ++i) {
+    const bool is_still = is_obstacle_[at(i)] != 0 || is_asleep(world, i);
+    is_still_[at(i)] = is_still ? 1 : 0;
+    if (!is_still) is_fitted_[at(i)] = 0;
   }
 }
 
@@ -98,6 +111,7 @@ void SweptBodies::set_end(const World& world) {
     if (is_followed_[i] != 0 && is_still_[i] == 0) surfaces_[i].end = world.soft[i].positions;
   }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    if (is_still_[at(soft_count_ + i)] != 0) continue;
     const RigidBox& box = world.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].end);
   }
@@ -116,6 +130,10 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
   for (VertexArray& changes : changes_) changes.rows().setZero();
   box_changes_.clear();
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    if (is_asleep(world, soft_count_ + static_cast<int>(i))) {
+      box_changes_.emplace_back();
+      continue;
+    }
     const RigidStart box = motion(i);
     box_changes_.push_back(make_box_change(world.rigid[i], box.position, box.orientation));
   }
@@ -145,9 +163,22 @@ Bounds SweptBodies::refit_way(int body) {
   return root_bounds(body);
 }
 
-Bounds SweptBodies::bounds_of_still(const World& world, const MotionStart& start, int soft) {
-  if (surface(soft).start.size() == 0) follow(world, start, soft);
-  return root_bounds(soft);
+Bounds SweptBodies::bounds_of_still(const World& world, int body) {
+  if (is_fitted_[at(body)] == 0) fit_still(world, body);
+  return root_bounds(body);
+}
+
+void SweptBodies::fit_still(const World& world, int body) {
+  MovingSurface& surface = surfaces_[at(body)];
+  if (is_rigid(body)) {
+    const RigidBox& still = world.rigid[at(box(body))];
+    place_corners(box(body), still.position, still.orientation, surface.start);
+  } else {
+    surface.start = world.soft[at(body)].positions;
+  }
+  surface.end = surface.start;
+  is_fitted_[at(body)] = 1;
+  refit_anew(body);
 }
 
 Bounds SweptBodies::root_bounds(int body) const {
@@ -170,7 +201,7 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   spheres_.clear();
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
-      ways_.push_back(bounds_of_still(world, start, i));
+      ways_.push_back(bounds_of_still(world, i));
     } else {
       ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : bounds_of_way(world, start, i));
     }
@@ -218,7 +249,7 @@ Vec3 SweptBodies::start_point(const SurfacePoint& point) const {
 }
 
 SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
-  if (point.body == swept_ground || is_kinematic(world, point.body)) return {};
+  if (point.body == swept_ground || is_fixed(world, point.body)) return {};
   if (is_rigid(point.body)) return {box_changes_[at(box(point.body))], point.point};
   const SoftBody& soft = world.soft[at(point.body)];
   if (soft.pins) return pinned_side(soft, point);
@@ -315,7 +346,7 @@ void SweptBodies::shift_boxes(World& world) const {
 std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
                                                   IntegrateSoftMemory& integrate_soft) {
   for (int i = 0; i < soft_count_; ++i) {
-    if (is_kinematic(world, i)) continue;
+    if (is_fixed(world, i)) continue;
     if (moved_again_[at(i)] == 0 && changes_[at(i)].rows().isZero(0.0)) continue;
     moved_again_[at(i)] = 1;
     SoftState& kicked = kicked_[at(i)];
@@ -324,6 +355,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
     if (auto failed = integrate_soft_again(world, i, kicked, integrate_soft, 0)) return failed;
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    if (is_asleep(world, soft_count_ + static_cast<int>(i))) continue;
     RigidStart kicked = start.rigid[i];
     kicked.velocity += to_vec3(box_changes_[i].velocity);
     kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);

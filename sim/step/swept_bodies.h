@@ -101,7 +101,9 @@ class SweptBodies {
   Bounds refit_way(int body);
   void refit_anew(int body);
   Bounds root_bounds(int body) const;
-  Bounds bounds_of_still(const World& world, const MotionStart& start, int soft);
+  void find_what_is_still(const World& world);
+  Bounds bounds_of_still(const World& world, int body);
+  void fit_still(const World& world, int body);
   SweptSide pinned_side(const SoftBody& body, const SurfacePoint& point);
   bool is_within_allowance(int body) const;
   void follow(const World& world, const MotionStart& start, int soft);
@@ -118,7 +120,9 @@ class SweptBodies {
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
   std::vector<std::uint8_t> is_lone_;      // per body
-  std::vector<std::uint8_t> is_still_;     // per body: an obstacle that is fitted once for all
+  std::vector<std::uint8_t> is_obstacle_;  // per body: it never moves
+  std::vector<std::uint8_t> is_still_;     // per body: an obstacle, or asleep
+  std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
   std::vector<std::uint8_t> is_searched_;  // per body: whether a search of this step was for it

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/soft/pins.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -39,14 +40,25 @@ void SweptSearch::find_candidates() {
   m_.candidates.clear();
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
-    if (is_kinematic(world_, pair.first) && is_kinematic(world_, pair.second)) {
-      continue;
-    }
+    if (!may_touch(pair)) continue;
     const std::size_t before = m_.candidates.size();
     if (!offer_near_boxes(pair)) offer_near_features(pair);
-    if (m_.candidates.size() > before) bodies_.may_meet(pair);
+    if (m_.candidates.size() == before) continue;
+    bodies_.may_meet(pair);
+    if (is_asleep(world_, pair.first)) m_.touched_asleep.push_back(pair.first);
+    if (is_asleep(world_, pair.second)) m_.touched_asleep.push_back(pair.second);
   }
   if (world_.settings.ground) find_near_ground();
+}
+
+/// Of two bodies that no impulse moves one must sleep and the other come near it.
+bool SweptSearch::may_touch(const BodyPair& bodies) const {
+  const auto [first, second] = bodies;
+  if (!is_fixed(world_, first) || !is_fixed(world_, second)) return true;
+  const auto comes_near = [&](int body, int other) {
+    return is_kinematic(world_, body) && moves(world_, body) && is_asleep(world_, other);
+  };
+  return comes_near(first, second) || comes_near(second, first);
 }
 
 void SweptSearch::offer_near_features(const BodyPair& bodies) {
@@ -57,7 +69,7 @@ void SweptSearch::offer_near_features(const BodyPair& bodies) {
 
 void SweptSearch::find_near_ground() {
   for (int i = 0; i < bodies_.count(); ++i) {
-    if (bodies_.is_lone(i) || is_kinematic(world_, i)) continue;
+    if (bodies_.is_lone(i) || is_fixed(world_, i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
     const SoftBody* body = bodies_.is_rigid(i) ? nullptr : &world_.soft[at(i)];

@@ -9,6 +9,7 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
+#include "sim/response/fall_asleep.h"
 #include "sim/step/swept_solver.h"
 
 namespace pneuma::sim {
@@ -45,13 +46,15 @@ struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
         solver(bodies.count(), static_cast<int>(world.soft.size())),
-        starts(max_halvings + 1) {}
+        starts(max_halvings + 1),
+        fall_asleep(world) {}
 
   SweptBodies bodies;
   SweptSolver solver;
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
+  std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
   std::vector<NearFeatures> found;  // of two bodies
   std::vector<SweptContact> contacts;
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
@@ -65,9 +68,12 @@ struct SweptMemory {
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
   ReturnedEnergyMemory returned_energy;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
-  VertexArray before_ground;            // of a soft body that meets nothing else
-  double work = 0.0;                    // J, of all contacts of the last step
-  double driven_work = 0.0;             // J, of the bodies that are moved
+  FallAsleep fall_asleep;
+  std::vector<BodyPair> islands;  // pairs of bodies with candidates
+  std::vector<BodyRest> rest;     // as the step found it
+  VertexArray before_ground;      // of a soft body that meets nothing else
+  double work = 0.0;              // J, of all contacts of the last step
+  double driven_work = 0.0;       // J, of the bodies that are moved
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.
@@ -118,6 +124,7 @@ class SweptSearch {
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
   void find_near_ground();
+  bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;

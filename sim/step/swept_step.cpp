@@ -56,6 +56,7 @@ class SweptStep {
       return std::nullopt;
     }
     start.motion = w_.motion_start;  // which half steps change
+    was_halved_ = true;
     take_all_back();
     if (failure->stage != Stage::resolve_contacts || halvings == max_halvings) return failure;
     world_.settings.steps_per_second *= 2;
@@ -64,6 +65,11 @@ class SweptStep {
     world_.settings.steps_per_second /= 2;
     if (half) take_all_back();
     return half;
+  }
+
+  /// Of the whole step, once it is done.
+  const MotionStart& whole_start() const {
+    return was_halved_ ? m_.starts[0].motion : w_.motion_start;
   }
 
  private:
@@ -83,6 +89,7 @@ class SweptStep {
       if (shift_near_boxes(world_, m_, search_, fraction_)) search_.follow_ends();
       search_.start();
     });
+    if (!m_.touched_asleep.empty()) return touched_asleep();
     std::size_t first_new = 0;  // contact that was not yet solved for
     for (int round = 0; round < max_rounds; ++round) {
       bool collides = false;
@@ -100,6 +107,7 @@ class SweptStep {
       }
       first_new = m_.contacts.size();
       run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
+      if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
         std::optional<Divergence> divergence;
@@ -109,6 +117,9 @@ class SweptStep {
     }
     return blocked();
   }
+
+  /// What sleeps must wake before the step can be done.
+  Divergence touched_asleep() const { return {Stage::find_contacts, world_.steps + 1, {}, {}}; }
 
   std::optional<Divergence> move_freely() {
     std::optional<Divergence> of_soft, of_rigid;
@@ -271,8 +282,12 @@ class SweptStep {
     }
   }
 
+  /// Those of boxes that sleep are kept.
   void remember() {
-    world_.warm_start_impulses.clear();
+    std::erase_if(world_.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
+      return !is_asleep(world_, bodies_.of_box(impulse.first)) &&
+             !(impulse.second >= 0 && is_asleep(world_, bodies_.of_box(impulse.second)));
+    });
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
       const SweptImpulse& impulse = m_.impulses[i];
@@ -309,7 +324,7 @@ class SweptStep {
   /// Those that nothing else can touch.
   void meet_ground() {
     for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
-      if (!bodies_.is_lone(i) || is_kinematic(world_, i)) continue;
+      if (!bodies_.is_lone(i) || is_fixed(world_, i)) continue;
       const double before = energy_if_measured(i);
       meet_ground_alone(world_, i, start().soft[at(i)], w_.contacts, m_.before_ground);
       m_.work += energy_if_measured(i) - before;
@@ -344,14 +359,50 @@ class SweptStep {
   SweptSearch search_;
   StageRunner run_;
   double fraction_ = 1.0;  // of a whole step
+  bool was_halved_ = false;
 };
+
+/// Returns whether there were any.
+bool wake_what_was_touched(World& world, SweptMemory& memory) {
+  for (const int body : memory.touched_asleep) wake(world, body);
+  return !memory.touched_asleep.empty();
+}
+
+void put_to_sleep(World& world, const MotionStart& start, StepWorkspace& workspace) {
+  SweptMemory& m = *workspace.swept;
+  if (!m.fall_asleep.count_quiet_steps(world, start)) return;
+  m.islands.clear();
+  for (const SweptCandidate& candidate : m.candidates) {
+    if (m.islands.empty() || m.islands.back() != candidate.bodies) {
+      m.islands.push_back(candidate.bodies);
+    }
+  }
+  m.work -= m.fall_asleep.put_to_sleep(world, m.islands, workspace.contacts);
+}
 
 }  // namespace
 
 std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
-  workspace.swept->work = workspace.swept->driven_work = 0.0;
+  SweptMemory& m = *workspace.swept;
+  m.work = m.driven_work = 0.0;
   workspace.contacts.clear();
-  return SweptStep(world, workspace).advance(0);
+  // Of a world whose bodies were others, nothing is known.
+  if (world.rest.size() != at(m.bodies.count())) world.rest.clear();
+  m.rest = world.rest;
+  wake_moving(world);
+  if (is_at_rest(world)) return std::nullopt;
+  while (true) {
+    m.touched_asleep.clear();
+    SweptStep step(world, workspace);
+    const auto divergence = step.advance(0);
+    if (wake_what_was_touched(world, m)) continue;
+    if (divergence) {
+      world.rest = m.rest;
+    } else {
+      put_to_sleep(world, step.whole_start(), workspace);
+    }
+    return divergence;
+  }
 }
 
 }  // namespace pneuma::sim

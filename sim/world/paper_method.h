@@ -17,6 +17,7 @@ inline void use_paper_method(Settings& settings) {
       .per_vertex = 1.0 / 8.0, .attraction = 2.0, .max_sweeps = 10, .settled_below = 4};
   settings.relaxation_time = 0.0;
   settings.contact_iterations = 1;
+  settings.sleep_speed = 0.0;
 }
 
 /// The paper's gas, pressure weights and damping (3.1.2, 3.1.3).

@@ -38,6 +38,13 @@ struct DepenetratingPair {
   int second = 0;
 };
 
+/// How long a body has been slower than Settings::sleep_speed. State, because bodies at rest leave
+/// the step together, and wake together (sim/world/sleep.h).
+struct BodyRest {
+  int quiet_steps = 0;
+  int group = -1;  // of bodies that sleep: the first of those that fell asleep with it; -1: awake
+};
+
 struct World {
   Settings settings;
   std::vector<SoftBody> soft;
@@ -46,7 +53,8 @@ struct World {
   std::vector<WarmStartImpulse>
       warm_start_impulses;  // of the last step, those of each pair one after the other
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
-  std::int64_t steps = 0;                        // done so far; time is steps / steps_per_second
+  std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
+  std::int64_t steps = 0;      // done so far; time is steps / steps_per_second
 };
 
 /// Whether nothing changes how a body moves; soft bodies come first, then boxes. How such bodies

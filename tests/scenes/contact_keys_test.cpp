@@ -80,11 +80,23 @@ TEST(ContactKeys, BesideThePapersMethodItIsWhatRefusesThem) {
   }
 }
 
+TEST(ContactKeys, OfSweptContactsAreRefusedBesideImpulses) {
+  const std::string setting = "simulation.sleep_speed=0.02";
+  EXPECT_EQ(parse_scene(scene_with(setting, "swept"), "x.toml").settings.sleep_speed, 0.02);
+  const std::string message = refusal(scene_with(setting, "impulses"));
+  EXPECT_TRUE(message.starts_with("x.toml:2:")) << message;
+  EXPECT_NE(message.find(" applies to contact = \"swept\" only"), std::string::npos) << message;
+  EXPECT_NE(refusal("[[body]]\n", {"simulation.sleep_speed=-1"}), "");
+}
+
 TEST(ContactKeys, AreNotPrintedWhereTheyDoNotApply) {
-  const std::string text = print_scene(parse_scene(scene_with("", "swept"), "x.toml"));
+  const std::string swept = print_scene(parse_scene(scene_with("", "swept"), "x.toml"));
   for (const char* key : {"soft_search", "relaxation_time", "contact_iterations"}) {
-    EXPECT_EQ(text.find(key), std::string::npos) << key;
+    EXPECT_EQ(swept.find(key), std::string::npos) << key;
   }
+  const std::string impulses = print_scene(parse_scene(scene_with("", "impulses"), "x.toml"));
+  EXPECT_NE(swept.find("sleep_speed"), std::string::npos);
+  EXPECT_EQ(impulses.find("sleep_speed"), std::string::npos);
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ void expect_the_papers(const Scene& scene) {
   EXPECT_EQ(scene.settings.particles.per_vertex, 0.125);
   EXPECT_EQ(scene.settings.relaxation_time, 0.0);
   EXPECT_EQ(scene.settings.contact_iterations, 1);
+  EXPECT_EQ(scene.settings.sleep_speed, 0.0);
   EXPECT_EQ(scene.bodies[0].material.pressure_weighting, sim::PressureWeighting::valence);
   EXPECT_EQ(scene.bodies[0].material.damping, sim::Damping::literal);
 }
@@ -119,7 +120,7 @@ TEST(Method, SetsNoKeyThatItDoesNotRefuse) {
       EXPECT_TRUE(key.of_method || key.name == "method") << key.name;
     }
   }
-  EXPECT_EQ(changed, 6);  // method, integrator, relaxation, iterations, weighting, damping
+  EXPECT_EQ(changed, 7);  // method, integrator, relaxation, iterations, sleep, weighting, damping
 }
 
 }  // namespace

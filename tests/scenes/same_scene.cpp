@@ -119,7 +119,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   const auto& [method, steps_per_second, integrator, gravity, ground, contact, skin_thickness,
-               soft_search, particles, relaxation_time, contact_iterations, seed] = a;
+               soft_search, particles, relaxation_time, contact_iterations, sleep_speed, seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below, shown] = particles;
   c.member("particles.shown", shown, b.particles.shown);
   c.member("method", method, b.method);
@@ -137,6 +137,7 @@ void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   c.member("settled_below", settled_below, b.particles.settled_below);
   c.member("relaxation_time", relaxation_time, b.relaxation_time);
   c.member("contact_iterations", contact_iterations, b.contact_iterations);
+  c.member("sleep_speed", sleep_speed, b.sleep_speed);
   c.member("seed", seed, b.seed);
 }
 

@@ -77,6 +77,7 @@ bool touches(sim::World world, double seconds) {
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) {
   Flight flight;
   flight.world = build_world(scene);
+  flight.world.settings.sleep_speed = 0.0;  // no part of the equation
   if (options.body.empty() && !options.free_flight) refuse_start_overlap(scene, flight.world);
   const double longest = std::min(options.seconds, scene.duration);
   flight.seconds =

@@ -108,6 +108,7 @@ btRigidBody& BulletWorld::Parts::add_rigid(std::unique_ptr<btCollisionShape> sha
                                                       shape.get(), inertia);
   rigid.push_back(std::make_unique<btRigidBody>(info));
   rigid.back()->setFriction(friction(surface));
+  rigid.back()->setActivationState(DISABLE_DEACTIVATION);
   shapes.push_back(std::move(shape));
   world.addRigidBody(rigid.back().get());
   return *rigid.back();

@@ -25,7 +25,8 @@ constexpr double lost = std::numeric_limits<double>::infinity();
 sim::World sphere(int subdivisions, int steps_per_second) {
   const double vertices = 10.0 * std::pow(4.0, subdivisions) + 2.0;
   const std::string text = fmt::format(
-      "[simulation]\nsteps_per_second = {}\n[[body]]\nshape = \"icosphere\"\nsubdivisions = {}\n"
+      "[simulation]\nsteps_per_second = {}\nsleep_speed = 0\n[[body]]\nshape = "
+      "\"icosphere\"\nsubdivisions = {}\n"
       "position = [0, 0, 3.1]\nn = 0.5\nk = 50.0\nvertex_mass = {}\n",
       steps_per_second, subdivisions, 20.0 / vertices);
   return app::build_world(scenes::parse_scene(text, "icosphere.toml"));

@@ -17,6 +17,7 @@ namespace {
 World make_tower(const std::vector<double>& masses) {
   World world;
   world.settings.contact = ContactMethod::swept;
+  world.settings.sleep_speed = 0.0;  // they must stand by themselves
   for (const double mass : masses) {
     const double height = 1.0 + 2.0 * static_cast<double>(world.rigid.size());
     world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, height}, mass));

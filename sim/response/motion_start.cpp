@@ -1,4 +1,4 @@
-#include "sim/step/motion_start.h"
+#include "sim/response/motion_start.h"
 
 #include "sim/soft/pins.h"
 

@@ -1,4 +1,4 @@
-// The motion of all bodies as a step found it. Private to sim/step.
+// The motion of all bodies as a step found it. Not for users of the library.
 #pragma once
 
 #include <vector>

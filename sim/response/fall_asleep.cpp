@@ -1,0 +1,159 @@
+#include "sim/response/fall_asleep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// s, for which nothing may be faster: a body that comes to a halt and turns round does not sleep.
+constexpr double quiet_time = 0.5;
+
+int quiet_steps(const Settings& settings) {
+  return static_cast<int>(std::ceil(quiet_time * settings.steps_per_second));
+}
+
+int soft_count(const World& world) { return static_cast<int>(world.soft.size()); }
+
+int body_count(const World& world) {
+  return soft_count(world) + static_cast<int>(world.rigid.size());
+}
+
+/// Handles may move whenever their keys say so.
+bool may_sleep(const World& world, int body) {
+  if (is_kinematic(world, body)) return false;
+  if (body >= soft_count(world)) return true;
+  const SoftBody& soft = world.soft[at(body)];
+  return !soft.pins || !soft.pins->are_moved;
+}
+
+/// Whether no point of the body has moved further, m. Velocities would not tell: those of a vertex
+/// that is pressed hold, at the end of a step, what its forces did since the impulses of its start.
+bool has_moved_less(const World& world, const MotionStart& start, int body, double than) {
+  if (body < soft_count(world)) {
+    const VertexArray& before = start.soft[at(body)].positions;
+    const VertexArray& now = world.soft[at(body)].positions;
+    for (int v = 0; v < now.size(); ++v) {
+      if ((now[v] - before[v]).squaredNorm() > than * than) return false;
+    }
+    return true;
+  }
+  const RigidBox& box = world.rigid[at(body - soft_count(world))];
+  const RigidStart& before = start.rigid[at(body - soft_count(world))];
+  const double angle = box.orientation.angularDistance(before.orientation);
+  return (box.position - before.position).norm() + angle * 0.5 * box.size.norm() <= than;
+}
+
+/// Returns its energy of motion, J.
+double halt(World& world, int body) {
+  const Vec3& gravity = world.settings.gravity;
+  if (body < soft_count(world)) {
+    SoftBody& soft = world.soft[at(body)];
+    const double before = energy(soft, gravity).kinetic;
+    soft.velocities.rows().setZero();
+    return before;
+  }
+  RigidBox& box = world.rigid[at(body - soft_count(world))];
+  const double before = energy(box, gravity).kinetic;
+  box.velocity.setZero();
+  box.angular_velocity.setZero();
+  return before;
+}
+
+}  // namespace
+
+FallAsleep::FallAsleep(const World& world)
+    : parents_(at(body_count(world))),
+      is_touched_(parents_.size()),
+      stays_awake_(parents_.size()) {}
+
+int FallAsleep::root(int body) {
+  while (parents_[at(body)] != body) {
+    parents_[at(body)] = parents_[at(parents_[at(body)])];
+    body = parents_[at(body)];
+  }
+  return body;
+}
+
+bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
+  if (world.settings.sleep_speed == 0.0) return false;
+  world.rest.resize(parents_.size());
+  const int enough = quiet_steps(world.settings);
+  const double least = world.settings.sleep_speed * time_step(world.settings);
+  bool any = false;
+  for (int i = 0; i < body_count(world); ++i) {
+    BodyRest& rest = world.rest[at(i)];
+    if (rest.group >= 0 || !may_sleep(world, i)) continue;
+    const bool is_quiet = has_moved_less(world, start, i, least);
+    rest.quiet_steps = is_quiet ? std::min(rest.quiet_steps + 1, enough) : 0;
+    any = any || rest.quiet_steps == enough;
+  }
+  return any;
+}
+
+/// Nothing reaches through what stands still or is moved.
+void FallAsleep::find_islands(const World& world, std::span<const BodyPair> pairs) {
+  std::iota(parents_.begin(), parents_.end(), 0);
+  for (const BodyPair& pair : pairs) {
+    if (pair.second < 0 || is_kinematic(world, pair.first) || is_kinematic(world, pair.second)) {
+      continue;
+    }
+    const int one = root(pair.first), other = root(pair.second);
+    parents_[at(std::max(one, other))] = std::min(one, other);
+  }
+}
+
+void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contact> contacts) {
+  std::ranges::fill(is_touched_, std::uint8_t{0});
+  std::ranges::fill(stays_awake_, std::uint8_t{0});
+  const auto touch = [&](const ContactSide& side) {
+    if (side.kind == SideKind::ground) return;
+    const int body = side.kind == SideKind::soft ? side.body : soft_count(world) + side.body;
+    is_touched_[at(root(body))] = 1;
+  };
+  for (const Contact& contact : contacts) {
+    touch(contact.first);
+    touch(contact.second);
+  }
+  const int enough = quiet_steps(world.settings);
+  for (int i = 0; i < body_count(world); ++i) {
+    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(root(i))] = 1;
+  }
+}
+
+double FallAsleep::put_to_sleep(World& world, std::span<const BodyPair> pairs,
+                                std::span<const Contact> contacts) {
+  find_islands(world, pairs);
+  find_who_stays_awake(world, contacts);
+  double energy = 0.0;
+  for (int i = 0; i < body_count(world); ++i) {
+    const int first = root(i);
+    if (is_asleep(world, i) || stays_awake_[at(first)] != 0 || is_touched_[at(first)] == 0) {
+      continue;
+    }
+    world.rest[at(i)].group = first;
+    energy += halt(world, i);
+  }
+  return energy;
+}
+
+void wake_moving(World& world) {
+  if (world.rest.empty()) return;
+  for (int i = 0; i < body_count(world); ++i) {
+    if (is_asleep(world, i) && moves(world, i)) wake(world, i);
+  }
+}
+
+bool is_at_rest(const World& world) {
+  if (world.rest.empty()) return false;
+  for (int i = 0; i < body_count(world); ++i) {
+    if (!is_fixed(world, i) || moves(world, i)) return false;
+  }
+  return true;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,45 @@
+// Which bodies leave the step because they rest (ERRATA row 71).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/collision/contact.h"
+#include "sim/collision/packed_spheres.h"
+#include "sim/response/motion_start.h"
+#include "sim/world/sleep.h"
+
+namespace pneuma::sim {
+
+/// Bodies near each other are an island, which falls asleep when it touches something and none of
+/// it has moved faster than Settings::sleep_speed for half a second. Allocates nothing but in the
+/// first step.
+class FallAsleep {
+ public:
+  explicit FallAsleep(const World& world);
+
+  /// After each step, which began at `start`. Returns whether a body has been quiet for long
+  /// enough.
+  bool count_quiet_steps(World& world, const MotionStart& start);
+  /// `pairs`: of bodies near each other, or near the ground (-1); `contacts`: those that press.
+  /// Returns the energy of motion that fell asleep, J.
+  double put_to_sleep(World& world, std::span<const BodyPair> pairs,
+                      std::span<const Contact> contacts);
+
+ private:
+  void find_islands(const World& world, std::span<const BodyPair> pairs);
+  void find_who_stays_awake(const World& world, std::span<const Contact> contacts);
+  int root(int body);
+
+  std::vector<int> parents_;               // per body
+  std::vector<std::uint8_t> is_touched_;   // per root
+  std::vector<std::uint8_t> stays_awake_;  // per root
+};
+
+/// Bodies that sleep with a velocity, which someone has given them, wake.
+void wake_moving(World& world);
+
+/// Whether nothing happens in a step: all bodies sleep or stand still.
+bool is_at_rest(const World& world);
+
+}  // namespace pneuma::sim
