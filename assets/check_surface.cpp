@@ -12,6 +12,8 @@ namespace {
 
 using sim::at;
 
+const std::string with_repair = "--repair (in a scene model.repair = true)";
+
 std::string edges_fault(const NumberedMesh& mesh, const std::vector<const Edge*>& faulty,
                         std::string_view what) {
   return fmt::format("{}{}", what, first_places(faulty.size(), [&](std::size_t i) {
@@ -47,7 +49,8 @@ std::vector<int> flat_triangles(const sim::TriangleMesh& mesh, double min_height
 
 }  // namespace
 
-void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, double min_height) {
+void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, double min_height,
+                    bool was_repaired) {
   std::vector<std::string> faults;
   const auto open = those(edges, [](const Edge& edge) { return edge.triangles.size() == 1; });
   if (!open.empty()) {
@@ -80,22 +83,25 @@ void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, do
         first_places(flat.size(), [&](std::size_t i) { return triangle_place(mesh, flat[i]); })));
   }
   if (faults.empty()) return;
-  faults.emplace_back(
-      "repair it in a modelling program: close holes, take away inner and doubled faces, merge "
-      "needles");
+  faults.push_back(
+      std::string(was_repaired ? "no repair is known for this; mend"
+                               : with_repair + " mends what is small; else mend") +
+      " it in a modelling program: close holes, take away inner and doubled faces, merge needles");
   throw ModelError(fmt::format("{}", fmt::join(faults, "\n  ")));
 }
 
-void check_self_touching(const NumberedMesh& mesh) {
+void check_self_touching(const NumberedMesh& mesh, bool was_repaired) {
   const SelfTouching touching = find_self_touching(mesh.mesh, most_places);
   if (touching.count > 0) {
     throw ModelError(fmt::format(
-        "the surface touches itself: {}{} of triangles meet{}; part them, or cut the model there",
+        "the surface touches itself: {}{} of triangles meet{}; part them, {}or cut the model there",
         touching.complete ? "" : "at least ", counted(touching.count, "pair", "pairs"),
-        first_places(touching.first.size(), [&](std::size_t i) {
-          return fmt::format("{} and {}", triangle_place(mesh, touching.first[i][0]),
-                             triangle_place(mesh, touching.first[i][1]));
-        })));
+        first_places(touching.first.size(),
+                     [&](std::size_t i) {
+                       return fmt::format("{} and {}", triangle_place(mesh, touching.first[i][0]),
+                                          triangle_place(mesh, touching.first[i][1]));
+                     }),
+        was_repaired ? "" : "try " + with_repair + ", "));
   }
   if (!touching.complete) {
     throw ModelError(

@@ -71,7 +71,7 @@ int choose_component(const std::vector<Component>& components, const std::string
   }
   throw ModelError(fmt::format(
       "the model has {} components, {} closed; a soft body is one, so name it by number or name "
-      "as the component (in a scene with model.component):{}",
+      "with --component (in a scene model.component):{}",
       components.size(), count == 0 ? "none of them" : fmt::format("{} of them", count),
       list(components)));
 }

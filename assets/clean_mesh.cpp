@@ -9,6 +9,8 @@
 
 #include "assets/check_surface.h"
 #include "assets/choose_component.h"
+#include "assets/part_from_itself.h"
+#include "assets/repair_mesh.h"
 #include "assets/weld.h"
 #include "sim/mesh/rotation.h"
 
@@ -67,6 +69,7 @@ class Cleaner {
     weld_distance_ = weld_tolerance * diagonal(work_.mesh);
     weld_vertices();
     drop_triangles();
+    if (options_.repair) repair();
     keep_component();
     make_surface();
     place();
@@ -152,6 +155,11 @@ class Cleaner {
     }
   }
 
+  void repair() {
+    result_.repaired = repair_mesh(work_, weld_distance_);
+    compact();
+  }
+
   /// Numbers the vertices that triangles have without gaps; returns how many others there were.
   int compact() {
     const std::size_t before = work_.mesh.vertices.size();
@@ -226,7 +234,7 @@ class Cleaner {
 
   void make_surface() {
     const std::vector<Edge> edges = edges_of(work_.mesh.triangles);
-    check_manifold(work_, edges, weld_distance_);
+    check_manifold(work_, edges, weld_distance_, options_.repair);
     const Orientation orientation = orient(work_.mesh.triangles, edges);
     if (!orientation.impossible.empty()) {
       throw ModelError(fmt::format(
@@ -238,7 +246,10 @@ class Cleaner {
           })));
     }
     turn_outwards(orientation);
-    check_self_touching(work_);
+    if (options_.repair) {
+      std::ranges::move(part_from_itself(work_), std::back_inserter(result_.repaired));
+    }
+    check_self_touching(work_, options_.repair);
   }
 
   void turn_outwards(const Orientation& orientation) {

@@ -15,6 +15,7 @@ struct CleanOptions {
   double scale = 1.0;            // metres per unit of the file, > 0
   Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z, after scaling
   bool centre = true;            // the middle of the turned bounding box comes to the origin
+  bool repair = false;           // also mends what needs a guess: repair_mesh.h, part_from_itself.h
   int most_vertices = 100'000;   // of the component, after welding
 };
 
@@ -31,8 +32,9 @@ struct Component {
 };
 
 struct CleanModel {
-  sim::TriangleMesh mesh;           // m; closed, manifold, outwards: fit for sim::make_soft_mesh
-  std::vector<std::string> mended;  // in plain words: "24 vertices welded to 8"
+  sim::TriangleMesh mesh;             // m; closed, manifold, outwards: fit for sim::make_soft_mesh
+  std::vector<std::string> mended;    // in plain words: "24 vertices welded to 8"
+  std::vector<std::string> repaired;  // likewise, what CleanOptions::repair did, and where
   std::vector<Component> components;
   int kept = 0;             // index into components
   int vertices_before = 0;  // of the whole file
@@ -45,7 +47,8 @@ inline constexpr double smallest_model = 1e-6;
 
 /// Repairs what needs no guess: drops vertices without triangles, welds vertices
 /// (weld.h), drops triangles with a vertex twice and triangles that are there twice, leaves out all
-/// but one component, turns triangles so that all face outwards. Then scales, turns and centres.
+/// but one component, turns triangles so that all face outwards; with `repair` also what needs one.
+/// Then scales, turns and centres.
 ///
 /// Throws ModelError for all else, with counts, up to five places and what to do: no triangles,
 /// indices out of range, coordinates that are not finite, too large or too small, too many

@@ -40,6 +40,17 @@ std::string first_places(std::size_t count, const std::function<std::string(std:
   return text;
 }
 
+std::string vertex_places(const NumberedMesh& mesh, const std::vector<int>& vertices) {
+  return first_places(vertices.size(),
+                      [&](std::size_t i) { return vertex_place(mesh, vertices[i]); });
+}
+
+double diagonal_of(const std::vector<Vec3>& vertices) {
+  sim::Bounds box;
+  for (const Vec3& vertex : vertices) box.include(vertex);
+  return box.size().norm();
+}
+
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }

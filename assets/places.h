@@ -37,6 +37,12 @@ std::string triangle_place(const NumberedMesh& mesh, int triangle);
 /// names one.
 std::string first_places(std::size_t count, const std::function<std::string(std::size_t)>& place);
 
+/// first_places of vertices.
+std::string vertex_places(const NumberedMesh& mesh, const std::vector<int>& vertices);
+
+/// Of the bounding box.
+double diagonal_of(const std::vector<Vec3>& vertices);
+
 /// "1 vertex", "2 vertices".
 std::string counted(std::size_t count, std::string_view one, std::string_view many);
 

@@ -31,6 +31,7 @@ namespace {
 struct CheckOptions {
   std::string scene;
   std::vector<std::string> overrides;
+  ModelChoice model;
   bool run = false;
   bool keys = false;
   bool json = false;
@@ -39,11 +40,11 @@ struct CheckOptions {
 
 ExitCode check_model_file(const CheckOptions& options) {
   const std::filesystem::path path = find_model(options.scene, "");
-  const ModelCheck checked = check_model(path);
+  const ModelCheck checked = check_model(path, options.model);
   fmt::print("{}", options.json ? model_check_json(checked).dump(2) + "\n"
                                 : model_check_text(checked) +
                                       "\nThe scene that `pneuma render` makes of it\n\n" +
-                                      model_scene_text(path));
+                                      model_scene_text(path, options.model));
   return ExitCode::done;
 }
 
@@ -92,7 +93,7 @@ ExitCode check(const CheckOptions& options) {
   const bool as_scene = options.run || !options.overrides.empty();
   if (assets::has_model_ending(options.scene) && !as_scene) return check_model_file(options);
   CheckReport report;
-  report.scene = open_scene(options.scene, options.overrides);
+  report.scene = open_scene(options.scene, options.overrides, options.model);
   const sim::World world = build_world(report.scene);
   refuse_start_overlap(report.scene, world);
   report.plan = sim::make_plan(world);
@@ -122,6 +123,7 @@ void add_check_command(CLI::App& app, Action& action) {
                        assets::model_endings() + ")")
       ->type_name("SCENE|MODEL");
   add_override_option(*command, options->overrides);
+  add_model_options(*command, options->model);
   command->add_flag(
       "--run", options->run,
       "Also run it without pictures: penetration, energy, contacts, volumes; exit code 7 if "

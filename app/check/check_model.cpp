@@ -33,11 +33,14 @@ json component_json(const assets::Component& component) {
 
 }  // namespace
 
-ModelCheck check_model(const std::filesystem::path& path) {
+ModelCheck check_model(const std::filesystem::path& path, const ModelChoice& choice) {
   ModelCheck check;
   check.path = path;
+  assets::CleanOptions options;
+  options.component = choice.component;
+  options.repair = choice.repair;
   try {
-    check.model = assets::load_model(path);
+    check.model = assets::load_model(path, options);
   } catch (const assets::ModelError&) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
     throw;
@@ -79,6 +82,9 @@ std::string model_check_text(const ModelCheck& check) {
   for (const std::string& mended : check.model.mended) {
     text += named_line(&mended == &check.model.mended.front() ? "mended" : "", mended);
   }
+  for (const std::string& done : check.model.repaired) {
+    text += named_line(&done == &check.model.repaired.front() ? "repaired" : "", done);
+  }
   return text;
 }
 
@@ -111,7 +117,8 @@ json model_check_json(const ModelCheck& check) {
             {"greatest", report.most_springs}}},
           {"components", std::move(components)},
           {"component_kept", check.model.kept + 1},
-          {"mended", check.model.mended}};
+          {"mended", check.model.mended},
+          {"repaired", check.model.repaired}};
 }
 
 }  // namespace pneuma::app

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/check/model_report.h"
+#include "app/world/model_scene.h"
 
 namespace pneuma::app {
 
@@ -15,9 +16,8 @@ struct ModelCheck {
   ModelReport report;
 };
 
-/// Reads and mends the model as it is: without scale, turn or choice of a component. Throws
-/// assets::ModelError.
-ModelCheck check_model(const std::filesystem::path& path);
+/// Reads and mends the model as it is: without scale and turn. Throws assets::ModelError.
+ModelCheck check_model(const std::filesystem::path& path, const ModelChoice& choice = {});
 
 std::string model_check_text(const ModelCheck& check);
 nlohmann::json model_check_json(const ModelCheck& check);

@@ -100,7 +100,7 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
 }  // namespace
 
 ExitCode export_scene(const ExportRequest& request) {
-  const scenes::Scene scene = open_scene(request.scene, request.overrides);
+  const scenes::Scene scene = open_scene(request.scene, request.overrides, request.model);
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);

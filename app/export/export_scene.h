@@ -7,6 +7,7 @@
 #include "app/export/export_formats.h"
 #include "app/host/exit_code.h"
 #include "app/terminal/frame_range.h"
+#include "app/world/model_scene.h"
 
 namespace pneuma::app {
 
@@ -15,6 +16,7 @@ struct ExportRequest {
   ExportFormat format = export_formats()[0];
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
+  ModelChoice model;
   FrameRange frames;
   bool overwrite = false;
   int threads = 1;

@@ -9,6 +9,7 @@
 #include "app/render/log/resume.h"
 #include "app/terminal/frame_range.h"
 #include "app/terminal/grid_size.h"
+#include "app/world/model_scene.h"
 #include "app/world/simulation.h"
 #include "render/context/backend.h"
 
@@ -18,6 +19,7 @@ struct RenderRequest {
   std::string scene;                   // a path or a name
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
+  ModelChoice model;
   FrameRange frames;
   Pictures pictures;
   ExistingRun existing = ExistingRun::refuse;

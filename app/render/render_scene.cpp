@@ -146,7 +146,7 @@ void keep_scene(const scenes::Scene& scene, const RunFolder& folder) {
 
 ExitCode render_scene(const RenderRequest& request) {
   Progress progress(progress_style(request.quiet));
-  const scenes::Scene scene = open_scene(request.scene, request.overrides);
+  const scenes::Scene scene = open_scene(request.scene, request.overrides, request.model);
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);
   try {

@@ -25,6 +25,16 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
       ->allow_extra_args(false);  // or each would take all words up to the next option
 }
 
+void add_model_options(CLI::App& command, ModelChoice& choice) {
+  command
+      .add_option("--component", choice.component,
+                  "Of a model file with several bodies: which, by name or number")
+      ->type_name("NAME");
+  command.add_flag("--repair", choice.repair,
+                   "Of a model file: close cracks and small holes, split what meets in a point, "
+                   "part a surface from itself");
+}
+
 void add_frames_option(CLI::App& command, std::string& frames) {
   command.add_option("--frames", frames, "The first N frames, or a part as 10-20, or 10-")
       ->type_name("N");

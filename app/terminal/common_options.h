@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/world/model_scene.h"
 #include "render/context/backend.h"
 
 namespace CLI {
@@ -19,6 +20,9 @@ void add_scene_option(CLI::App& command, std::string& scene);
 
 /// --set PATH=VALUE, as often as wanted.
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// --component and --repair, of a model file.
+void add_model_options(CLI::App& command, ModelChoice& choice);
 
 /// --frames, as typed: see frame_range.h.
 void add_frames_option(CLI::App& command, std::string& frames);

@@ -72,6 +72,7 @@ sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::Body
   options.scale = body.model.scale;
   options.rotation = body.model.rotation;
   options.centre = body.model.centre;
+  options.repair = body.model.repair;
   options.most_vertices = scene.limits.vertices_per_body;
   const auto most_bytes = static_cast<std::size_t>(scene.limits.model_file_mib * 1024.0 * 1024.0);
   try {

@@ -117,10 +117,29 @@ Choice choose(const sim::TriangleMesh& mesh) {
   return choice;
 }
 
+/// As comments.
+std::string repairs_text(const std::vector<std::string>& repaired) {
+  std::string text;
+  for (const std::string& done : repaired) text += fmt::format("# Repaired: {}\n", done);
+  return text;
+}
+
+/// The keys that say how the file is read.
+std::string choice_text(ModelChoice given) {
+  std::string text;
+  if (!given.component.empty()) {
+    text += fmt::format("model.component = {}\n", scenes::value_text(&given.component));
+  }
+  if (given.repair) text += "model.repair = true\n";
+  return text;
+}
+
 }  // namespace
 
-std::string model_scene_text(const fs::path& path) {
+std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   assets::CleanOptions options;
+  options.component = given.component;
+  options.repair = given.repair;
   if (is_y_up(path)) options.rotation = {90.0, 0.0, 0.0};
   const auto size_of = [](const assets::CleanModel& model) {
     return sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
@@ -133,7 +152,7 @@ std::string model_scene_text(const fs::path& path) {
   std::string file = fs::absolute(path).string();
   return fmt::format(
       R"(# Made from the model's mesh, to be kept and edited.
-title = "A model falls"
+{}title = "A model falls"
 duration = 6.0
 
 [simulation]
@@ -151,7 +170,7 @@ frames_per_second = {}
 [[body]]
 shape = "model"
 model.file = {}
-model.scale = {}  # the longest side is {} m
+{}model.scale = {}  # the longest side is {} m
 model.rotation = [{}, 0.0, 0.0]
 position = [0.0, 0.0, {}]
 k = {}
@@ -160,11 +179,11 @@ vertex_mass = {}  # {} kg in all
 gauge_pressure = {}
 rest = "{}"
 )",
-      choice.implicit ? "implicit_euler" : "rk4", choice.steps_per_second, ambient_pressure,
-      1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
-      scenes::value_text(&file), options.scale, extent, options.rotation.x(), 0.5 * height + drop,
-      material.k, material.k_max, material.vertex_mass, mass, choice.gauge_pressure,
-      choice.held ? "equilibrium" : "shape");
+      repairs_text(model.repaired), choice.implicit ? "implicit_euler" : "rk4",
+      choice.steps_per_second, ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent,
+      0.5 * extent, frames_per_second, scenes::value_text(&file), choice_text(given), options.scale,
+      extent, options.rotation.x(), 0.5 * height + drop, material.k, material.k_max,
+      material.vertex_mass, mass, choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

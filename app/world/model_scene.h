@@ -13,9 +13,15 @@
 
 namespace pneuma::app {
 
-/// The scene as TOML, to be kept and edited: only what is not a default, with the reasons. Reads
-/// the model, by its absolute path. Throws assets::ModelError.
-std::string model_scene_text(const std::filesystem::path& model);
+/// How a model file is read.
+struct ModelChoice {
+  std::string component = {};  // of several in the file, by name or number; empty: the only closed
+  bool repair = false;         // assets::CleanOptions::repair
+};
+
+/// The scene as TOML, to be kept and edited: only what is not a default, with the reasons and what
+/// was repaired. Reads the model, by its absolute path. Throws assets::ModelError.
+std::string model_scene_text(const std::filesystem::path& model, const ModelChoice& choice = {});
 
 /// What the scene's file is called: NAME.toml of NAME.ply.
 std::filesystem::path model_scene_file(const std::filesystem::path& model);

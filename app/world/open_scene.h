@@ -4,12 +4,14 @@
 #include <span>
 #include <string>
 
+#include "app/world/model_scene.h"
 #include "scenes/loader/scene.h"
 
 namespace pneuma::app {
 
 /// Loads what find_scene finds; of a model file, the scene that model_scene.h makes. Throws
-/// scenes::SceneError and assets::ModelError.
-scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides);
+/// scenes::SceneError, assets::ModelError, and UsageError if a choice is made of no model.
+scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
+                         const ModelChoice& choice = {});
 
 }  // namespace pneuma::app

@@ -103,6 +103,9 @@ Section body_section(BodyScene& body) {
                         "sets the model upright: about x, then y, then z"}),
           only(models, {"model.centre", &body.model.centre, any(), "",
                         "its middle is the body's position, not the file's origin"}),
+          only(models, {"model.repair", &body.model.repair, any(), "",
+                        "closes cracks and small holes, splits what meets in a point, parts a "
+                        "surface from itself"}),
 
           only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
                              "of the springs: in the shape, or so that it holds its gas"}),

@@ -43,6 +43,7 @@ struct ModelScene {
   double scale = 1.0;            // m per unit of the file
   Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z: how the model is set up
   bool centre = true;            // the middle of its bounding box is its centre, else its origin
+  bool repair = false;           // assets/repair_mesh.h
 };
 
 /// Where something was written, for errors that only show when the world is built.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "sim/mesh/soft_mesh.h"
@@ -41,22 +42,36 @@ void check_numbers(const CleanModel& model, const CleanOptions& options) {
   if (model.vertices_welded > model.vertices_before) fail("more vertices after welding");
 }
 
+std::optional<CleanModel> try_clean(const assets::Model& model, const CleanOptions& options) {
+  CleanModel cleaned;
+  try {
+    cleaned = assets::clean_mesh(model, options);
+  } catch (const assets::ModelError&) {
+    return {};
+  }
+  const std::string broken = broken_promise(cleaned.mesh);
+  if (!broken.empty()) fail(broken);
+  check_place(cleaned, options);
+  check_numbers(cleaned, options);
+  sim::make_soft_mesh(cleaned.mesh);  // throws when the mesh is not fit for it
+  return cleaned;
+}
+
 }  // namespace
 
 void try_mesh(std::string_view bytes) {
   const TriangleSoup soup = decode(bytes);
-  const CleanOptions options = clean_options_of(soup);
-  CleanModel model;
-  try {
-    model = assets::clean_mesh(model_of(soup), options);
-  } catch (const assets::ModelError&) {
-    return;
+  const assets::Model model = model_of(soup);
+  CleanOptions options = clean_options_of(soup);
+  const auto as_it_is = try_clean(model, options);
+  options.repair = true;
+  const auto repaired = try_clean(model, options);
+  // Of several components others may become fit, and then one must be named.
+  if (!as_it_is || as_it_is->components.size() > 1) return;
+  if (!repaired || repaired->mesh.vertices != as_it_is->mesh.vertices ||
+      repaired->mesh.triangles != as_it_is->mesh.triangles) {
+    fail("a repair of what needs none");
   }
-  const std::string broken = broken_promise(model.mesh);
-  if (!broken.empty()) fail(broken);
-  check_place(model, options);
-  check_numbers(model, options);
-  sim::make_soft_mesh(model.mesh);  // throws when the mesh is not fit for it
 }
 
 }  // namespace pneuma::fuzz

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "app/host/errors.h"
 #include "app/world/build_world.h"
 #include "app/world/model_scene.h"
 #include "app/world/settled_volume.h"
+#include "assets/model.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/mesh/primitives.h"
@@ -57,6 +59,35 @@ TEST_F(OpenScene, ItsTextIsAFileToKeep) {
   EXPECT_EQ(plain.bodies[0].material.k, 4000.0);
   const scenes::Scene again = scenes::parse_scene(scenes::print_scene(scene), "it.toml");
   EXPECT_EQ(scenes::scene_fingerprint(again), scenes::scene_fingerprint(scene));
+}
+
+TEST_F(OpenScene, RepairsAModelAndSaysSoInItsText) {
+  sim::TriangleMesh box = sim::make_box({1.0, 1.0, 1.0}, 3);
+  const double volume = 1.0;
+  box.triangles.pop_back();
+  EXPECT_THROW(open(box), assets::ModelError);
+  const std::string text = model_scene_text(file(), {.repair = true});
+  EXPECT_NE(text.find("\n# Repaired: 1 hole filled by 1 triangle: vertex "), std::string::npos);
+  const scenes::Scene scene = scenes::parse_scene(text, "kept.toml");
+  EXPECT_TRUE(scene.bodies.at(0).model.repair);
+  const sim::World world = build_world(scene);
+  EXPECT_NEAR(volume_of(world.soft.at(0)), 6.0 * 6.0 * 6.0 * volume, 1e-3);
+}
+
+TEST_F(OpenScene, TakesOneComponentOfSeveral) {
+  const sim::TriangleMesh two = assets::both(
+      assets::cube(), assets::moved(sim::make_box({2.0, 1.0, 1.0}, 2), {9.0, 0.0, 0.0}));
+  EXPECT_THROW(open(two), assets::ModelError);
+  for (const auto& [component, volume] : {std::pair{"1", 216.0}, std::pair{"2", 54.0}}) {
+    const scenes::Scene scene = open_scene(file().string(), {}, {.component = component});
+    EXPECT_EQ(scene.bodies.at(0).model.component, component);
+    EXPECT_NEAR(volume_of(build_world(scene).soft.at(0)), volume, 1e-3);
+  }
+}
+
+TEST(OpenAScene, ThatIsNoModelRefusesAModelsOptions) {
+  EXPECT_THROW(open_scene("one_sphere", {}, {.repair = true}), UsageError);
+  EXPECT_THROW(open_scene("one_sphere", {}, {.component = "1"}), UsageError);
 }
 
 }  // namespace
