@@ -157,6 +157,10 @@ class Cleaner {
 
   void repair() {
     result_.repaired = repair_mesh(work_, weld_distance_);
+    if (work_.mesh.triangles.empty()) {
+      throw ModelError(fmt::format("no triangle is left after a repair: {}; mend the model",
+                                   fmt::join(result_.repaired, "; ")));
+    }
     compact();
   }
 

@@ -174,6 +174,13 @@ TEST(Repair, DropsAFin) {
 
 /// A vertex in the middle of an edge, on one side of it only: closed by a triangle without area, or
 /// left open.
+TEST(Repair, RefusesWhatHasNothingButFins) {
+  sim::TriangleMesh book;
+  book.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}};
+  book.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  EXPECT_TRUE(holds(refusal(book, true), "no triangle is left after a repair: 3 triangles"));
+}
+
 TEST(Repair, TakesOutTrianglesWithoutArea) {
   for (const bool is_closed : {true, false}) {
     sim::TriangleMesh mesh = cube();
