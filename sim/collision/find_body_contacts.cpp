@@ -72,8 +72,10 @@ void find_soft_ground(const World& world, int soft, std::vector<Contact>& contac
   // The implicit integrators keep vertices above the ground: what rests on it is at z = 0 exactly.
   const bool rests_at_zero = is_implicit(world.settings.integrator);
   const double above = rests_at_zero ? std::numeric_limits<double>::denorm_min() : 0.0;
-  for (int v = 0; v < positions.size(); ++v) {
-    const double height = positions[v].z();
+  const double* const heights = positions.rows().data() + 2;
+  const int count = positions.size();
+  for (int v = 0; v < count; ++v) {
+    const double height = heights[row_start(v)];
     if (!(height < above) || (pins && pins->is_pinned[at(v)] != 0)) continue;
     contacts.push_back({vertex_side(soft, v), {}, positions[v], Vec3::UnitZ(), -height});
   }

@@ -1,11 +1,6 @@
 #include "sim/mesh/force_tables.h"
 
 namespace pneuma::sim {
-namespace {
-
-RowStart row_start(int vertex) { return 4 * static_cast<RowStart>(vertex); }
-
-}  // namespace
 
 ForceTables::ForceTables(const MeshTopology& topology) {
   for (const auto& [a, b] : topology.edges()) edges.push_back({row_start(a), row_start(b)});

@@ -1,17 +1,14 @@
 // A mesh as the loops over its springs and rings read it. What they wait for is loads: a vertex is
-// therefore given by where its row begins (four times its index), and what they need of it stands
-// together.
+// therefore given by where its row begins, and what they need of it stands together.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "sim/mesh/topology.h"
+#include "sim/mesh/vertex_array.h"
 
 namespace pneuma::sim {
-
-/// Of a vertex: where its row begins, in doubles.
-using RowStart = std::uint32_t;
 
 struct ForceTables {
   explicit ForceTables(const MeshTopology& topology);

@@ -22,11 +22,12 @@ Vec3 mean(const VertexArray& values) {
 
 // Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
 double volume(const MeshTopology& topology, const VertexArray& positions) {
-  const VertexReader x(positions);
-  const Vec4d origin = x[0];
+  const double* const rows = positions.rows().data();
+  const Vec4d origin = load_vec4d(rows);
   Vec4d six_volumes{};
   for (const auto& [first, second, third, fourth] : topology.quadrangles()) {
-    const Vec4d a = origin - x[first], c = origin - x[third], across = x[second] - x[fourth];
+    const Vec4d a = origin - load_vec4d(rows + first), c = origin - load_vec4d(rows + third);
+    const Vec4d across = load_vec4d(rows + second) - load_vec4d(rows + fourth);
     six_volumes = fma(a, cross(across, c), six_volumes);
   }
   return sum_of_lanes(six_volumes) / 6.0;

@@ -182,7 +182,8 @@ void MeshTopology::pair_triangles() {
       quadrangle = {a, b, c, d};
       break;
     }
-    quadrangles_.push_back(quadrangle);
+    quadrangles_.push_back({row_start(quadrangle[0]), row_start(quadrangle[1]),
+                            row_start(quadrangle[2]), row_start(quadrangle[3])});
   }
 }
 

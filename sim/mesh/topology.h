@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/mesh/triangle_mesh.h"
+#include "sim/mesh/vertex_array.h"
 
 namespace pneuma::sim {
 
@@ -56,8 +57,8 @@ class MeshTopology {
 
   /// Every triangle once, nearly all two by two: a, b, c, d stands for the triangles a b c and a c
   /// d, and with d = a for a b c alone. For sums over triangles, which of two that share a side
-  /// need little more than of one.
-  const std::vector<std::array<int, 4>>& quadrangles() const { return quadrangles_; }
+  /// need little more than of one. Vertices are given by their rows.
+  const std::vector<std::array<RowStart, 4>>& quadrangles() const { return quadrangles_; }
 
   /// The neighbours of a vertex, counter-clockwise seen from outside: spokes i and i + 1 (cyclic)
   /// and the vertex itself make one triangle. Starts at the lowest neighbour.
@@ -121,7 +122,7 @@ class MeshTopology {
   std::vector<std::array<int, 2>> edges_;
   std::vector<std::array<int, 2>> edge_triangles_;
   std::vector<std::array<int, 3>> triangle_edges_;
-  std::vector<std::array<int, 4>> quadrangles_;
+  std::vector<std::array<RowStart, 4>> quadrangles_;
   std::vector<int> ring_start_;
   std::vector<Spoke> ring_;
   std::vector<int> vertex_triangles_;

@@ -69,6 +69,15 @@ inline Vec4d fma(Vec4d a, Vec4d b, Vec4d c) {
 }
 inline Vec4d fma(double a, Vec4d b, Vec4d c) { return fma(Vec4d{a, a, a, a}, b, c); }
 
+/// c - a b, rounded once. GCC does not make one instruction of fma(-a, b, c).
+inline Vec4d fnma(double a, Vec4d b, Vec4d c) {
+#ifdef __FMA__
+  return Vec4d(_mm256_fnmadd_pd(__m256d(Vec4d{a, a, a, a}), __m256d(b), __m256d(c)));
+#else
+  return fma(-a, b, c);
+#endif
+}
+
 inline Vec4d square_root(Vec4d row) {
   Eigen::Array4d lanes;
   store_vec4d(row, lanes.data());

@@ -5,8 +5,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace pneuma::sim {
+
+/// Of a vertex: where its row begins, in doubles. Loops that wait for loads read it ready-made.
+using RowStart = std::uint32_t;
+
+inline RowStart row_start(int vertex) { return 4u * static_cast<RowStart>(vertex); }
 
 class VertexArray {
  public:

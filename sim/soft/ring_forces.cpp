@@ -46,20 +46,20 @@ VertexForces gather(const Ring& ring, Count count) {
   Vec4d previous = ring.inward(1);
   // Two sums, so that an addition need not wait for the one before.
   Vec4d even{}, odd{};
-  even = fma(-ring.coefficient(0), first, even);
-  odd = fma(-ring.coefficient(1), previous, odd);
+  even = fnma(ring.coefficient(0), first, even);
+  odd = fnma(ring.coefficient(1), previous, odd);
   CrossSum twice_area;
   int i = 2;
   for (; i + 1 < count; i += 2) {
     const Vec4d here = ring.inward(i), next = ring.inward(i + 1);
-    even = fma(-ring.coefficient(i), here, even);
-    odd = fma(-ring.coefficient(i + 1), next, odd);
+    even = fnma(ring.coefficient(i), here, even);
+    odd = fnma(ring.coefficient(i + 1), next, odd);
     twice_area.add(here - first, next - previous);
     previous = next;
   }
   if (i < count) {
     const Vec4d last = ring.inward(i);
-    even = fma(-ring.coefficient(i), last, even);
+    even = fnma(ring.coefficient(i), last, even);
     twice_area.add(previous - first, last - first);
   }
   return {even + odd, twice_area.value()};

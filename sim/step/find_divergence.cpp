@@ -39,6 +39,13 @@ struct MotionSums {
   double squares = 0.0;    // (m/s)^2, of all velocities
 };
 
+/// Of a step, and of its end.
+struct StepSums {
+  MotionSums end;
+  double squares_before = 0.0;  // (m/s)^2, of the velocities at the start
+  double squared_ways = 0.0;    // m^2, of each vertex' way times its springs over their mean
+};
+
 MotionSums motion_sums(const SoftBody& body) {
   const VertexReader x(body.positions), v(body.velocities);
   Vec4d positions{}, squares{};
@@ -47,6 +54,23 @@ MotionSums motion_sums(const SoftBody& body) {
     squares = fma(v[i], v[i], squares);
   }
   return {sum_of_lanes(positions), sum_of_lanes(squares)};
+}
+
+StepSums step_sums(const SoftBody& body, const SoftState& start) {
+  const double* const weights = body.mesh->valence_weights.data();
+  const VertexReader x(body.positions), v(body.velocities);
+  const VertexReader x0(start.positions), v0(start.velocities);
+  Vec4d positions{}, squares{}, squares_before{}, squared_ways{};
+  for (int i = 0; i < body.positions.size(); ++i) {
+    const Vec4d end = x[i], way = end - x0[i];
+    positions += end;
+    squares = fma(v[i], v[i], squares);
+    squares_before = fma(v0[i], v0[i], squares_before);
+    squared_ways = fma(weights[i] * way, way, squared_ways);
+  }
+  return {{sum_of_lanes(positions), sum_of_lanes(squares)},
+          sum_of_lanes(squares_before),
+          sum_of_lanes(squared_ways)};
 }
 
 std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body,
@@ -137,21 +161,12 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
 /// S1 > 50 K0. In the latter case sqrt S1 - sqrt S0 > 0.85 sqrt S1, while lengths change by no more
 /// than their ends move: (sqrt S1 - sqrt S0)^2 <= k/2 sum (|dx_a| + |dx_b|)^2 <= k sum d |dx|^2,
 /// where d is the number of springs of a vertex.
-/// `squares`: of the velocities at the end, (m/s)^2.
-bool may_have_gained_energy(const SoftBody& body, const SoftState& start, double squares) {
-  const SoftMesh& mesh = *body.mesh;
-  const VertexReader x(body.positions), x0(start.positions), v0(start.velocities);
-  Vec4d squares_before{}, squared_ways{};
-  for (int i = 0; i < body.positions.size(); ++i) {
-    const Vec4d way = x[i] - x0[i];
-    squares_before = fma(v0[i], v0[i], squares_before);
-    squared_ways = fma(mesh.valence_weights[at(i)] * way, way, squared_ways);
-  }
-  const double kinetic_before = sum_of_lanes(squares_before);
-  if (squares > 0.5 * max_gain * kinetic_before) return true;
-  const double mean_springs = 2.0 * mesh.topology.edge_count() / mesh.topology.vertex_count();
-  const double strained = body.material.k * mean_springs * sum_of_lanes(squared_ways);
-  return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * kinetic_before;
+bool may_have_gained_energy(const SoftBody& body, const StepSums& sums) {
+  if (sums.end.squares > 0.5 * max_gain * sums.squares_before) return true;
+  const MeshTopology& topology = body.mesh->topology;
+  const double mean_springs = 2.0 * topology.edge_count() / topology.vertex_count();
+  const double strained = body.material.k * mean_springs * sums.squared_ways;
+  return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * sums.squares_before;
 }
 
 }  // namespace
@@ -159,14 +174,12 @@ bool may_have_gained_energy(const SoftBody& body, const SoftState& start, double
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
                                           const SoftState& start, double min_volume) {
   constexpr Stage stage = Stage::integrate_soft;
-  const MotionSums sums = motion_sums(body);
-  if (auto wild = find_wild_vertex(world, stage, body, sums)) return wild;
-  if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
   // The implicit integrators check the energy themselves.
-  if (is_implicit(world.settings.integrator) ||
-      !may_have_gained_energy(body, start, sums.squares)) {
-    return std::nullopt;
-  }
+  const bool checks_energy = !is_implicit(world.settings.integrator);
+  const StepSums sums = checks_energy ? step_sums(body, start) : StepSums{.end = motion_sums(body)};
+  if (auto wild = find_wild_vertex(world, stage, body, sums.end)) return wild;
+  if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
+  if (!checks_energy || !may_have_gained_energy(body, sums)) return std::nullopt;
   return find_gained_energy(world, body, start);
 }
 

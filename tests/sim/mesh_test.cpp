@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -75,7 +76,11 @@ TEST(Mesh, QuadranglesAreTheTrianglesTwoByTwo) {
   for (const auto& [name, mesh, vertices, edges, triangles] : all_meshes()) {
     const MeshTopology topology = topology_of(mesh);
     std::multiset<Triangle> in_quadrangles, all;
-    for (const auto& [a, b, c, d] : topology.quadrangles()) {
+    for (const std::array<RowStart, 4>& rows : topology.quadrangles()) {
+      std::array<int, 4> corners;
+      std::ranges::transform(rows, corners.begin(),
+                             [](RowStart row) { return static_cast<int>(row / row_start(1)); });
+      const auto& [a, b, c, d] = corners;
       in_quadrangles.insert(from_lowest({a, b, c}));
       if (d != a) in_quadrangles.insert(from_lowest({a, c, d}));
     }
