@@ -146,6 +146,10 @@ std::string energy_text(const RunStatistics& run) {
   if (run.driven_work) {
     text += named_line("", fmt::format("work of moved bodies: {:+.4g} J", *run.driven_work));
   }
+  if (run.gas_work) {
+    text += named_line(
+        "", fmt::format("of gas that came, went or was heated: {:+.4g} J", *run.gas_work));
+  }
   return text + named_line("",
                            "gas without ambient pressure counts as 0 J at 1 m^3 and less in any "
                            "greater volume, weight as 0 J at the origin: only differences mean "

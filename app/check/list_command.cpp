@@ -39,17 +39,20 @@ std::string of_paper_text(const std::vector<CatalogueEntry>& entries) {
   return table.text();
 }
 
-std::string others_text(const std::vector<CatalogueEntry>& entries) {
+std::string others_text(const std::vector<CatalogueEntry>& entries, bool with_flow_or_springs) {
   Table table({{"scene", Align::left}, {"title", Align::left}});
   for (const CatalogueEntry& entry : entries) {
-    if (entry.figure.empty()) table.add_row({entry.name, title_of(entry)});
+    if (!entry.figure.empty() || entry.has_flow_or_springs != with_flow_or_springs) continue;
+    table.add_row({entry.name, title_of(entry)});
   }
   return table.text();
 }
 
 std::string list_text(const std::vector<CatalogueEntry>& entries) {
   return of_paper_text(entries) + "\nBodies that are held or moved, and models:\n\n" +
-         others_text(entries);
+         others_text(entries, false) +
+         "\nGas that comes and goes, and bodies that springs join:\n\n" +
+         others_text(entries, true);
 }
 
 nlohmann::json list_json(const std::vector<CatalogueEntry>& entries) {

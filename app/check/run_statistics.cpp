@@ -12,6 +12,7 @@
 #include "app/world/touch.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
+#include "sim/joints/gas_flow.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -77,6 +78,7 @@ class Observer {
     result_.penetration = {result_.start_penetration, sim::time(start)};
     result_.pushed_by = what_pushes(start);
     if (has_moved_obstacles(start)) result_.driven_work = 0.0;
+    if (sim::has_gas_flow(start)) result_.gas_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
@@ -88,6 +90,7 @@ class Observer {
   void after_step(const sim::World& world, const sim::Stepper& stepper) {
     result_.contacts.add(stepper.contacts());
     if (result_.driven_work) *result_.driven_work += stepper.driven_work();
+    if (result_.gas_work) *result_.gas_work += stepper.gas_work();
     if (2 * world.steps > all_steps_) result_.settled_contacts.add(stepper.contacts());
   }
 

@@ -14,6 +14,7 @@
 #include "app/picture/rounding_room.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/soft/gas_law.h"
 
 namespace pneuma::app {
 namespace {
@@ -99,8 +100,26 @@ std::string to_ascii(const std::string& text) {
   return result;
 }
 
-render::Caption caption(const std::string& title, const sim::World& world) {
-  return {fmt::format("{}\nt = {:.2f} s   step {}", title, sim::time(world), world.steps)};
+/// On a caption; of more bodies the first ones.
+constexpr int most_pressures = 8;
+
+/// A line for each body with gas.
+std::string pressure_lines(const sim::World& world) {
+  std::string lines;
+  int count = 0;
+  for (const sim::SoftBody& body : world.soft) {
+    const sim::GasLaw law = sim::gas_law(body.material);
+    if (!(law.strength > 0.0) || ++count > most_pressures) continue;
+    const double volume = sim::volume(body.mesh->topology, body.positions);
+    lines += fmt::format("\n{}: {:.4g} Pa, {:.4g} mol", to_ascii(body.name),
+                         sim::gauge_pressure(law, volume), body.material.n);
+  }
+  return lines;
+}
+
+render::Caption caption(const std::string& title, const sim::World& world, bool pressures) {
+  return {fmt::format("{}\nt = {:.2f} s   step {}{}", title, sim::time(world), world.steps,
+                      pressures ? pressure_lines(world) : std::string())};
 }
 
 }  // namespace
@@ -133,7 +152,9 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
                            const render::Camera& camera)
     : title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
       caption_(scene.picture.caption),
-      rounded_(scene.picture.rounded) {
+      pressures_(scene.picture.pressures),
+      rounded_(scene.picture.rounded),
+      joints_(world) {
   scenery_.camera = camera;
   scenery_.light.shadows = scene.picture.shadows;
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
@@ -168,9 +189,10 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
   const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts;
   if (rounded_ && only_surfaces) set_rounding_room(frame.meshes);
+  joints_.add(world, frame);
   if (show.particles) add_particles(world, contacts, frame);
   if (show.contacts) add_contacts(contacts, frame);
-  if (caption_) frame.caption = caption(title_, world);
+  if (caption_) frame.caption = caption(title_, world, pressures_);
   return frame;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/joint_meshes.h"
 #include "render/frame/frame.h"
 #include "scenes/loader/scene.h"
 #include "sim/collision/contact.h"
@@ -52,10 +53,12 @@ class FrameBuilder {
 
   std::string title_;
   bool caption_ = false;
+  bool pressures_ = false;  // on the caption
   bool rounded_ = true;
   render::Frame scenery_;          // all that is the same in every frame
   std::vector<Look> soft_looks_;   // as World::soft
   std::vector<Look> rigid_looks_;  // as World::rigid
+  JointMeshes joints_;
 };
 
 }  // namespace pneuma::app

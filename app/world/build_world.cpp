@@ -7,8 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "app/world/check_turns.h"
 #include "app/world/fill_body.h"
 #include "app/world/find_model.h"
+#include "app/world/join_bodies.h"
 #include "app/world/pin_body.h"
 #include "app/world/refuse_body.h"
 #include "app/world/step_advice.h"
@@ -133,6 +135,7 @@ class Builder {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       const BodyScene& body = scene_.bodies[i];
       const auto starts = place_copies(body, Random(scene_.settings.seed, i));
+      check_turns(scene_, body);
       if (scenes::is_box(body)) {
         vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
         for (const Start& start : starts) add_rigid(body, start);
@@ -148,9 +151,13 @@ class Builder {
         const auto held =
             body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
         for (const Start& start : starts) add_soft(body, start, held, material);
+        for (sim::SoftBody& copy : std::span(world_.soft).last(starts.size())) {
+          copy.supply = gas_supply(body);
+        }
         if (!body.pinned.empty()) pin_copies(body, starts);
       }
     }
+    join_bodies(scene_, world_);
     return std::move(world_);
   }
 
@@ -226,11 +233,12 @@ class Builder {
   /// P = nRT / V needs a volume.
   void check_gas(const BodyScene& body, const sim::SoftMesh& mesh) const {
     const double volume = sim::volume(mesh.topology, mesh.rest_positions);
-    const bool by_n = !body.gauge_pressure && !body.inflation;
+    const bool by_n = !body.gauge_pressure && !body.inflation && body.supply_n.empty();
     if (volume > 0.0 || (by_n && body.material.n * body.material.temperature == 0.0)) return;
-    const std::string gas = by_n             ? fmt::format("n = {} mol", body.material.n)
-                            : body.inflation ? "by inflation"
-                                             : "by gauge_pressure";
+    const std::string gas = by_n                     ? fmt::format("n = {} mol", body.material.n)
+                            : !body.supply_n.empty() ? "by supply.n"
+                            : body.inflation         ? "by inflation"
+                                                     : "by gauge_pressure";
     refuse(scene_, body,
            fmt::format("holds gas ({} at {} K) but has a volume of {} m^3; give it a "
                        "shape with room inside, or n = 0",

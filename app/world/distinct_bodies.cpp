@@ -13,7 +13,7 @@ bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
     return std::array{m.k,           m.n,     m.temperature, m.gas_exponent, m.ambient_pressure,
                       m.vertex_mass, m.rho_g, m.k_max};
   };
-  return a.mesh == b.mesh && numbers(a.material) == numbers(b.material) &&
+  return a.mesh == b.mesh && a.supply == b.supply && numbers(a.material) == numbers(b.material) &&
          a.material.damping == b.material.damping &&
          a.material.pressure_weighting == b.material.pressure_weighting;
 }

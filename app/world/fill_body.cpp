@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "app/world/refuse_body.h"
 #include "app/world/settled_volume.h"
@@ -32,13 +33,32 @@ double pressure_at_rest(const scenes::Scene& scene, const scenes::BodyScene& bod
   return scene.ambient_pressure + std::max(0.0, *held);  // -0 and the like where inflation is 1
 }
 
+/// A sheet of equilateral triangles of springs has Young's modulus 2 k / sqrt 3 per width, however
+/// small they are (Seung and Nelson 1988, "Defects in flexible membranes with crystalline order").
+sim::SoftMaterial skin_material(const scenes::BodyScene& body, const sim::SoftMesh& mesh) {
+  sim::SoftMaterial material = body.material;
+  if (body.stiffness) material.k = 0.5 * std::numbers::sqrt3 * *body.stiffness;
+  if (body.density) {
+    const double area = sim::surface_area(mesh.topology, mesh.rest_positions);
+    material.vertex_mass = *body.density * body.thickness * area / mesh.topology.vertex_count();
+  }
+  return material;
+}
+
+/// Keys keep their first value until its time has come.
+double at_start(const std::vector<scenes::TimedValue>& keys) { return keys.front()[1]; }
+
 }  // namespace
 
 sim::SoftMaterial filled_material(const scenes::Scene& scene, const scenes::BodyScene& body,
                                   const std::shared_ptr<const sim::SoftMesh>& mesh) {
   sim::SoftBody alone;
   alone.mesh = mesh;
-  alone.material = body.material;
+  alone.material = skin_material(body, *mesh);
+  if (!body.supply_n.empty()) alone.material.n = at_start(body.supply_n);
+  if (!body.supply_temperature.empty()) {
+    alone.material.temperature = at_start(body.supply_temperature);
+  }
   alone.positions = mesh->rest_positions;
   alone.velocities = sim::VertexArray(mesh->topology.vertex_count());
   sim::SoftMaterial& material = alone.material;

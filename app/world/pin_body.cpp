@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/world/refuse_body.h"
+#include "app/world/regions.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pins.h"
 
@@ -17,18 +18,6 @@ namespace {
 using scenes::BodyScene;
 using scenes::Region;
 using sim::Vec3;
-
-bool is_in(const Region& region, const Vec3& point) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    if (point[axis] < region[i] || point[axis] > region[i + 3]) return false;
-  }
-  return true;
-}
-
-bool is_in_any(const std::vector<Region>& regions, const Vec3& point) {
-  return std::ranges::any_of(regions, [&](const Region& region) { return is_in(region, point); });
-}
 
 bool has_vertex_in(std::span<const sim::SoftBody> copies, const Region& region) {
   return std::ranges::any_of(copies, [&](const sim::SoftBody& body) {

@@ -25,6 +25,7 @@ CatalogueEntry make_entry(const scenes::SceneInfo& info) {
                        .title = info.title,
                        .figure = info.figure,
                        .paper_fps = std::nullopt,
+                       .has_flow_or_springs = info.has_flow_or_springs,
                        .error = info.error};
   if (info.error.empty()) entry.paper_fps = scenes::load_scene(info.path).paper_fps;
   return entry;

@@ -14,7 +14,8 @@ struct CatalogueEntry {
   std::string title;
   std::string figure;
   std::optional<double> paper_fps;
-  std::string error;  // the first one, when the scene is not valid
+  bool has_flow_or_springs = false;  // as scenes::SceneInfo
+  std::string error;                 // the first one, when the scene is not valid
 };
 
 /// All scenes of all scene folders, sorted by name; of two with one name the one that find_scene

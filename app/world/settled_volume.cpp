@@ -24,6 +24,7 @@ sim::World quiet_world(const sim::SoftBody& body) {
   world.settings.steps_per_second = 1;
   world.soft.push_back(body);
   sim::SoftBody& alone = world.soft.front();
+  alone.supply = nullptr;
   alone.velocities = sim::VertexArray(alone.positions.size());
   alone.material.pressure_weighting = sim::PressureWeighting::uniform;
   alone.material.damping = sim::Damping::dashpot;

@@ -58,10 +58,20 @@ class Assignment {
     std::vector<sim::KeyFrame> keys;
     for (const Value& row : *rows) {
       keys.push_back(key_frame(row));
-      if (keys.size() > 1 && keys.back()[0] <= keys[keys.size() - 2][0]) {
-        refuse(row, fmt::format("{}: the row of {} s follows that of {} s; times must rise",
-                                key_.name, keys.back()[0], keys[keys.size() - 2][0]));
-      }
+      check_times(row, keys);
+    }
+    *member = std::move(keys);
+  }
+
+  void operator()(std::vector<TimedValue>* member) const {
+    const auto* rows = std::get_if<Array>(&value_.data);
+    if (rows == nullptr || rows->empty()) {
+      refuse_type(value_, key_.name, "an array of rows [time, value]");
+    }
+    std::vector<TimedValue> keys;
+    for (const Value& row : *rows) {
+      keys.push_back(timed_value(row));
+      check_times(row, keys);
     }
     *member = std::move(keys);
   }
@@ -115,7 +125,8 @@ class Assignment {
                               key_.range.text(key_.name), unit, key_.meaning));
   }
 
-  double number(const Value& value, std::string_view name) const {
+  /// `in_range`: or any finite number.
+  double number(const Value& value, std::string_view name, bool in_range = true) const {
     double result = 0.0;
     if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
       result = static_cast<double>(*whole);
@@ -124,7 +135,7 @@ class Assignment {
     } else {
       refuse_type(value, name, "a number");
     }
-    check_range(value, name, result);
+    if (in_range || !std::isfinite(result)) check_range(value, name, result);
     return result;
   }
 
@@ -174,6 +185,30 @@ class Assignment {
     return result;
   }
 
+  template <class Row>
+  void check_times(const Value& row, const std::vector<Row>& keys) const {
+    if (keys.size() < 2 || keys.back()[0] > keys[keys.size() - 2][0]) return;
+    refuse(row, fmt::format("{}: the row of {} s follows that of {} s; times must rise", key_.name,
+                            keys.back()[0], keys[keys.size() - 2][0]));
+  }
+
+  void check_start(const Value& time, double seconds) const {
+    if (seconds >= 0.0) return;
+    refuse(time, fmt::format("{}: a time of {} s is before the start; allowed: 0 or more",
+                             key_.name, seconds));
+  }
+
+  TimedValue timed_value(const Value& row) const {
+    const auto* elements = std::get_if<Array>(&row.data);
+    if (elements == nullptr || elements->size() != 2) {
+      refuse_type(row, key_.name, "a row [time, value]");
+    }
+    const TimedValue key = {number((*elements)[0], fmt::format("{} time", key_.name), false),
+                            number((*elements)[1], key_.name)};
+    check_start(elements->front(), key[0]);
+    return key;
+  }
+
   sim::KeyFrame key_frame(const Value& row) const {
     const auto* elements = std::get_if<Array>(&row.data);
     if (elements == nullptr || elements->size() != 4) {
@@ -184,11 +219,7 @@ class Assignment {
       key[i] =
           number((*elements)[i], i == 0 ? fmt::format("{} time", key_.name) : element_name(i - 1));
     }
-    if (key[0] < 0.0) {
-      refuse(elements->front(), fmt::format("{}: a time of {} s is before the start; allowed: 0 or "
-                                            "more",
-                                            key_.name, key[0]));
-    }
+    check_start(elements->front(), key[0]);
     return key;
   }
 

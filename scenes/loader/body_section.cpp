@@ -51,8 +51,20 @@ Section body_section(BodyScene& body) {
   const Applicability boxes{"boxes", box, true};
   const Applicability models{"models", model, true};
   const Applicability soft_bodies{"soft bodies", soft};
-  const Applicability filled_by_n{"soft bodies without gauge_pressure and inflation",
-                                  soft && !body.gauge_pressure && !body.inflation};
+  const Applicability with_k{soft ? "soft bodies without stiffness" : "soft bodies",
+                             soft && !body.stiffness};
+  const Applicability with_vertex_mass{soft ? "soft bodies without density" : "soft bodies",
+                                       soft && !body.density};
+  const Applicability with_density{"soft bodies with density", soft && body.density};
+  const Applicability filled_by_n{
+      "soft bodies without gauge_pressure, inflation and supply.n",
+      soft && !body.gauge_pressure && !body.inflation && body.supply_n.empty()};
+  const Applicability of_one_temperature{
+      soft ? "soft bodies without supply.temperature" : "soft bodies",
+      soft && body.supply_temperature.empty()};
+  const Applicability supplied{"soft bodies with supply.n or supply.temperature",
+                               soft && !(body.supply_n.empty() && body.supply_temperature.empty())};
+  const Applicability leaking{"soft bodies with leak.area", soft && body.leak.area > 0.0};
   const Applicability rigid_bodies{"rigid bodies", rigid};
   const Applicability free_bodies{"soft and rigid bodies", soft || rigid};
   const bool handled = soft && !body.pinned.empty();
@@ -109,7 +121,10 @@ Section body_section(BodyScene& body) {
 
           only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
                              "of the springs: in the shape, or so that it holds its gas"}),
-          only(soft_bodies, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
+          only(with_k, {"k", &material.k, at_least(0), "N/m", "spring constant"}),
+          only(soft_bodies, selector({"stiffness", &body.stiffness, at_least(0), "N/m",
+                                      "of the skin, whatever its mesh: Young's modulus times "
+                                      "thickness; instead of k, which is 0.866 times that"})),
           only(filled_by_n, {"n", &material.n, at_least(0), "mol",
                              "amount of gas; or give gauge_pressure, or inflation"}),
           only(soft_bodies, selector({"gauge_pressure", &body.gauge_pressure, any(), "Pa",
@@ -118,12 +133,29 @@ Section body_section(BodyScene& body) {
           only(soft_bodies,
                selector({"inflation", &body.inflation, at_least(1), "",
                          "volume at rest, without weight, over that of the shape; instead of n"})),
-          only(soft_bodies, {"temperature", &material.temperature, at_least(0), "K",
-                             "of the gas, at the start"}),
+          only(of_one_temperature, {"temperature", &material.temperature, at_least(0), "K",
+                                    "of the gas, at the start"}),
+          only(soft_bodies, selector({"supply.n", &body.supply_n, at_least(0), "s, mol",
+                                      "keys in time: the amount of gas; what is pumped in, if some "
+                                      "leaks or flows through a valve"})),
+          only(soft_bodies,
+               selector({"supply.temperature", &body.supply_temperature, at_least(0), "s, K",
+                         "keys in time: of the gas; only with a gas_exponent of 1"})),
+          only(supplied, {"supply.smooth", &body.supply_smooth, any(), "",
+                          "between keys a smooth curve; false: an even change"}),
+          only(soft_bodies, selector({"leak.area", &body.leak.area, between(0, max_hole), "m^2",
+                                      "of a hole through which gas flows out; 0: none"})),
+          only(leaking, {"leak.discharge", &body.leak.discharge, above_to(0, 1), "",
+                         "coefficient of the hole: 0.61 has sharp edges, 1 loses nothing"}),
           only(soft_bodies,
                of_method({"gas_exponent", &material.gas_exponent, between(1, 10), "",
                           "g of P V^g = constant: 1 isothermal, 1.4 air without heat exchange"})),
-          only(soft_bodies, {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
+          only(with_vertex_mass,
+               {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
+          only(soft_bodies, selector({"density", &body.density, above(0), "kg/m^3",
+                                      "of the skin, whatever its mesh; instead of vertex_mass"})),
+          only(with_density,
+               {"thickness", &body.thickness, length(), "m", "of the skin, for its mass"}),
           only(soft_bodies,
                of_method({"pressure_weighting", word(material.pressure_weighting, pressures), any(),
                           "", "uniform: conservative; valence: the paper's"})),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -23,6 +24,7 @@ class Checks {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       check_body(scene_.bodies[i], headers_[i]);
     }
+    check_joints();
     check_counts();
     check_memory();
   }
@@ -133,6 +135,7 @@ class Checks {
     check_kinematic(body, header);
     check_integrator(body, header);
     check_gas(body, header);
+    check_supply(body, header);
     check_spacing(body, header);
   }
 
@@ -191,6 +194,45 @@ class Checks {
                   "temperature = 0 K: such gas has no pressure, however much of it; give a "
                   "temperature above 0 K, such as 293.15");
     }
+  }
+
+  void check_supply(const BodyScene& body, Origin header) {
+    if (body.kind != BodyKind::soft || !has_supply(body)) return;
+    const Origin at =
+        reader_.origin({&body.supply_n, &body.supply_temperature, &body.leak.area}, header);
+    if (sim::is_as_printed(scene_.settings)) refuse_beside_paper(at, "supply and leak");
+    if (!body.supply_n.empty() && (body.gauge_pressure || body.inflation)) {
+      report_.add(at,
+                  "both supply.n and gauge_pressure or inflation say how much gas the body has at "
+                  "the start; leave out one of the two");
+    }
+    if (!body.supply_temperature.empty() && body.material.gas_exponent != 1.0 &&
+        reader_.valid({&body.supply_temperature, &body.material.gas_exponent})) {
+      report_.add(reader_.origin({&body.supply_temperature}, header),
+                  fmt::format("supply.temperature says what the gas exchanges heat for, and "
+                              "gas_exponent = {} that it does so otherwise; leave out one of the "
+                              "two, or set gas_exponent = 1",
+                              body.material.gas_exponent));
+    }
+    const bool runs_out =
+        std::ranges::any_of(body.supply_n, [](const TimedValue& key) { return key[1] == 0.0; });
+    if (runs_out && scene_.ambient_pressure > 0.0) {
+      report_.add(reader_.origin({&body.supply_n}, header),
+                  "supply.n of 0 mol beside ambient_pressure: a body without gas is an open "
+                  "membrane, on which nothing outside presses; give it a little gas");
+    }
+  }
+
+  void refuse_beside_paper(Origin at, std::string_view what) {
+    report_.add(
+        at, fmt::format("simulation.method = \"paper\" has no {}; leave out one of the two", what));
+  }
+
+  void check_joints() {
+    const Origin at = reader_.origin({&scene_.settings.method}, whole_file);
+    if (!sim::is_as_printed(scene_.settings)) return;
+    if (!scene_.valves.empty()) refuse_beside_paper(at, "valves");
+    if (!scene_.springs.empty()) refuse_beside_paper(at, "springs between bodies");
   }
 
   void check_spacing(const BodyScene& body, Origin header) {

@@ -70,6 +70,7 @@ struct ValueText {
     return rows_text(*value);
   }
   std::string operator()(const std::vector<Region>* value) const { return rows_text(*value); }
+  std::string operator()(const std::vector<TimedValue>* value) const { return rows_text(*value); }
   std::string operator()(const std::optional<sim::ContactMaterial>* value) const {
     return value->has_value() ? "true" : "false";
   }
@@ -92,6 +93,7 @@ struct TypeText {
   std::string operator()(const std::vector<Region>*) const {
     return "rows [xmin, ymin, zmin, xmax, ymax, zmax]";
   }
+  std::string operator()(const std::vector<TimedValue>*) const { return "rows [time, value]"; }
   std::string operator()(const std::optional<sim::ContactMaterial>*) const {
     return "true or false";
   }
@@ -146,8 +148,12 @@ std::string type_text(const Slot& slot) { return std::visit(TypeText{}, slot); }
 
 std::string value_text(const Slot& slot) { return std::visit(ValueText{}, slot); }
 
+bool is_listed(std::string_view table) {
+  return table == "body" || table == "valve" || table == "spring";
+}
+
 std::string header_of(std::string_view table) {
-  return table == "body" ? "[[body]]" : fmt::format("[{}]", table);
+  return is_listed(table) ? fmt::format("[[{}]]", table) : fmt::format("[{}]", table);
 }
 
 std::string place_of(std::string_view table) {

@@ -35,10 +35,11 @@ struct Word {
 
 /// The member that a key sets. An optional surface is set by a boolean: there or not. Nothing when
 /// the key does not apply and its member does not exist.
-using Slot = std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
-                          std::optional<double>*, std::optional<Vec3>*, std::array<int, 3>*,
-                          std::vector<std::string>*, std::vector<sim::KeyFrame>*,
-                          std::vector<Region>*, std::optional<sim::ContactMaterial>*, Word>;
+using Slot =
+    std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
+                 std::optional<double>*, std::optional<Vec3>*, std::array<int, 3>*,
+                 std::vector<std::string>*, std::vector<sim::KeyFrame>*, std::vector<Region>*,
+                 std::vector<TimedValue>*, std::optional<sim::ContactMaterial>*, Word>;
 
 /// The address that identifies a slot's member.
 const void* member_of(const Slot& slot);
@@ -71,10 +72,14 @@ struct Key {
 
 /// One table of a scene file.
 struct Section {
-  std::string_view table;  // "", "simulation", "simulation.particles", ..., "body"
-  std::string what;        // "a soft sphere": what decides which keys apply
+  std::string_view
+      table;         // "", "simulation", "simulation.particles", ..., "valve", "spring", "body"
+  std::string what;  // "a soft sphere": what decides which keys apply
   std::vector<Key> keys;
 };
+
+/// Whether a scene may have several of it, each written [[NAME]].
+bool is_listed(std::string_view table);
 
 /// "[camera]", "[[body]]": the line that starts a table.
 std::string header_of(std::string_view table);

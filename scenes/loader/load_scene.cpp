@@ -27,6 +27,8 @@ class Loader {
   void load() {
     for (const SectionMaker make : section_makers()) read_section(make);
     const std::vector<Origin> headers = read_bodies();
+    read_list("valve", scene_.valves, valve_section);
+    read_list("spring", scene_.springs, spring_section);
     reader_.report_idle_overrides();
     apply_method(scene_, reader_, report_);
     check_scene(scene_, reader_, headers, report_);
@@ -68,7 +70,8 @@ class Loader {
     if (member == nullptr) {
       // A misspelt [[body]] was refused with its right name already.
       const bool misspelt = std::ranges::any_of(document_, [](const Member& other) {
-        return std::holds_alternative<Array>(other.value.data) && holds_tables(other.value);
+        return std::holds_alternative<Array>(other.value.data) && holds_tables(other.value) &&
+               !is_listed(other.key);
       });
       if (!misspelt) report_.add(whole_file, "a scene needs at least one [[body]]");
       return {};
@@ -102,6 +105,34 @@ class Loader {
       body.still_place = place_of_key(&body.still);
     }
     return headers;
+  }
+
+  /// Those that a scene may do without.
+  template <class Item>
+  void read_list(std::string_view name, std::vector<Item>& items, Section (*section)(Item&)) {
+    const Member* member = find(document_, name);
+    if (member == nullptr) return;
+    const Array* list = std::get_if<Array>(&member->value.data);
+    if (list == nullptr || !std::ranges::all_of(*list, [](const Value& value) {
+          return std::holds_alternative<Table>(value.data);
+        })) {
+      report_.add(member->at, fmt::format("each {0} is written [[{0}]], with two brackets; got {1}",
+                                          name, describe(member->value)));
+      return;
+    }
+    items.resize(list->size());
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Table& table = std::get<Table>((*list)[i].data);
+      items[i].place = report_.place((*list)[i].at);
+      reader_.read_selectors(table, section(items[i]));
+      reader_.read_others(table, section(items[i]));
+      for (const auto& [key, end] : {std::pair("from", &items[i].from), {"to", &items[i].to}}) {
+        if (!end->empty() || !reader_.valid({end})) continue;
+        report_.add((*list)[i].at, fmt::format("a {} needs the names of two bodies; write {} = "
+                                               "\"...\"",
+                                               name, key));
+      }
+    }
   }
 
   void read_body(const Table& table, BodyScene& body, Origin header) {
@@ -239,6 +270,8 @@ std::vector<SceneInfo> list_scenes(const std::filesystem::path& folder) {
       info.title = scene.title;
       info.figure = scene.figure;
       info.paper_fps = scene.paper_fps;
+      info.has_flow_or_springs = !scene.valves.empty() || !scene.springs.empty() ||
+                                 std::ranges::any_of(scene.bodies, has_supply);
     } catch (const SceneError& invalid) {
       info.error = to_string(invalid.diagnostics().front());
     }

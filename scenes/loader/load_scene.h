@@ -67,7 +67,8 @@ struct SceneInfo {
   std::string title;
   std::string figure;
   std::optional<double> paper_fps;
-  std::string error;  // the first error, when the scene is not valid
+  bool has_flow_or_springs = false;  // gas that comes or goes, or springs between bodies
+  std::string error;                 // the first error, when the scene is not valid
 };
 
 /// The .toml files of a folder, sorted by name. Throws SceneError when the folder cannot be read.

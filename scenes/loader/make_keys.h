@@ -14,6 +14,9 @@ namespace pneuma::scenes {
 // 6 cm.
 inline constexpr double farthest = 1e6;
 
+// m^2, of an opening through which gas flows.
+inline constexpr double max_hole = 1e3;
+
 inline Range any() { return {}; }
 inline Range at_least(double low) { return {.low = low}; }
 inline Range above(double low) { return {.low = low, .low_open = true}; }

@@ -9,10 +9,6 @@ namespace pneuma::scenes {
 namespace {
 
 constexpr std::string_view inverse_step = "the inverse of the time step";
-constexpr std::string_view no_density =
-    "masses are given, not densities: in kg per vertex of a soft body, or as body.mass in kg of a "
-    "rigid box";
-
 constexpr std::array names_elsewhere = {
     OtherName{"fps", "picture.frames_per_second", ""},
     OtherName{"frame_rate", "picture.frames_per_second", ""},
@@ -23,8 +19,6 @@ constexpr std::array names_elsewhere = {
     OtherName{"fov", "camera.field_of_view", "vertical, in degrees"},
     OtherName{"look_at", "camera.target", ""},
     OtherName{"lookat", "camera.target", ""},
-    OtherName{"density", "body.vertex_mass", no_density},
-    OtherName{"stiffness", "body.k", "the spring constant in N/m"},
     OtherName{"gas", "body.n", "the amount of gas in mol"},
     OtherName{"drag", "body.rho_g", "a fraction per 1/60 s"},
     OtherName{"color", "body.colours", "an array of strings"},

@@ -79,9 +79,8 @@ std::optional<std::string> key_at(const std::vector<std::string>& path, std::siz
 
 class Override {
  public:
-  Override(Table& document, int index) : document_(document), index_(index) {
-    if (Member* body = find(document, "body")) bodies_ = std::get_if<Array>(&body->value.data);
-  }
+  Override(Table& document, int index)
+      : document_(document), index_(index), bodies_(list_of("body")) {}
 
   void apply(std::string_view text) {
     const std::size_t equals = text.find('=');
@@ -95,8 +94,8 @@ class Override {
           "expected PATH=VALUE, where PATH is names with full stops between them"};
     }
     value_ = parse_value(trimmed(text.substr(equals + 1)), index_);
-    if (path[0] == "body")
-      put_into_bodies(path);
+    if (is_listed(path[0]))
+      put_into_list(path);
     else if (path.size() == 1 || is_table(path[0]))
       put_into_table(path);
     else
@@ -140,24 +139,33 @@ class Override {
     return std::get_if<Table>(&find(table, name)->value.data);
   }
 
+  Array* list_of(std::string_view table) {
+    Member* list = find(document_, table);
+    return list == nullptr ? nullptr : std::get_if<Array>(&list->value.data);
+  }
+
   std::size_t body_count() const { return bodies_ == nullptr ? 0 : bodies_->size(); }
 
-  void put_into_bodies(const std::vector<std::string>& path) {
+  void put_into_list(const std::vector<std::string>& path) {
+    Array* list = list_of(path[0]);
+    const std::size_t count = list == nullptr ? 0 : list->size();
     if (const auto key = key_at(path, 1)) {
-      for (std::size_t i = 0; i < body_count(); ++i) put_into_body(i, *key, true);
+      for (std::size_t i = 0; i < count; ++i) put_into((*list)[i], *key, true);
       return;
     }
     const auto key = key_at(path, 2);
-    if (!key) throw RefusedOverride{"expected body.KEY=VALUE or body.NUMBER.KEY=VALUE"};
+    if (!key) {
+      throw RefusedOverride{fmt::format("expected {0}.KEY=VALUE or {0}.NUMBER.KEY=VALUE", path[0])};
+    }
     std::size_t number = 0;
     const char* end = path[1].data() + path[1].size();
     const auto [stop, error] = std::from_chars(path[1].data(), end, number);
-    if (error != std::errc() || stop != end || number < 1 || number > body_count()) {
+    if (error != std::errc() || stop != end || number < 1 || number > count) {
       throw RefusedOverride{
-          fmt::format("there is no body number {}; the scene has {}, counted from 1",
-                      in_quotes(path[1]), body_count())};
+          fmt::format("there is no {} number {}; the scene has {}, counted from 1", path[0],
+                      in_quotes(path[1]), count)};
     }
-    put_into_body(number - 1, *key, false);
+    put_into((*list)[number - 1], *key, false);
   }
 
   void put_into_named_body(const std::vector<std::string>& path) {
@@ -180,7 +188,7 @@ class Override {
     }
     const auto key = key_at(path, 1);
     if (!key) throw RefusedOverride{"expected NAME.KEY=VALUE"};
-    put_into_body(static_cast<std::size_t>(found - names.begin()), *key, false);
+    put_into((*bodies_)[static_cast<std::size_t>(found - names.begin())], *key, false);
   }
 
   std::string body_name(std::size_t i) const {
@@ -190,15 +198,13 @@ class Override {
     return text == nullptr ? default_name(i) : *text;
   }
 
-  void put_into_body(std::size_t i, const std::string& key, bool where_it_applies) {
-    if (auto* table = std::get_if<Table>(&(*bodies_)[i].data)) {
-      put(*table, key, value_, where_it_applies);
-    }
+  void put_into(Value& item, const std::string& key, bool where_it_applies) {
+    if (auto* table = std::get_if<Table>(&item.data)) put(*table, key, value_, where_it_applies);
   }
 
   Table& document_;
   int index_;
-  Array* bodies_ = nullptr;
+  Array* bodies_;
   Value value_;
 };
 

@@ -71,6 +71,16 @@ std::string scene_text(Scene scene, bool comments) {
     text += "\n[[body]]\n";
     text += section_text(body_section(scene.bodies[i]), body_section(unsaid), comments, as_printed);
   }
+  ValveScene any_valve;
+  for (ValveScene& valve : scene.valves) {
+    text += "\n[[valve]]\n";
+    text += section_text(valve_section(valve), valve_section(any_valve), comments, as_printed);
+  }
+  SpringScene any_spring;
+  for (SpringScene& spring : scene.springs) {
+    text += "\n[[spring]]\n";
+    text += section_text(spring_section(spring), spring_section(any_spring), comments, as_printed);
+  }
   return text;
 }
 

@@ -31,15 +31,19 @@ const RenamedKey* find_renamed(std::string_view table, std::string_view key) {
   return found == renamed_keys.end() ? nullptr : &*found;
 }
 
-/// For a key that is known, but in another table: "; it belongs in [camera]", or nothing.
+/// For a key that is known, but in another table: "; it belongs in [camera]", or nothing. What
+/// joins bodies is thought of last.
 std::string belongs_elsewhere(std::string_view key) {
+  const Section* found = nullptr;
   for (const Section& section : default_sections()) {
     const bool here = std::any_of(section.keys.begin(), section.keys.end(),
                                   [&](const Key& known) { return known.name == key; });
-    if (!here) continue;
-    return fmt::format("; it belongs {}", place_of(section.table));
+    const bool joins = is_listed(section.table) && section.table != "body";
+    if (!here || (joins && found != nullptr)) continue;
+    found = &section;
+    if (!joins) break;
   }
-  return {};
+  return found == nullptr ? std::string() : fmt::format("; it belongs {}", place_of(found->table));
 }
 
 /// "simulation" of "simulation.particles"; of a table at the top itself.

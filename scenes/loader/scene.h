@@ -27,6 +27,9 @@ enum class BodyKind {
 /// A box along x, y, z: where it begins, then where it ends along each, m.
 using Region = std::array<double, 6>;
 
+/// A time in s, and what is reached by it.
+using TimedValue = std::array<double, 2>;
+
 enum class Shape { sphere, torus, box, icosphere, model };
 
 /// When a soft body's springs are at rest.
@@ -72,11 +75,20 @@ struct BodyScene {
   Vec3 size = {2.0, 2.0, 2.0};  // m: box
   ModelScene model;             // model
 
-  Rest rest = Rest::shape;               // soft
+  Rest rest = Rest::shape;  // soft
+  // Of the skin of a soft body, in place of vertex_mass and k: whatever the mesh.
+  std::optional<double> density;         // kg/m^3
+  double thickness = 0.001;              // m; means something beside density only
+  std::optional<double> stiffness;       // N/m: Young's modulus times thickness
   std::optional<double> gauge_pressure;  // Pa at the start, above the ambient pressure: soft
   std::optional<double> inflation;       // volume at rest over that of the shape: soft
   // soft; with one of the two above, n and start_volume are of app/world/fill_body.h
   sim::SoftMaterial material;
+
+  std::vector<TimedValue> supply_n;            // s, mol: soft, in place of n
+  std::vector<TimedValue> supply_temperature;  // s, K: soft, in place of the temperature
+  bool supply_smooth = true;
+  sim::Orifice leak;  // soft; without an area there is none
 
   double mass = sim::RigidBox{}.mass;    // kg: rigid
   double rho_g = sim::RigidBox{}.rho_g;  // rigid; a soft body's is in its material
@@ -102,6 +114,24 @@ struct BodyScene {
   double roughness = 0.35;  // of the drawn surface
 };
 
+/// An opening between the gas of two bodies.
+struct ValveScene {
+  Place place;  // of its [[valve]]
+  std::string from, to;
+  sim::Orifice orifice = {.area = 0.01};
+};
+
+/// A spring between two bodies.
+struct SpringScene {
+  Place place;  // of its [[spring]]
+  std::string from, to;
+  std::optional<Vec3> from_point, to_point;    // m, in world coordinates
+  std::vector<Region> from_region, to_region;  // instead of points
+  double k = 50.0;                             // N/m
+  double damping = 0.0;                        // N s/m
+  std::optional<double> rest_length;           // m
+};
+
 /// Without an eye and a target the camera is placed so that every body is in view over the whole
 /// run.
 struct CameraScene {
@@ -119,8 +149,9 @@ struct PictureScene {
   int samples = 4;
   bool shadows = true;
   bool caption = true;
-  bool grid = true;     // draw the ground plane with its grid, where the scene has a ground
-  bool rounded = true;  // draw coarse soft bodies round, not as the flat triangles they are
+  bool pressures = false;  // on the caption
+  bool grid = true;        // draw the ground plane with its grid, where the scene has a ground
+  bool rounded = true;     // draw coarse soft bodies round, not as the flat triangles they are
 };
 
 /// What a scene may ask for at most, so that a slip of the pen does not fill the memory or run for
@@ -156,6 +187,8 @@ struct Scene {
   sim::Settings settings;
   double ambient_pressure = 0.0;  // Pa, outside of every body with gas
   std::vector<BodyScene> bodies;
+  std::vector<ValveScene> valves;
+  std::vector<SpringScene> springs;
   CameraScene camera;
   PictureScene picture;
   Limits limits;
@@ -164,6 +197,11 @@ struct Scene {
 /// Whether it becomes a sim::RigidBox: else it has a mesh of its own.
 inline bool is_box(const BodyScene& body) {
   return body.kind == BodyKind::rigid || (body.kind != BodyKind::soft && body.shape == Shape::box);
+}
+
+/// Whether the gas of the body comes or goes by itself, without a valve.
+inline bool has_supply(const BodyScene& body) {
+  return !body.supply_n.empty() || !body.supply_temperature.empty() || body.leak.area > 0.0;
 }
 
 /// Vertices of one copy; a rigid box has 8. 0 for a model: only its file knows, and it is read when

@@ -166,6 +166,8 @@ Section picture_section(Scene& scene) {
            "per pixel; four cost up to 1.7 times as much as one"},
           {"shadows", &picture.shadows, any(), "", "draw shadows"},
           {"caption", &picture.caption, any(), "", "draw the caption"},
+          {"pressures", &picture.pressures, any(), "",
+           "the caption gives the pressure in each body with gas, above ambient_pressure"},
           {"grid", &picture.grid, any(), "", "draw the ground with its grid, where there is one"},
           {"rounded", &picture.rounded, any(), "",
            "draw coarse soft bodies round; false: as the flat triangles that are simulated"},
@@ -212,8 +214,14 @@ namespace {
 
 /// Every section points into the scene or the body beside it.
 struct Defaults {
-  Defaults() : sections(fixed_sections(scene)) { sections.push_back(body_section(body)); }
+  Defaults() : sections(fixed_sections(scene)) {
+    sections.push_back(valve_section(valve));
+    sections.push_back(spring_section(spring));
+    sections.push_back(body_section(body));
+  }
   Scene scene;
+  ValveScene valve;
+  SpringScene spring;
   BodyScene body = default_body(0);
   std::vector<Section> sections;
 };

@@ -24,6 +24,8 @@ std::span<const SectionMaker> section_makers();
 std::vector<Section> fixed_sections(Scene& scene);
 
 Section body_section(BodyScene& body);
+Section valve_section(ValveScene& valve);
+Section spring_section(SpringScene& spring);
 
 /// All there are, with the values of a scene and of a first body as they are made: [[body]] is
 /// last.

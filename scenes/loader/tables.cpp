@@ -15,7 +15,7 @@ namespace {
 std::vector<std::string_view> find_table_names() {
   std::vector<std::string_view> names;
   for (const Section& section : default_sections()) {
-    if (!section.table.empty() && section.table != "body") names.push_back(section.table);
+    if (!section.table.empty() && !is_listed(section.table)) names.push_back(section.table);
   }
   return names;
 }
@@ -45,7 +45,7 @@ std::vector<std::string_view> child_tables(std::string_view table) {
     const std::string_view parent = dot == name.npos ? "" : name.substr(0, dot);
     if (parent == table) children.push_back(dot == name.npos ? name : name.substr(dot + 1));
   }
-  if (table.empty()) children.push_back("body");
+  if (table.empty()) children.insert(children.end(), {"body", "valve", "spring"});
   return children;
 }
 

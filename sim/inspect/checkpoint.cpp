@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "sim/inspect/inspect.h"
+#include "sim/joints/gas_flow.h"
 
 namespace pneuma::sim {
 namespace {
@@ -137,6 +138,11 @@ std::vector<std::uint8_t> save_state(const World& world) {
     put(writer, body.positions);
     put(writer, body.velocities);
   }
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (!has_gas_flow(world, static_cast<int>(i))) continue;
+    writer.put(world.soft[i].material.n);
+    writer.put(world.soft[i].material.temperature);
+  }
   writer.put(world.rigid.size());
   for (const RigidBox& box : world.rigid) {
     writer.put(box.position);
@@ -183,6 +189,11 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
     reader.expect(body.positions.size(), "number of vertices in a body");
     get(reader, body.positions);
     get(reader, body.velocities);
+  }
+  for (std::size_t i = 0; i < loaded.soft.size(); ++i) {
+    if (!has_gas_flow(loaded, static_cast<int>(i))) continue;
+    reader.get(loaded.soft[i].material.n);
+    reader.get(loaded.soft[i].material.temperature);
   }
   reader.expect(loaded.rigid.size(), "number of rigid boxes");
   for (RigidBox& box : loaded.rigid) {

@@ -15,8 +15,8 @@ class CheckpointError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Everything that steps change: positions, velocities, orientations, particles, warm-start
-/// impulses, pairs that are being moved apart, the step count.
+/// Everything that steps change: positions, velocities, orientations, gas that comes and goes,
+/// particles, warm-start impulses, pairs that are being moved apart, the step count.
 std::vector<std::uint8_t> save_state(const World& world);
 
 /// Puts saved state into a world built from the same scene. Throws CheckpointError when the bytes

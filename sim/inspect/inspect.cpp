@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "sim/collision/find_body_contacts.h"
+#include "sim/joints/body_springs.h"
+#include "sim/joints/gas_flow.h"
 #include "sim/mesh/hash_vertices.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/pressure_force.h"
@@ -51,6 +53,7 @@ Energy energy(const World& world) {
   Energy sum;
   for (const SoftBody& body : world.soft) sum += energy(body, world.settings.gravity);
   for (const RigidBox& box : world.rigid) sum += energy(box, world.settings.gravity);
+  sum.spring += spring_energy_between_bodies(world);
   return sum;
 }
 
@@ -94,6 +97,11 @@ std::uint64_t state_hash(const World& world) {
   for (const SoftBody& body : world.soft) {
     add(hash, body.positions);
     add(hash, body.velocities);
+  }
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (!has_gas_flow(world, static_cast<int>(i))) continue;
+    hash.add(world.soft[i].material.n);
+    hash.add(world.soft[i].material.temperature);
   }
   for (const RigidBox& box : world.rigid) {
     add(hash, box.position);

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "sim/inspect/inspect.h"
+#include "sim/joints/body_springs.h"
+#include "sim/joints/gas_flow.h"
 #include "sim/soft/pins.h"
 
 namespace pneuma::sim {
@@ -23,12 +25,14 @@ int body_count(const World& world) {
   return soft_count(world) + static_cast<int>(world.rigid.size());
 }
 
-/// Handles may move whenever their keys say so.
+/// Handles may move whenever their keys say so, gas may come or go, and what is at the other end of
+/// a spring may move.
 bool may_sleep(const World& world, int body) {
   if (is_kinematic(world, body)) return false;
   if (body >= soft_count(world)) return true;
   const SoftBody& soft = world.soft[at(body)];
-  return !soft.pins || !soft.pins->are_moved;
+  if (soft.pins && soft.pins->are_moved) return false;
+  return !has_gas_flow(world, body) && !has_springs(world, body);
 }
 
 /// Whether no point of the body has moved further, m. Velocities would not tell: those of a vertex
@@ -68,8 +72,11 @@ double halt(World& world, int body) {
 
 FallAsleep::FallAsleep(const World& world)
     : parents_(at(body_count(world))),
+      never_sleeps_(parents_.size()),
       is_touched_(parents_.size()),
-      stays_awake_(parents_.size()) {}
+      stays_awake_(parents_.size()) {
+  for (int i = 0; i < body_count(world); ++i) never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
+}
 
 int FallAsleep::root(int body) {
   while (parents_[at(body)] != body) {
@@ -87,7 +94,7 @@ bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   bool any = false;
   for (int i = 0; i < body_count(world); ++i) {
     BodyRest& rest = world.rest[at(i)];
-    if (rest.group >= 0 || !may_sleep(world, i)) continue;
+    if (rest.group >= 0 || never_sleeps_[at(i)] != 0) continue;
     const bool is_quiet = has_moved_less(world, start, i, least);
     rest.quiet_steps = is_quiet ? std::min(rest.quiet_steps + 1, enough) : 0;
     any = any || rest.quiet_steps == enough;

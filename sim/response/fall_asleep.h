@@ -31,9 +31,10 @@ class FallAsleep {
   void find_who_stays_awake(const World& world, std::span<const Contact> contacts);
   int root(int body);
 
-  std::vector<int> parents_;               // per body
-  std::vector<std::uint8_t> is_touched_;   // per root
-  std::vector<std::uint8_t> stays_awake_;  // per root
+  std::vector<int> parents_;                // per body
+  std::vector<std::uint8_t> never_sleeps_;  // per body
+  std::vector<std::uint8_t> is_touched_;    // per root
+  std::vector<std::uint8_t> stays_awake_;   // per root
 };
 
 /// Bodies that sleep with a velocity, which someone has given them, wake.

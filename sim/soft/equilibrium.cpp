@@ -159,11 +159,15 @@ void check_strain(const MeshTopology& topology, const VertexArray& positions, co
   if (strain.value < 1.0) return;
   const double balanced = balanced_gas(topology, positions, material);
   const auto& [a, b] = topology.edges()[at(strain.edge)];
+  SoftMaterial most = material;
+  most.n = balanced + (material.n - balanced) / strain.value;
+  const double pressure = gauge_pressure(gas_law(most), volume(topology, positions));
   throw EquilibriumError(
       "n = " + base::text(material.n) + " mol of gas is more than the springs can hold: at k = " +
       base::text(material.k) + " N/m and " + base::text(material.temperature) +
-      " K at most n = " + base::text_below(balanced + (material.n - balanced) / strain.value) +
-      " mol, where the spring of edge " + std::to_string(a) + "-" + std::to_string(b) +
+      " K at most n = " + base::text_below(most.n) + " mol, a gauge_pressure of " +
+      (pressure > 0.0 ? base::text_below(pressure) : base::text(pressure)) +
+      " Pa, where the spring of edge " + std::to_string(a) + "-" + std::to_string(b) +
       " would have no rest length left. Use no more gas than that, or at least k = " +
       base::text_above(material.k * strain.value) + " N/m");
 }

@@ -183,6 +183,13 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   return find_gained_energy(world, body, start);
 }
 
+std::optional<Divergence> find_divergence_of_joined(const World& world, const SoftBody& body,
+                                                    const SoftState& start, double min_volume) {
+  constexpr Stage stage = Stage::integrate_soft;
+  if (auto wild = find_wild_vertex(world, stage, body, motion_sums(body))) return wild;
+  return find_lost_volume(world, stage, body, start, min_volume);
+}
+
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body) {
   constexpr Stage stage = Stage::resolve_contacts;
   const MotionSums sums = motion_sums(body);

@@ -29,6 +29,10 @@ inline constexpr double max_growth = 64.0;
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
                                           const SoftState& start, double min_volume);
 
+/// The same of a body on which springs to others do work, whose energy is not looked at.
+std::optional<Divergence> find_divergence_of_joined(const World& world, const SoftBody& body,
+                                                    const SoftState& start, double min_volume);
+
 /// After resolve_contacts.
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body);
 std::optional<Divergence> find_divergence(const World& world, const RigidBox& box);

@@ -22,6 +22,14 @@ void hand_over(SoftBody& body, SoftState& start, bool keep) {
   std::swap(start.velocities, body.velocities);
 }
 
+/// What follows the integrator's own work.
+void finish(SoftBody& body, const SoftState& start, double step) {
+  if (body.material.damping == Damping::literal) {
+    body.velocities.rows() *= 1.0 - literal_fraction(body.material);
+  }
+  hold_pins(body, start, step);
+}
+
 /// From `start`, which is also in the body if the integrator is implicit.
 std::optional<Divergence> integrate(const World& world, SoftBody& body, const SoftState& start,
                                     IntegratorScratch& scratch) {
@@ -48,11 +56,50 @@ std::optional<Divergence> integrate(const World& world, SoftBody& body, const So
     min_volume = integrate(settings.integrator, acceleration, time_step(settings), start,
                            body.positions, body.velocities, scratch);
   }
-  if (body.material.damping == Damping::literal) {
-    body.velocities.rows() *= 1.0 - literal_fraction(body.material);
-  }
-  hold_pins(body, start, time_step(settings));
+  finish(body, start, time_step(settings));
   return find_divergence(world, body, start, min_volume);
+}
+
+/// Bodies that springs join. Returns the first one's failure.
+std::optional<Divergence> integrate(World& world, JoinedStep& group,
+                                    std::span<const SoftState> start,
+                                    const std::vector<int>& mesh_of_body,
+                                    std::vector<IntegratorScratch>& scratch) {
+  const auto scratch_of = [&](int body) -> IntegratorScratch& {
+    return scratch[at(mesh_of_body[at(body)])];
+  };
+  const std::vector<int>& bodies = group.bodies();
+  if (bodies.size() == 1) {
+    const int alone = bodies.front();
+    return integrate(world, world.soft[at(alone)], start[at(alone)], scratch_of(alone));
+  }
+  const std::span<const double> min_volumes = group.step(world, start, scratch_of);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    SoftBody& body = world.soft[at(bodies[i])];
+    const SoftState& before = start[at(bodies[i])];
+    finish(body, before, time_step(world.settings));
+    if (is_kinematic(world, bodies[i])) continue;
+    if (auto failed = find_divergence_of_joined(world, body, before, min_volumes[i])) return failed;
+  }
+  return std::nullopt;
+}
+
+void integrate_groups(World& world, std::vector<SoftState>& start, IntegrateSoftMemory& memory,
+                      Workers& workers) {
+  const bool keep = is_implicit(world.settings.integrator);
+  const auto block = [&](int begin, int end, int thread) {
+    for (int i = begin; i < end; ++i) {
+      JoinedStep& group = memory.groups[at(i)];
+      for (const int body : group.bodies()) {
+        hand_over(world.soft[at(body)], start[at(body)], keep || is_fixed(world, body));
+      }
+      const int first = group.bodies().front();
+      if (is_asleep(world, first)) continue;
+      memory.outcomes[at(first)] =
+          integrate(world, group, start, memory.mesh_of_body, memory.scratch[at(thread)]);
+    }
+  };
+  workers.for_blocks(static_cast<int>(memory.groups.size()), block);
 }
 
 }  // namespace
@@ -69,11 +116,24 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
           integrate(world, world.soft[at(i)], start[at(i)], memory.scratch[at(thread)][at(mesh)]);
     }
   };
-  workers.for_blocks(static_cast<int>(world.soft.size()), block);
+  workers.for_blocks(memory.alone, block);
+  if (!memory.groups.empty()) integrate_groups(world, start, memory, workers);
   for (const std::optional<Divergence>& outcome : memory.outcomes) {
     if (outcome) return outcome;
   }
   return std::nullopt;
+}
+
+std::optional<Divergence> integrate_group_again(World& world, JoinedStep& group,
+                                                std::span<const SoftState> start,
+                                                IntegrateSoftMemory& memory, int thread) {
+  for (const int i : group.bodies()) {
+    SoftBody& moved = world.soft[at(i)];
+    if (is_kinematic(world, i)) continue;
+    moved.positions = start[at(i)].positions;
+    moved.velocities = start[at(i)].velocities;
+  }
+  return integrate(world, group, start, memory.mesh_of_body, memory.scratch[at(thread)]);
 }
 
 std::optional<Divergence> integrate_soft_again(World& world, int body, const SoftState& start,

@@ -12,6 +12,7 @@
 #include "sim/collision/overlapping_pair.h"
 #include "sim/collision/particles.h"
 #include "sim/collision/sweep_and_prune.h"
+#include "sim/joints/joined_step.h"
 #include "sim/response/contact_impulse.h"
 #include "sim/response/contact_islands.h"
 #include "sim/response/depenetrate_pairs.h"
@@ -44,6 +45,8 @@ struct IntegrateSoftMemory {
 
   // One scratch per thread and distinct mesh, shared by all bodies of the mesh.
   std::vector<std::vector<IntegratorScratch>> scratch;  // [thread][mesh]
+  int alone = 0;  // soft bodies; 0 where springs join some: all are in groups then
+  std::vector<JoinedStep> groups;
   std::vector<int> mesh_of_body;
   std::vector<std::optional<Divergence>> outcomes;  // per body
 };

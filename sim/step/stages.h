@@ -22,6 +22,11 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
 std::optional<Divergence> integrate_soft_again(World& world, int body, const SoftState& start,
                                                IntegrateSoftMemory& memory, int thread);
 
+/// The same for bodies that springs join, from the states of all soft bodies.
+std::optional<Divergence> integrate_group_again(World& world, JoinedStep& group,
+                                                std::span<const SoftState> start,
+                                                IntegrateSoftMemory& memory, int thread);
+
 /// Moves every box freely (4.1), and keeps what it started from. Returns the first box's failure.
 std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start);
 std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidStart& start);

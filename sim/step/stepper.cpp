@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/inspect/inspect.h"
+#include "sim/joints/body_springs.h"
 #include "sim/rigid/given_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stage_runner.h"
@@ -62,6 +63,11 @@ IntegrateSoftMemory::IntegrateSoftMemory(const World& world, int threads)
     }
     mesh_of_body.push_back(entry->second);
   }
+  if (world.springs.empty()) {
+    alone = static_cast<int>(world.soft.size());
+  } else {
+    for (std::vector<int>& bodies : joined_bodies(world)) groups.emplace_back(world, bodies);
+  }
 }
 
 BroadPhaseMemory::BroadPhaseMemory(const World& world, bool depenetrates) {
@@ -86,6 +92,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
                               [](const RigidBox& box) { return box.motion != nullptr; }) ||
           std::ranges::any_of(
               world.soft, [](const SoftBody& body) { return body.pins && body.pins->are_moved; })),
+      has_inputs(has_given_motions || has_gas_flow(world)),
       has_pins(std::ranges::any_of(world.soft,
                                    [](const SoftBody& body) { return body.pins != nullptr; })),
       motion_start{std::vector<SoftState>(world.soft.size()),
@@ -98,6 +105,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
   if (world.settings.contact == ContactMethod::swept && may_touch_more_than_ground(plan)) {
     swept.emplace(world);
   }
+  if (has_gas_flow(world)) gas_flow.emplace(world);
 }
 
 Stepper::Stepper(const World& world, StepperOptions options)
@@ -107,14 +115,23 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 
 std::optional<Divergence> Stepper::step(World& world) {
-  if (!workspace_->has_given_motions) return step_bodies(world);
-  aim_given_motions(world);
-  aim_pins(world);
-  auto divergence = step_bodies(world);
-  if (divergence) return divergence;
-  place_given_motions(world, time(world));
-  place_pins(world, time(world));
-  return divergence;
+  if (!workspace_->has_inputs) return step_bodies(world);
+  std::optional<GasFlow>& gas_flow = workspace_->gas_flow;
+  if (gas_flow) gas_flow->begin_step(world);
+  if (workspace_->has_given_motions) {
+    aim_given_motions(world);
+    aim_pins(world);
+  }
+  if (auto divergence = step_bodies(world)) {
+    if (gas_flow) gas_flow->take_back(world);
+    return divergence;
+  }
+  if (workspace_->has_given_motions) {
+    place_given_motions(world, time(world));
+    place_pins(world, time(world));
+  }
+  if (gas_flow) gas_flow->end_step(world);
+  return std::nullopt;
 }
 
 std::optional<Divergence> Stepper::step_bodies(World& world) {
@@ -173,6 +190,9 @@ double Stepper::contact_work() const {
 }
 double Stepper::driven_work() const {
   return workspace_->swept ? workspace_->swept->driven_work : 0.0;
+}
+double Stepper::gas_work() const {
+  return workspace_->gas_flow ? workspace_->gas_flow->work() : 0.0;
 }
 const Plan& Stepper::plan() const { return workspace_->plan; }
 std::span<const Contact> Stepper::contacts() const { return workspace_->contacts; }

@@ -69,6 +69,9 @@ class Stepper {
   /// J, what the bodies that are moved have given to the energy of the bodies in the last step by
   /// pushing them: not part of contact_work, which takes both sides together.
   double driven_work() const;
+  /// J, by which gas that came or went, or was heated, changed the energy that is reported for gas
+  /// in the last step (GasFlow::work). What is left of the change of energy is of the motion.
+  double gas_work() const;
 
  private:
   std::optional<Divergence> step_bodies(World& world);

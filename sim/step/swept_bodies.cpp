@@ -343,16 +343,46 @@ void SweptBodies::shift_boxes(World& world) const {
   }
 }
 
+bool SweptBodies::is_to_move_again(int soft) const {
+  return moved_again_[at(soft)] != 0 || !changes_[at(soft)].rows().isZero(0.0);
+}
+
+/// The state of its start, with the impulses.
+const SoftState& SweptBodies::kick(const MotionStart& start, int soft) {
+  moved_again_[at(soft)] = 1;
+  SoftState& kicked = kicked_[at(soft)];
+  kicked = start.soft[at(soft)];
+  kicked.velocities.rows() += changes_[at(soft)].rows();
+  return kicked;
+}
+
+/// All of them, if one has been kicked.
+std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
+                                                  JoinedStep& group,
+                                                  IntegrateSoftMemory& integrate_soft) {
+  const std::vector<int>& bodies = group.bodies();
+  const auto is_to_move = [&](int i) { return !is_fixed(world, i) && is_to_move_again(i); };
+  if (std::ranges::none_of(bodies, is_to_move)) return std::nullopt;
+  for (const int i : bodies) {
+    if (is_kinematic(world, i)) {
+      kicked_[at(i)] = start.soft[at(i)];
+    } else {
+      kick(start, i);
+    }
+  }
+  return integrate_group_again(world, group, kicked_, integrate_soft, 0);
+}
+
 std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStart& start,
                                                   IntegrateSoftMemory& integrate_soft) {
-  for (int i = 0; i < soft_count_; ++i) {
-    if (is_fixed(world, i)) continue;
-    if (moved_again_[at(i)] == 0 && changes_[at(i)].rows().isZero(0.0)) continue;
-    moved_again_[at(i)] = 1;
-    SoftState& kicked = kicked_[at(i)];
-    kicked = start.soft[at(i)];
-    kicked.velocities.rows() += changes_[at(i)].rows();
-    if (auto failed = integrate_soft_again(world, i, kicked, integrate_soft, 0)) return failed;
+  for (int i = 0; i < integrate_soft.alone; ++i) {
+    if (is_fixed(world, i) || !is_to_move_again(i)) continue;
+    if (auto failed = integrate_soft_again(world, i, kick(start, i), integrate_soft, 0)) {
+      return failed;
+    }
+  }
+  for (JoinedStep& group : integrate_soft.groups) {
+    if (auto failed = move_again(world, start, group, integrate_soft)) return failed;
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     if (is_asleep(world, soft_count_ + static_cast<int>(i))) continue;

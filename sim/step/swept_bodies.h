@@ -114,6 +114,10 @@ class SweptBodies {
   /// `value` of each vertex of the point's feature.
   template <class Value>
   Vec3 interpolate(const SurfacePoint& point, const Value& value) const;
+  bool is_to_move_again(int soft) const;
+  const SoftState& kick(const MotionStart& start, int soft);
+  std::optional<Divergence> move_again(World& world, const MotionStart& start, JoinedStep& group,
+                                       IntegrateSoftMemory& integrate_soft);
   void place_corners(int box, const Vec3& position, const Eigen::Quaterniond& orientation,
                      VertexArray& corners) const;
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "sim/joints/gas_flow.h"
 #include "sim/step/stage_memory.h"
 #include "sim/step/swept_search.h"
 #include "sim/step/workers.h"
@@ -17,9 +18,11 @@ struct StepWorkspace {
   Plan plan;
   Workers workers;
   bool has_given_motions;
+  bool has_inputs;  // these, or gas that comes and goes
   bool has_pins;
   StageTimes stage_times{};
 
+  std::optional<GasFlow> gas_flow;  // if gas comes or goes
   MotionStart motion_start;
   PairStart pair_start;
   NearBodies near_bodies;

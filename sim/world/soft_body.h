@@ -8,6 +8,7 @@
 #include "sim/mesh/soft_mesh.h"
 #include "sim/mesh/vertex_array.h"
 #include "sim/world/contact_material.h"
+#include "sim/world/gas_supply.h"
 #include "sim/world/pins.h"
 
 namespace pneuma::sim {
@@ -53,6 +54,8 @@ struct SoftBody {
   VertexArray positions;             // m
   VertexArray velocities;            // m/s
   std::shared_ptr<const Pins> pins;  // if some of its vertices are held
+  std::shared_ptr<const GasSupply>
+      supply;  // if its gas comes and goes: n and temperature are state
 };
 
 }  // namespace pneuma::sim

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/world/body_spring.h"
 #include "sim/world/rigid_box.h"
 #include "sim/world/settings.h"
 #include "sim/world/soft_body.h"
@@ -49,6 +50,8 @@ struct World {
   Settings settings;
   std::vector<SoftBody> soft;
   std::vector<RigidBox> rigid;
+  std::vector<Valve> valves;            // between soft bodies
+  std::vector<BodySpring> springs;      // likewise
   std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
   std::vector<WarmStartImpulse>
       warm_start_impulses;  // of the last step, those of each pair one after the other

@@ -79,7 +79,8 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
   const auto& [place, rest_place, position_place, model_place, pinned_place, still_place, name,
                kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions, size,
-               model, rest, gauge_pressure, inflation, material, mass, rho_g, surface, position,
+               model, rest, density, thickness, stiffness, gauge_pressure, inflation, material,
+               supply_n, supply_temperature, supply_smooth, leak, mass, rho_g, surface, position,
                rotation, velocity, angular_velocity, pinned, motion, still, copies, spacing, jitter,
                tumble, colours, colour_axis, roughness] = a;
   c.member("name", name, b.name);
@@ -94,9 +95,17 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("size", size, b.size);
   compare(c, model, b.model);
   c.member("rest", rest, b.rest);
+  c.member("density", density, b.density);
+  c.member("thickness", thickness, b.thickness);
+  c.member("stiffness", stiffness, b.stiffness);
   c.member("gauge_pressure", gauge_pressure, b.gauge_pressure);
   c.member("inflation", inflation, b.inflation);
   compare(c, material, b.material);
+  c.member("supply.n", supply_n, b.supply_n);
+  c.member("supply.temperature", supply_temperature, b.supply_temperature);
+  c.member("supply.smooth", supply_smooth, b.supply_smooth);
+  c.member("leak.area", leak.area, b.leak.area);
+  c.member("leak.discharge", leak.discharge, b.leak.discharge);
   c.member("mass", mass, b.mass);
   c.member("body rho_g", rho_g, b.rho_g);
   compare(c, surface, b.surface);
@@ -116,6 +125,28 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("colours", colours, b.colours);
   c.member("colour_axis", colour_axis, b.colour_axis);
   c.member("roughness", roughness, b.roughness);
+}
+
+void compare(Comparison& c, const ValveScene& a, const ValveScene& b) {
+  const auto& [place, from, to, orifice] = a;
+  c.member("valve.from", from, b.from);
+  c.member("valve.to", to, b.to);
+  c.member("valve.area", orifice.area, b.orifice.area);
+  c.member("valve.discharge", orifice.discharge, b.orifice.discharge);
+}
+
+void compare(Comparison& c, const SpringScene& a, const SpringScene& b) {
+  const auto& [place, from, to, from_point, to_point, from_region, to_region, k, damping,
+               rest_length] = a;
+  c.member("spring.from", from, b.from);
+  c.member("spring.to", to, b.to);
+  c.member("spring.from_point", from_point, b.from_point);
+  c.member("spring.to_point", to_point, b.to_point);
+  c.member("spring.from_region", from_region, b.from_region);
+  c.member("spring.to_region", to_region, b.to_region);
+  c.member("spring.k", k, b.k);
+  c.member("spring.damping", damping, b.damping);
+  c.member("spring.rest_length", rest_length, b.rest_length);
 }
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
@@ -152,13 +183,15 @@ void compare(Comparison& c, const CameraScene& a, const CameraScene& b) {
 }
 
 void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {
-  const auto& [width, height, frames_per_second, samples, shadows, caption, grid, rounded] = a;
+  const auto& [width, height, frames_per_second, samples, shadows, caption, pressures, grid,
+               rounded] = a;
   c.member("width", width, b.width);
   c.member("height", height, b.height);
   c.member("frames_per_second", frames_per_second, b.frames_per_second);
   c.member("samples", samples, b.samples);
   c.member("shadows", shadows, b.shadows);
   c.member("caption", caption, b.caption);
+  c.member("pressures", pressures, b.pressures);
   c.member("grid", grid, b.grid);
   c.member("rounded", rounded, b.rounded);
 }
@@ -181,7 +214,7 @@ void compare(Comparison& c, const Limits& a, const Limits& b) {
 std::string difference(const Scene& a, const Scene& b) {
   // Where a scene's file lies and what the loader said of it is no part of what it says.
   const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings,
-               ambient_pressure, bodies, camera, picture, limits] = a;
+               ambient_pressure, bodies, valves, springs, camera, picture, limits] = a;
   Comparison c;
   c.member("scene name", name, b.name);
   c.member("title", title, b.title);
@@ -193,6 +226,14 @@ std::string difference(const Scene& a, const Scene& b) {
   c.member("number of bodies", bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < bodies.size() && i < b.bodies.size(); ++i) {
     compare(c, bodies[i], b.bodies[i]);
+  }
+  c.member("number of valves", valves.size(), b.valves.size());
+  for (std::size_t i = 0; i < valves.size() && i < b.valves.size(); ++i) {
+    compare(c, valves[i], b.valves[i]);
+  }
+  c.member("number of springs", springs.size(), b.springs.size());
+  for (std::size_t i = 0; i < springs.size() && i < b.springs.size(); ++i) {
+    compare(c, springs[i], b.springs[i]);
   }
   compare(c, camera, b.camera);
   compare(c, picture, b.picture);

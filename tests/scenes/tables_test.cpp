@@ -48,7 +48,7 @@ TEST(Tables, EveryKeyIsInOneOfThem) {
   EXPECT_EQ(sections.front().table, "");
   EXPECT_EQ(sections.back().table, "body");
   Scene scene;
-  EXPECT_EQ(sections.size(), fixed_sections(scene).size() + 1);
+  EXPECT_EQ(sections.size(), fixed_sections(scene).size() + 3);
 }
 
 }  // namespace

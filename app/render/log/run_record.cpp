@@ -5,6 +5,7 @@
 #include "app/host/command_line.h"
 #include "app/host/version.h"
 #include "app/record/contact_tally.h"
+#include "app/record/gas_json.h"
 #include "app/record/provenance.h"
 #include "app/record/two_bodies.h"
 #include "app/record/world_json.h"
@@ -150,6 +151,7 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"energy", energy_json<Json>(sim::energy(world))},
                {"momentum", momentum_json<Json>(sim::momentum(world))},
                {"volumes", volumes_json(world)},
+               {"gas", gas_of_bodies_json<Json>(world)},
                {"contacts", contacts_json(simulation.stepper().contacts())},
                {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
                {"crossings", crossings_json(crossings)}};

@@ -29,6 +29,8 @@ void keep_body(sim::World& world, const std::string& name) {
         fmt::format("--body {}: the scene has no such body, but {}", name, fmt::join(names, ", ")));
   }
   const auto other = [&](const auto& body) { return body.name != name; };
+  world.valves.clear();
+  world.springs.clear();
   std::erase_if(world.soft, other);
   std::erase_if(world.rigid, other);
 }
@@ -39,6 +41,12 @@ void check(const scenes::Scene& scene, const sim::World& world) {
         "{}: no soft body is left to study; name one with --body, or leave that option out",
         scene.name));
   }
+  if (!world.valves.empty() || !world.springs.empty()) {
+    throw UsageError(fmt::format(
+        "{}: valves or springs join its bodies, which the solutions to compare with know nothing "
+        "of: name one body with --body, which then is alone",
+        scene.name));
+  }
   for (const sim::SoftBody& body : world.soft) {
     if (body.pins) {
       throw UsageError(
@@ -46,6 +54,12 @@ void check(const scenes::Scene& scene, const sim::World& world) {
                       "another body "
                       "with --body",
                       scene.name, body.name));
+    }
+    if (body.supply) {
+      throw UsageError(fmt::format(
+          "{}: the gas of {} comes and goes, which the solutions to compare with know nothing of: "
+          "name another body with --body",
+          scene.name, body.name));
     }
     if (body.material.damping != sim::Damping::literal) continue;
     throw UsageError(fmt::format(

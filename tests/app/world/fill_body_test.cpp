@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/world/build_world.h"
+#include "app/world/settled_volume.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/soft/gas_law.h"
 #include "tests/support/worlds.h"
@@ -53,6 +54,28 @@ TEST(FillBody, ByItsPressureAtTheStart) {
   EXPECT_NEAR(sim::gauge_pressure(law, volume_of(body)), 50.0, 1e-8);
   // P V = nRT at the start, by hand.
   EXPECT_NEAR(body.material.n * 8.314472 * 293.15 / volume_of(body), 101375.0, 1e-6);
+}
+
+TEST(FillBody, ASkinIsTheSameOnAFinerMesh) {
+  const auto skin = [](int subdivisions) {
+    return world_of(
+               "[[body]]\nshape = \"icosphere\"\nradius = 1.5\nn = 0.15\ndensity = 950\n"
+               "thickness = 0.0002\nstiffness = 120\nsubdivisions = " +
+               std::to_string(subdivisions) + "\n")
+        .soft.at(0);
+  };
+  const sim::SoftBody coarse = skin(2), fine = skin(4);
+  const auto mass = [](const sim::SoftBody& body) {
+    return body.material.vertex_mass * body.positions.size();
+  };
+  // The areas of the two differ by 3 %: the coarse one lies within the ball.
+  EXPECT_NEAR(mass(fine), 950.0 * 0.0002 * 4.0 * 3.14159265 * 2.25, 0.005 * mass(fine));
+  EXPECT_NEAR(mass(coarse) / mass(fine), 1.0, 0.04);
+  EXPECT_EQ(coarse.material.k, fine.material.k);
+  const double one = settled_volume(coarse).value_or(0.0) / volume_of(coarse);
+  const double other = settled_volume(fine).value_or(0.0) / volume_of(fine);
+  EXPECT_GT(one, 1.3);
+  EXPECT_NEAR(one / other, 1.0, 0.03);
 }
 
 TEST(FillBody, AnInflationOfOneIsThePressureOutside) {
