@@ -54,6 +54,8 @@ struct PaperScene {
 };
 
 const PaperScene paper_scenes[] = {
+    {"balloons_and_valve", soft_bodies_and_given_boxes, 0.002, 0.8, 0.2, false},
+    {"bouncing_castle", soft_bodies, 0.005, 2.0, 5.4, true},  // it still sinks in
     {"bowl", soft_bodies, 1e-4, 1e-5, 0.04, true},
     {"cat_on_sphere", soft_bodies, 0.006, 1e-4, 0.3, false},
     // Rams, plates and handles do work, and take it back: the energy rises and falls.
@@ -69,6 +71,7 @@ const PaperScene paper_scenes[] = {
     {"pressure_soft", one_body, 0.0, 1e-5, 0.2, false},
     {"sphere_in_torus", soft_bodies, 0.011, 2e-4, 0.05, true},
     {"stiff_torus", one_body, 0.0, 1e-5, 2.5, false},  // five seconds, in which it bounces
+    {"tied_balls", soft_bodies_and_given_boxes, 3e-4, 1e-5, 1.0, false},
     {"three_spheres", soft_bodies, 0.0, 1e-5, 0.3, false},
     {"three_spheres_contact", soft_bodies, 0.006, 1e-4, 0.15, true},
     {"torus_four_cubes", soft_body_and_boxes, 0.005, 1e-4, 0.12, true},
