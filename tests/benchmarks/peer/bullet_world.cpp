@@ -20,6 +20,7 @@ constexpr double chosen_voxel_size = 1.0;  // m
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 btVector3 vector(const sim::Vec3& v) { return {scalar(v.x()), scalar(v.y()), scalar(v.z())}; }
+sim::Vec3 vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Bullet multiplies the coefficients of both sides, ours takes their geometric mean: roots make
 /// the products the same.
@@ -146,6 +147,26 @@ BulletWorld& BulletWorld::operator=(BulletWorld&&) noexcept = default;
 
 void BulletWorld::step() {
   parts_->world.stepSimulation(scalar(parts_->step_seconds), 0);  // 0: one step of just that length
+}
+
+void BulletWorld::copy_state(sim::World& world) const {
+  const std::size_t ground = world.settings.ground ? 1 : 0;
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const btRigidBody& from = *parts_->rigid[ground + i];
+    const btQuaternion turn = from.getWorldTransform().getRotation();
+    sim::RigidBox& to = world.rigid[i];
+    to.position = vector(from.getWorldTransform().getOrigin());
+    to.orientation = Eigen::Quaterniond(turn.w(), turn.x(), turn.y(), turn.z()).normalized();
+    to.velocity = vector(from.getLinearVelocity());
+    to.angular_velocity = vector(from.getAngularVelocity());
+  }
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    const btSoftBody& from = *parts_->soft[i];
+    for (int v = 0; v < from.m_nodes.size(); ++v) {
+      world.soft[i].positions[v] = vector(from.m_nodes[v].m_x);
+      world.soft[i].velocities[v] = vector(from.m_nodes[v].m_v);
+    }
+  }
 }
 
 std::size_t BulletWorld::contact_count() const {

@@ -36,6 +36,9 @@ class BulletWorld {
   /// One step of the world's length.
   void step();
 
+  /// Of a world with the same bodies: where they are now, and their velocities.
+  void copy_state(sim::World& world) const;
+
   /// Contacts that the last step found: of nodes with boxes and ground, of nodes with triangles of
   /// other soft bodies, and of boxes with each other and the ground.
   std::size_t contact_count() const;
