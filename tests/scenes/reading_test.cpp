@@ -68,6 +68,7 @@ frames_per_second = 24
 samples = 2
 shadows = false
 caption = false
+pressures = true
 grid = false
 rounded = false
 
@@ -113,6 +114,7 @@ Scene every_member() {
                       .samples = 2,
                       .shadows = false,
                       .caption = false,
+                      .pressures = true,
                       .grid = false,
                       .rounded = false};
   expected.limits = {.bodies = 31,
@@ -221,7 +223,7 @@ std::vector<std::string> keys_at_default(const Section& section, const Section& 
 
 // So that a new key is also tested above. The keys named here exclude others, which are set there;
 // KeysOfTheOtherShapesSetTheirMembers sets them, method_test.cpp the method, gas_keys_test.cpp the
-// gas.
+// gas, joint_keys_test.cpp gas that flows and the skin.
 TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene scene = parse_scene(every_key, "all.toml"), defaults;
   const std::vector<Section> sections = fixed_sections(scene);
@@ -237,8 +239,9 @@ TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene soft = parse_scene(soft_body, "soft.toml");
   BodyScene body;
   EXPECT_EQ(keys_at_default(body_section(soft.bodies[0]), body_section(body)),
-            std::vector<std::string>(
-                {"body.kind", "body.gauge_pressure", "body.inflation", "body.pinned"}));
+            std::vector<std::string>({"body.kind", "body.stiffness", "body.gauge_pressure",
+                                      "body.inflation", "body.supply.n", "body.supply.temperature",
+                                      "body.leak.area", "body.density", "body.pinned"}));
 }
 
 TEST(Reading, KeysOfTheOtherShapesSetTheirMembers) {

@@ -95,6 +95,12 @@ struct SetAtRandom {
       member->push_back({low.x(), low.y(), low.z(), high.x(), high.y(), high.z()});
     }
   }
+  void operator()(std::vector<TimedValue>* member) const {
+    double time = 0.0;
+    for (int rows = *rc::gen::inRange(0, 4); rows > 0; --rows, time += 0.5) {
+      member->push_back({time, any_number(key.range)});
+    }
+  }
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     if (*rc::gen::arbitrary<bool>()) member->reset();
   }
@@ -107,6 +113,27 @@ void set_at_random(const Section& section, bool selectors) {
   for (const Key& key : section.keys) {
     if (key.selects == selectors && key.applies) std::visit(SetAtRandom{key}, key.slot);
   }
+}
+
+void make_supply_consistent(const Scene& scene, BodyScene& body) {
+  const bool is_soft = body.kind == BodyKind::soft;
+  if (!is_soft) {
+    body.density.reset();
+    body.stiffness.reset();
+  }
+  if (!is_soft || sim::is_as_printed(scene.settings)) {
+    body.supply_n.clear();
+    body.supply_temperature.clear();
+    body.leak = {};
+  }
+  if (scene.ambient_pressure > 0.0) {
+    std::erase_if(body.supply_n, [](const TimedValue& key) { return key[1] == 0.0; });
+  }
+  if (body.material.gas_exponent != 1.0) body.supply_temperature.clear();
+  if (body.supply_n.empty() && body.supply_temperature.empty()) body.supply_smooth = true;
+  if (body.supply_n.empty()) return;
+  body.gauge_pressure.reset();
+  body.inflation.reset();
 }
 
 /// Keeps what no single key can promise.
@@ -140,6 +167,7 @@ void make_consistent(Scene& scene) {
     if (!sim::can_integrate(scene.settings.integrator, body.material)) {
       body.material.pressure_weighting = sim::PressureWeighting::uniform;
     }
+    make_supply_consistent(scene, body);
     if (body.kind != BodyKind::soft || body.material.temperature == 0.0) {
       body.gauge_pressure.reset();
       body.inflation.reset();
