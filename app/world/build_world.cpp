@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
-#include "app/world/check_turns.h"
+#include "app/joints/check_turns.h"
+#include "app/joints/join_bodies.h"
 #include "app/world/fill_body.h"
 #include "app/world/find_model.h"
-#include "app/world/join_bodies.h"
 #include "app/world/pin_body.h"
 #include "app/world/refuse_body.h"
 #include "app/world/step_advice.h"

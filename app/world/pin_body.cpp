@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "app/joints/regions.h"
 #include "app/world/refuse_body.h"
-#include "app/world/regions.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pins.h"
 

@@ -266,9 +266,8 @@ TEST(RoundTrip, EveryKeyIsPrintedAndChangesTheFingerprint) {
     Scene scene = default_scene();
     const Section section = body_section(scene.bodies[0]);
     // 0 times a half is still 0.
-    if (section.keys[k].applies && section.keys[k].name != "jitter" && change(section.keys[k])) {
-      note(scene);
-    }
+    const bool is_zero = section.keys[k].name == "jitter" || section.keys[k].name == "leak.area";
+    if (section.keys[k].applies && !is_zero && change(section.keys[k])) note(scene);
   }
   EXPECT_GT(changes, 30);
   EXPECT_EQ(fingerprints.size(), static_cast<std::size_t>(changes));

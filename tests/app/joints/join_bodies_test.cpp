@@ -1,5 +1,5 @@
 // Valves and springs of a scene in its world, and motions that turn too fast.
-#include "app/world/join_bodies.h"
+#include "app/joints/join_bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/world/join_bodies.h"
+#include "app/joints/join_bodies.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "app/world/regions.h"
+#include "app/joints/regions.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/joints/body_springs.h"
 #include "sim/mesh/measure.h"

@@ -1,11 +1,11 @@
-#include "app/world/check_turns.h"
+#include "app/joints/check_turns.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "app/world/refuse_body.h"
+#include "scenes/loader/load_scene.h"
 #include "sim/rigid/given_motion.h"
 
 namespace pneuma::app {
@@ -19,14 +19,15 @@ constexpr double steepest = 3.0;
 
 [[noreturn]] void refuse(const scenes::Scene& scene, const scenes::BodyScene& body, double turn,
                          double time) {
-  const double steps = scene.settings.steps_per_second;
-  refuse_body(
-      scene, body.place, body.name,
-      fmt::format("it turns by {:.4g} degrees in the step at {:.4g} s, and in one step of "
-                  "1/{} s it must be less than 180, or it would turn the other way; turn it "
+  scenes::Place place = body.place;
+  if (place.file.empty()) place.file = (scene.folder / (scene.name + ".toml")).string();
+  const int steps = scene.settings.steps_per_second;
+  throw scenes::SceneError({scenes::diagnostic_at(
+      place,
+      fmt::format("body '{}': it turns by {:.4g} degrees in the step at {:.4g} s, and in one step "
+                  "of 1/{} s it must be less than 180, or it would turn the other way; turn it "
                   "more slowly, or set simulation.steps_per_second to at least {:.0f}",
-                  turn, time, scene.settings.steps_per_second,
-                  std::ceil(1.01 * steps * turn / half_turn)));
+                  body.name, turn, time, steps, std::ceil(1.01 * steps * turn / half_turn)))});
 }
 
 /// Degrees from one step to the next, at most: turns about the three axes added up.
