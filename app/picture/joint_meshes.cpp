@@ -69,7 +69,7 @@ std::pair<sim::SpringEnd, sim::SpringEnd> nearest_ends(const sim::World& world,
   return {end(valve.first, valve.second), end(valve.second, valve.first)};
 }
 
-double extent(const sim::SoftBody& body) { return sim::bounds(body.positions).size().norm(); }
+double diagonal_of(const sim::SoftBody& body) { return sim::bounds(body.positions).size().norm(); }
 
 /// A tube about a line that winds around the axis from a to b.
 struct Coil {
@@ -98,8 +98,8 @@ JointMeshes::JointMeshes(const sim::World& world) {
   }
   for (const sim::Valve& valve : world.valves) {
     auto [first, second] = nearest_ends(world, valve);
-    const double size = std::min(extent(world.soft[sim::at(valve.first)]),
-                                 extent(world.soft[sim::at(valve.second)]));
+    const double size = std::min(diagonal_of(world.soft[sim::at(valve.first)]),
+                                 diagonal_of(world.soft[sim::at(valve.second)]));
     joints_.push_back({std::move(first), std::move(second), tube_shape(rings_of_pipe, brass), 0,
                        static_cast<float>(pipe_of_size * size), 0.0f});
   }
