@@ -16,7 +16,7 @@ namespace {
 /// one step of Runge-Kutta.
 constexpr double part_of_time = 0.05;
 
-/// Of the greatest pressure there was: a difference below this is none.
+/// Of the highest pressure there was: a difference below this is none.
 constexpr double even = 1e-12;
 
 double value(const std::vector<KeyFrame>& keys, bool smooth, double time) {
@@ -231,7 +231,7 @@ void GasFlow::take_runge_kutta_step(double step) {
 /// Opposite ends of a valve get the same numbers with opposite signs, so that what they have
 /// together changes by rounding only.
 void GasFlow::flow(World& world, double seconds) {
-  double greatest = 0.0;  // Pa
+  double max_pressure = 0.0;  // Pa
   bool any = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
@@ -239,12 +239,13 @@ void GasFlow::flow(World& world, double seconds) {
     part.temperature = material.temperature;
     gas_[i] = {material.n, gas_strength(material)};
     any = any || part.is_open;
-    if (part.is_open) greatest = std::max({greatest, pressure(part, gas_[i]), part.outside});
+    if (part.is_open)
+      max_pressure = std::max({max_pressure, pressure(part, gas_[i]), part.outside});
   }
   if (!any) return;
   for (double left = seconds; left > 0.0;) {
     const Pace pace = rates(gas_, slopes_[0]);
-    if (pace.difference <= even * greatest) break;
+    if (pace.difference <= even * max_pressure) break;
     const double step = std::min(left, part_of_time / pace.rate);
     take_runge_kutta_step(step);
     left -= step;

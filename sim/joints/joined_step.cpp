@@ -117,11 +117,16 @@ void JoinedStep::step_explicitly(World& world, std::span<const SoftState> start)
   }
 }
 
-/// The springs alone for a time, in s, in which the positions stand still.
+/// The springs alone for a time, in s, in which the positions stand still: by Euler's method, or by
+/// that of Heun.
 void JoinedStep::kick(const World& world, double seconds, const VertexArray& positions,
                       VertexArray& velocities) {
   changes_.rows().setZero();
   add_springs(world, positions, velocities, changes_);
+  if (world.settings.integrator == Integrator::implicit_euler) {
+    velocities.rows() += seconds * changes_.rows();
+    return;
+  }
   predicted_.rows() = velocities.rows() + seconds * changes_.rows();
   add_springs(world, positions, predicted_, changes_);  // of both, twice the mean
   velocities.rows() += 0.5 * seconds * changes_.rows();

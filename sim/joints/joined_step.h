@@ -3,10 +3,10 @@
 // The explicit integrators take all of them as one body: in every stage the springs pull on both
 // ends as they are in that stage, and the method keeps its order. The implicit ones minimise each
 // body's energy for itself, and the springs act while the positions stand still: under sdirk2 for
-// half a step before and half a step after it (Strang splitting, of second order), under
-// implicit_euler for a step before it (of first order; at rest it then knows the dashpots' ends to
-// be at rest). The velocities are those of Heun's method, since dashpots depend on them. This part
-// is explicit: it is stable for steps below 2 sqrt(m / k), m being the reduced mass of the ends.
+// half a step before and half a step after it by Heun's method (Strang splitting, of second order),
+// under implicit_euler for a step before it by Euler's (of first order: dashpots then know what
+// hangs at rest to be at rest). This part is explicit: it is stable for steps below 2 sqrt(m / k), m
+// being the reduced mass of the ends.
 #pragma once
 
 #include <memory>

@@ -82,10 +82,10 @@ class WholeEquation {
                           spring.damping * parting.dot(apart) / length) /
                          length * apart;
       for (const auto& [end, sign] : {std::pair(&spring.first, 1.0), {&spring.second, -1.0}}) {
-        const double share = sign / (static_cast<double>(end->vertices.size()) * 0.5);
+        const double part = sign / (static_cast<double>(end->vertices.size()) * 0.5);
         for (const int v : end->vertices) {
           double* row = derivative + 3 * all + 3 * ((end->body == 0 ? 0 : count) + sim::at(v));
-          for (int axis = 0; axis < 3; ++axis) row[axis] += share * force[axis];
+          for (int axis = 0; axis < 3; ++axis) row[axis] += part * force[axis];
         }
       }
     }
