@@ -74,7 +74,9 @@ json run_statistics_json(const RunStatistics& run) {
     volumes.push_back({{"body", range.body},
                        {"start", range.start},
                        {"least", range.least},
-                       {"greatest", range.greatest}});
+                       {"greatest", range.greatest},
+                       {"end", range.end},
+                       {"shape_deviation_of_diagonal", range.shape_deviation}});
   }
   return {
       {"units", json_units},
@@ -114,6 +116,7 @@ json run_statistics_json(const RunStatistics& run) {
        {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},
       {"end_speed_m_per_s", run.end_speed},
       {"at_rest", run.end_speed < rest_speed && !run.divergence},
+      {"at_rest_from_s", run.rests_from ? json(*run.rests_from) : json(nullptr)},
       {"state_hash", hex(run.state_hash)}};
 }
 

@@ -173,10 +173,20 @@ std::string contacts_text(const ContactTally& contacts) {
 std::string volumes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
-    text += named_line(
-        text.empty() ? "volume" : "",
-        fmt::format("{}: {} to {} m^3, {} at the start", range.body, readable(range.least),
-                    readable(range.greatest), readable(range.start)));
+    text += named_line(text.empty() ? "volume" : "",
+                       fmt::format("{}: {} to {} m^3, {} at the start, {} at the end", range.body,
+                                   readable(range.least), readable(range.greatest),
+                                   readable(range.start), readable(range.end)));
+  }
+  return text;
+}
+
+std::string shapes_text(const RunStatistics& run) {
+  std::string text;
+  for (const VolumeRange& range : run.volumes) {
+    text += named_line(text.empty() ? "shape at the end" : "",
+                       fmt::format("{}: at most {:.2g} % of its diagonal off its rigid rest shape",
+                                   range.body, 100.0 * range.shape_deviation));
   }
   return text;
 }
@@ -237,11 +247,15 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
     text += named_line("overlap at the end",
                        fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
   }
-  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + momentum_text(run);
+  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + shapes_text(run) +
+          momentum_text(run);
   const bool rests = run.end_speed < rest_speed && !run.divergence;
-  text += named_line("speed at the end",
-                     fmt::format("{:.3g} m/s at most: {} (that is below {:g} m/s)", run.end_speed,
-                                 rests ? "at rest" : "not at rest", rest_speed));
+  text += named_line(
+      "speed at the end",
+      fmt::format(
+          "{:.3g} m/s at most: {} (that is below {:g} m/s){}", run.end_speed,
+          rests ? "at rest" : "not at rest", rest_speed,
+          rests && run.rests_from ? fmt::format(" from {:.2f} s on", *run.rests_from) : ""));
   return text + named_line("state hash", hex(run.state_hash));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/host/interrupt.h"
+#include "app/record/shape_deviation.h"
 #include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
@@ -83,7 +84,7 @@ class Observer {
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
-      result_.volumes.push_back({body.name, now, now, now});
+      result_.volumes.push_back({body.name, now, now, now, now, 0.0});
     }
   }
 
@@ -114,6 +115,11 @@ class Observer {
       range.least = std::min(range.least, volume(world.soft[b]));
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
     }
+    if (fastest_point(world) >= rest_speed) {
+      result_.rests_from.reset();
+    } else if (!result_.rests_from) {
+      result_.rests_from = sim::time(world);
+    }
   }
 
   RunStatistics finish(const sim::World& world) {
@@ -124,6 +130,10 @@ class Observer {
     result_.momentum_end = sim::momentum(world);
     result_.end_speed = fastest_point(world);
     result_.state_hash = sim::state_hash(world);
+    for (std::size_t b = 0; b < world.soft.size(); ++b) {
+      result_.volumes[b].end = volume(world.soft[b]);
+      result_.volumes[b].shape_deviation = shape_deviation(world.soft[b]);
+    }
     for (const sim::Overlap& overlap : sim::overlaps(world)) {
       if (overlap.depth <= result_.end_overlap) continue;
       result_.end_overlap = overlap.depth;

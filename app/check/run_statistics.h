@@ -24,6 +24,8 @@ struct VolumeRange {
   double start = 0.0;  // m^3
   double least = std::numeric_limits<double>::infinity();
   double greatest = 0.0;
+  double end = 0.0;
+  double shape_deviation = 0.0;  // at the end (app/record/shape_deviation.h)
 };
 
 /// How often and how much surfaces passed through each other, in the frames of a run.
@@ -80,6 +82,8 @@ struct RunStatistics {
   sim::Momentum momentum_end;
 
   double end_speed = 0.0;  // m/s, of the fastest point of any body
+  // s, of the first frame from which on nothing is faster than rest_speed; none: it is at the end.
+  std::optional<double> rests_from;
   std::uint64_t state_hash = 0;
 };
 
