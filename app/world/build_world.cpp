@@ -163,10 +163,12 @@ class Builder {
 
  private:
   std::shared_ptr<const sim::SoftMesh> shared_mesh(const BodyScene& body) {
-    auto& mesh = meshes_[scenes::shape_text(body)];
+    const bool bends = body.kind == BodyKind::soft && body.material.bending > 0.0;
+    auto& mesh = meshes_[scenes::shape_text(body) + (bends ? " bending" : "")];
     if (mesh) return mesh;
     try {
       mesh = sim::make_soft_mesh(make_mesh(scene_, body));
+      if (bends) mesh = sim::with_hinges(*mesh);
     } catch (const sim::TopologyError& error) {
       refuse(scene_, body, error.what());
     }

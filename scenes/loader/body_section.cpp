@@ -125,6 +125,9 @@ Section body_section(BodyScene& body) {
           only(soft_bodies, selector({"stiffness", &body.stiffness, at_least(0), "N/m",
                                       "of the skin, whatever its mesh: Young's modulus times "
                                       "thickness; instead of k, which is 0.866 times that"})),
+          only(soft_bodies,
+               of_method({"bending", &material.bending, at_least(0), "N m",
+                          "rigidity of the surface as a plate: holds flat and concave faces"})),
           only(filled_by_n, {"n", &material.n, at_least(0), "mol",
                              "amount of gas; or give gauge_pressure, or inflation"}),
           only(soft_bodies, selector({"gauge_pressure", &body.gauge_pressure, any(), "Pa",

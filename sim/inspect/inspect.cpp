@@ -7,6 +7,7 @@
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/hash_vertices.h"
 #include "sim/rigid/inertia.h"
+#include "sim/soft/bending.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
 
@@ -33,7 +34,8 @@ Energy energy(const SoftBody& body, const Vec3& gravity) {
   Energy result;
   if (body.pins && body.pins->are_all) return result;  // likewise
   result.kinetic = 0.5 * material.vertex_mass * body.velocities.rows().squaredNorm();
-  result.spring = spring_energy(*body.mesh, body.positions, material.k);
+  result.spring = spring_energy(*body.mesh, body.positions, material.k) +
+                  bending_energy(*body.mesh, body.positions, material.bending);
   result.gas = gas_energy(material, volume(body.mesh->topology, body.positions));
   result.gravity =
       -material.vertex_mass * body.positions.size() * gravity.dot(mean(body.positions));

@@ -14,7 +14,7 @@ namespace pneuma::sim {
 /// Joule. The gas energy is -nRT ln(V / 1 m^3): only its differences mean anything.
 struct Energy {
   double kinetic = 0.0;
-  double spring = 0.0;
+  double spring = 0.0;  // of hinges, too
   double gas = 0.0;
   double gravity = 0.0;
 

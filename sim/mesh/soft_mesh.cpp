@@ -41,4 +41,11 @@ std::shared_ptr<const SoftMesh> make_soft_mesh(const SoftMesh& mesh,
   return std::make_shared<const SoftMesh>(std::move(result));
 }
 
+std::shared_ptr<const SoftMesh> with_hinges(const SoftMesh& mesh) {
+  SoftMesh result = mesh;
+  result.hinges =
+      std::make_shared<const HingeTable>(make_hinges(mesh.topology, mesh.rest_positions));
+  return std::make_shared<const SoftMesh>(std::move(result));
+}
+
 }  // namespace pneuma::sim

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/mesh/force_tables.h"
+#include "sim/mesh/hinges.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/triangle_mesh.h"
 #include "sim/mesh/vertex_array.h"
@@ -19,6 +20,7 @@ struct SoftMesh {
   VertexArray rest_positions;           // m, about the mesh's own origin
   std::vector<double> rest_lengths;     // m, per edge
   std::vector<double> valence_weights;  // springs of a vertex / mean springs (paper 3.1.2)
+  std::shared_ptr<const HingeTable> hinges = nullptr;  // of bodies that resist bending
 };
 
 /// Throws TopologyError when the mesh is not closed and manifold or has an edge of no length.
@@ -28,5 +30,8 @@ std::shared_ptr<const SoftMesh> make_soft_mesh(const TriangleMesh& mesh);
 /// std::invalid_argument unless there is one per edge, finite and not negative.
 std::shared_ptr<const SoftMesh> make_soft_mesh(const SoftMesh& mesh,
                                                std::vector<double> rest_lengths);
+
+/// The same with hinges, which are at rest in its rest positions.
+std::shared_ptr<const SoftMesh> with_hinges(const SoftMesh& mesh);
 
 }  // namespace pneuma::sim

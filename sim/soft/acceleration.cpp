@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/soft/bending.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
@@ -15,6 +16,7 @@ SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& mat
       gravity_{gravity.x(), gravity.y(), gravity.z(), 0.0},
       inverse_mass_(1.0 / material.vertex_mass),
       k_(material.k),
+      bending_(material.bending),
       dashpot_(dashpot_constant(material)),
       drag_(drag_rate(material)),
       gas_(gas_law(material)),
@@ -30,6 +32,9 @@ Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
     std::fill(coefficients.begin(), coefficients.end(), 0.0);
   }
   const double volume = gather_rings(mesh_.tables, positions, coefficients, forces);
+  if (bending_ > 0.0) {
+    add_bending_forces(mesh_, positions, bending_, RingForces::springs(1), forces.rows());
+  }
   if (valence_) {
     for (int v = 0; v < positions.size(); ++v) {
       forces.rows()[RingForces::six_volume_gradients(v)] *= mesh_.valence_weights[at(v)];

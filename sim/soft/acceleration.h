@@ -2,6 +2,8 @@
 // velocities: every integrator, study and reference solves exactly this.
 //
 //   m dv/dt = sum_springs [k (l - L) + c (v_rel . d)] d  +  w (P - p0) dV/dx  +  m g  -  gamma m v
+//
+// and the forces of hinges (bending.h) where the material resists bending.
 #pragma once
 
 #include <vector>
@@ -76,6 +78,7 @@ class SoftAcceleration {
   Vec4d gravity_;
   double inverse_mass_;
   double k_;
+  double bending_;
   double dashpot_;
   double drag_;
   GasLaw gas_;

@@ -110,6 +110,7 @@ void EulerSolver::set_energy(double beta, const EulerBase& base) {
         (1.0 - dashpot_fraction) * mesh_.rest_lengths[e] + dashpot_fraction * base.lengths[e];
   }
 
+  energy_.bending = material_.bending;
   energy_.gas = gas_law(material_);
   energy_.friction_anchor.rows() = base.state.positions.rows();
   energy_.regularisation_length = anchor_speed * beta;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/mesh/measure.h"
+#include "sim/soft/bending.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
 
@@ -106,7 +107,8 @@ class ImplicitStep {
 
   /// Of springs, gas and gravity. Adds the sizes of the terms up in magnitude_.
   double potential(const VertexArray& positions) {
-    const double springs = spring_energy(mesh_, positions, material_.k);
+    const double springs = spring_energy(mesh_, positions, material_.k) +
+                           bending_energy(mesh_, positions, material_.bending);
     const GasLaw law = gas_law(material_);
     const double enclosed = volume(mesh_.topology, positions);
     const double gas = gas_energy(law, enclosed);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/mesh/rotation.h"
+#include "sim/soft/bending.h"
 #include "sim/soft/pressure_force.h"
 
 namespace pneuma::sim {
@@ -61,6 +62,20 @@ Mat3 spring_hessian(const Vec3& edge, double length, double stiffness, double re
   return stiffness * (across * Mat3::Identity() + (1.0 - across) * d * d.transpose());
 }
 
+void add_bending_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
+                         const VertexArray& positions, VertexMatrix& hessian) {
+  for (int e = 0; e < mesh.topology.edge_count(); ++e) {
+    const HingeHessian block = hinge_hessian(mesh, positions, energy.bending, e);
+    const HingeTable::Corners& corners = mesh.hinges->corners[at(e)];
+    for (int i = 0; i < 4; ++i) {
+      hessian.add(corners[at(i)], block.block<3, 3>(3 * i, 3 * i));
+      for (int j = i + 1; j < 4; ++j) {
+        hessian.add_between(corners[at(i)], corners[at(j)], block.block<3, 3>(3 * i, 3 * j));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 IncrementalPotential::IncrementalPotential(const SoftMesh& mesh)
@@ -86,6 +101,7 @@ bool evaluate(const SoftMesh& mesh, const IncrementalPotential& energy, EnergyPo
   }
   point.energy = 0.5 * energy.inertia * (x - energy.target.rows()).squaredNorm() +
                  0.5 * energy.stiffness * squares;
+  point.energy += bending_energy(mesh, point.positions, energy.bending);
   if (energy.friction) point.energy += friction_energy(energy, point.positions);
   point.magnitude = point.energy;
   point.volume = 1.0;
@@ -118,6 +134,7 @@ void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& ener
     g.col(a) -= pull;
     g.col(b) += pull;
   }
+  add_bending_forces(mesh, point.positions, -energy.bending, 1, gradient);
   if (energy.friction) add_friction_gradient(energy, point.positions, gradient);
 }
 
@@ -153,6 +170,7 @@ void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& 
     hessian.add(b, spring);
     hessian.add_between(static_cast<int>(e), sixth_pressure * cross_matrix(across) - spring);
   }
+  if (mesh.hinges && energy.bending > 0.0) add_bending_hessian(mesh, energy, x, hessian);
   if (energy.friction) add_friction_hessian(energy, x, hessian);
 }
 

@@ -1,6 +1,6 @@
 // The incremental potential: the function of a body's positions x that an implicit step minimises:
 //
-//   E(x) = A/2 |x - y|^2  +  s/2 sum over springs (l - r)^2  +  gas(V)  +  friction(x)
+//   E(x) = A/2 |x - y|^2  +  s/2 sum over springs (l - r)^2  +  hinges(x)  +  gas(V)  + friction(x)
 //
 // y is where the vertices would be without springs and gas, A their inertia, and s, r the stiffness
 // and rest lengths of springs and dashpots together (implicit_step.h says which). gas(V) is that of
@@ -27,6 +27,7 @@ struct IncrementalPotential {
   VertexArray target;                // y, m
   double stiffness = 0.0;            // s, N/m
   std::vector<double> rest_lengths;  // r, m, per edge
+  double bending = 0.0;              // N m, of the hinges
   GasLaw gas;                        // of no strength: V may be anything
 
   const std::uint8_t* is_pinned = nullptr;  // per vertex: it is at its target; null: none is

@@ -48,7 +48,7 @@ double max_size(const VertexArray& values) {
 EnergyMinimiser::EnergyMinimiser(const SoftMesh& mesh)
     : mesh_(mesh),
       opposite_(opposite_vertices(mesh.topology)),
-      matrix_(mesh.topology),
+      matrix_(mesh.topology, mesh.hinges.get()),
       point_(mesh),
       trial_(mesh),
       gradient_(mesh.topology.vertex_count()),

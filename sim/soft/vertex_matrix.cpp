@@ -1,11 +1,13 @@
 #include "sim/soft/vertex_matrix.h"
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 namespace pneuma::sim {
 
-VertexMatrix::VertexMatrix(const MeshTopology& topology) : topology_(topology) {
+VertexMatrix::VertexMatrix(const MeshTopology& topology, const HingeTable* hinges)
+    : topology_(topology) {
+  find_pairs(hinges);
   order();
   make_pattern();
   set_identity(1.0);
@@ -14,11 +16,46 @@ VertexMatrix::VertexMatrix(const MeshTopology& topology) : topology_(topology) {
   solution_.resize(upper_.rows());
 }
 
+void VertexMatrix::find_pairs(const HingeTable* hinges) {
+  pairs_ = topology_.edges();
+  const std::ptrdiff_t edges = topology_.edge_count();
+  for (std::size_t e = 0; hinges && e < hinges->corners.size(); ++e) {
+    const auto [low, high] = std::minmax(hinges->corners[e][2], hinges->corners[e][3]);
+    const Pair across = {low, high};
+    if (low != high && !std::binary_search(pairs_.begin(), pairs_.begin() + edges, across)) {
+      pairs_.push_back(across);
+    }
+  }
+  std::sort(pairs_.begin() + edges, pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin() + edges, pairs_.end()), pairs_.end());
+
+  pairs_begin_.assign(at(topology_.vertex_count()) + 1, 0);
+  for (const auto& [a, b] : pairs_) {
+    ++pairs_begin_[at(a) + 1];
+    ++pairs_begin_[at(b) + 1];
+  }
+  std::partial_sum(pairs_begin_.begin(), pairs_begin_.end(), pairs_begin_.begin());
+  vertex_pairs_.resize(2 * pairs_.size());
+  std::vector<int> next = pairs_begin_;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    for (const int v : pairs_[p]) vertex_pairs_[at(next[at(v)]++)] = static_cast<int>(p);
+  }
+}
+
+int VertexMatrix::pair(int a, int b) const {
+  const Pair wanted = {std::min(a, b), std::max(a, b)};
+  const auto edges_end = pairs_.begin() + topology_.edge_count();
+  const auto edge = std::lower_bound(pairs_.begin(), edges_end, wanted);
+  const bool is_edge = edge != edges_end && *edge == wanted;
+  const auto found = is_edge ? edge : std::lower_bound(edges_end, pairs_.end(), wanted);
+  return static_cast<int>(found - pairs_.begin());
+}
+
 void VertexMatrix::order() {
   const int count = topology_.vertex_count();
   std::vector<Eigen::Triplet<double>> entries;
   for (int v = 0; v < count; ++v) entries.emplace_back(v, v, 1.0);
-  for (const auto& [a, b] : topology_.edges()) {
+  for (const auto& [a, b] : pairs_) {
     entries.emplace_back(a, b, 1.0);
     entries.emplace_back(b, a, 1.0);
   }
@@ -32,26 +69,25 @@ void VertexMatrix::order() {
 
 void VertexMatrix::make_pattern() {
   const int count = topology_.vertex_count();
-  // Per rank: the edges to vertices of lower rank.
+  // Per rank: the pairs with vertices of lower rank.
   std::vector<std::vector<std::array<int, 2>>> earlier(at(count));
-  for (int e = 0; e < topology_.edge_count(); ++e) {
-    const auto& [a, b] = topology_.edges()[at(e)];
-    const auto [low, high] = std::minmax(rank_[at(a)], rank_[at(b)]);
-    earlier[at(high)].push_back({low, e});
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto [low, high] = std::minmax(rank_[at(pairs_[p][0])], rank_[at(pairs_[p][1])]);
+    earlier[at(high)].push_back({low, static_cast<int>(p)});
   }
   std::vector<Eigen::Triplet<double>> entries;
-  edge_offset_.resize(at(topology_.edge_count()));
+  pair_offset_.resize(pairs_.size());
   diagonal_offset_.resize(at(count));
   for (int rank = 0; rank < count; ++rank) {
-    auto& edges = earlier[at(rank)];
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      edge_offset_[at(edges[i][1])] = 3 * static_cast<int>(i);
+    auto& with = earlier[at(rank)];
+    std::sort(with.begin(), with.end());
+    for (std::size_t i = 0; i < with.size(); ++i) {
+      pair_offset_[at(with[i][1])] = 3 * static_cast<int>(i);
     }
-    diagonal_offset_[at(rank)] = 3 * static_cast<int>(edges.size());
+    diagonal_offset_[at(rank)] = 3 * static_cast<int>(with.size());
     for (int axis = 0; axis < 3; ++axis) {
       const int column = 3 * rank + axis;
-      for (const auto& [other, edge] : edges) {
+      for (const auto& [other, pair] : with) {
         for (int row = 0; row < 3; ++row) entries.emplace_back(3 * other + row, column, 1.0);
       }
       for (int row = 0; row <= axis; ++row) entries.emplace_back(3 * rank + row, column, 1.0);
@@ -90,13 +126,12 @@ void VertexMatrix::add(int vertex, const Mat3& block) {
   }
 }
 
-void VertexMatrix::add_between(int edge, const Mat3& block) {
-  const auto& [a, b] = topology_.edges()[at(edge)];
+void VertexMatrix::add_between(int a, int b, int pair, const Mat3& block) {
   const bool in_order = rank_[at(a)] < rank_[at(b)];
   const int later = in_order ? rank_[at(b)] : rank_[at(a)];
   for (int column = 0; column < 3; ++column) {
     double* values =
-        upper_.valuePtr() + upper_.outerIndexPtr()[3 * later + column] + edge_offset_[at(edge)];
+        upper_.valuePtr() + upper_.outerIndexPtr()[3 * later + column] + pair_offset_[at(pair)];
     for (int row = 0; row < 3; ++row) {
       values[row] += in_order ? block(row, column) : block(column, row);
     }
@@ -105,12 +140,14 @@ void VertexMatrix::add_between(int edge, const Mat3& block) {
 
 void VertexMatrix::fix(int vertex, int axis) {
   const int rank = rank_[at(vertex)];
-  for (const auto& spoke : topology_.ring(vertex)) {
-    const int other = rank_[at(spoke.vertex)];
-    for (int i = 0; i < 3; ++i) {
-      const int column = other < rank ? 3 * rank + axis : 3 * other + i;
-      const int row = other < rank ? i : axis;
-      upper_.valuePtr()[upper_.outerIndexPtr()[column] + edge_offset_[at(spoke.edge)] + row] = 0.0;
+  for (int i = pairs_begin_[at(vertex)]; i < pairs_begin_[at(vertex) + 1]; ++i) {
+    const int pair = vertex_pairs_[at(i)];
+    const int other =
+        rank_[at(pairs_[at(pair)][0] == vertex ? pairs_[at(pair)][1] : pairs_[at(pair)][0])];
+    for (int j = 0; j < 3; ++j) {
+      const int column = other < rank ? 3 * rank + axis : 3 * other + j;
+      const int row = other < rank ? j : axis;
+      upper_.valuePtr()[upper_.outerIndexPtr()[column] + pair_offset_[at(pair)] + row] = 0.0;
     }
   }
   for (int i = 0; i < 3; ++i) {

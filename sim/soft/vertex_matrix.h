@@ -1,5 +1,6 @@
 // A symmetric matrix over the coordinates of a mesh's vertices, with a 3 x 3 block for every vertex
-// and every edge, and its sparse factors L D L^T.
+// and every edge, of hinges also for the two vertices across each edge, and its sparse factors
+// L D L^T.
 //
 // The vertices are put in an order of little fill (approximate minimum degree) and the pattern is
 // analysed once, when this is made. Up to 5,461 vertices factorize() keeps to the memory taken
@@ -8,8 +9,10 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
+#include <array>
 #include <vector>
 
+#include "sim/mesh/hinges.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/vertex_array.h"
 
@@ -22,8 +25,8 @@ inline double dot(const VertexArray& a, const VertexArray& b) {
 
 class VertexMatrix {
  public:
-  /// Refers to the topology, which must outlive it.
-  explicit VertexMatrix(const MeshTopology& topology);
+  /// Refers to the topology, which must outlive it. `hinges`: null without.
+  explicit VertexMatrix(const MeshTopology& topology, const HingeTable* hinges = nullptr);
 
   /// `diagonal` times the identity.
   void set_identity(double diagonal);
@@ -31,7 +34,12 @@ class VertexMatrix {
   void add(int vertex, const Mat3& block);  // symmetric
   /// The block of an edge in the rows of its first vertex and the columns of its second, and the
   /// transposed one in the mirrored position.
-  void add_between(int edge, const Mat3& block);
+  void add_between(int edge, const Mat3& block) {
+    const auto& [a, b] = topology_.edges()[at(edge)];
+    add_between(a, b, edge, block);
+  }
+  /// Likewise of two vertices of a hinge.
+  void add_between(int a, int b, const Mat3& block) { add_between(a, b, pair(a, b), block); }
 
   /// Adds to the whole diagonal.
   void add_identity(double diagonal);
@@ -62,14 +70,23 @@ class VertexMatrix {
     Eigen::Index negative_count() const { return (m_diag.array() < 0.0).count(); }
   };
 
+  /// Two vertices with a block: first the edges, in their order.
+  using Pair = std::array<int, 2>;
+
+  void find_pairs(const HingeTable* hinges);
   void order();
   void make_pattern();
+  int pair(int a, int b) const;
+  void add_between(int a, int b, int pair, const Mat3& block);
   void put_in_order(const VertexArray& values) const;  // into right_
   void take_from_order(VertexArray& values) const;     // from solution_
 
   const MeshTopology& topology_;
-  std::vector<int> rank_;             // of each vertex in the order of elimination
-  std::vector<int> edge_offset_;      // of an edge's block in each column of its later vertex
+  std::vector<int> rank_;         // of each vertex in the order of elimination
+  std::vector<Pair> pairs_;       // those that are no edges are sorted, lower index first
+  std::vector<int> pair_offset_;  // of a pair's block in each column of its later vertex
+  std::vector<int> pairs_begin_;  // per vertex, into vertex_pairs_
+  std::vector<int> vertex_pairs_;
   std::vector<int> diagonal_offset_;  // of a vertex' own block in each of its columns
   Sparse upper_;
   Factor factor_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/soft/bending.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/incremental_potential.h"
 #include "sim/soft/pressure_force.h"
@@ -71,6 +72,12 @@ VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
     stretch_.push_back(length > 0.0 ? 1.0 - mesh.rest_lengths[at(e)] / length : 0.0);
     across_.push_back(positions[opposite[at(e)][0]] - positions[opposite[at(e)][1]]);
   }
+  if (mesh.hinges && material.bending > 0.0) {
+    const double rigidity = material.bending / material.vertex_mass;
+    for (int e = 0; e < mesh.topology.edge_count(); ++e) {
+      hinges_.push_back(hinge_stiffness_root(mesh, positions, rigidity, e));
+    }
+  }
   if (gas_strength(material) == 0.0) return;
   volume_gradient(mesh.topology, positions, area_);
   const double v = volume(positions, area_);
@@ -94,6 +101,19 @@ void VibrationMode::add_springs(const VectorXd& u, double weight, VectorXd& resu
   }
 }
 
+void VibrationMode::add_hinges(const VectorXd& u, VectorXd& result) const {
+  for (std::size_t e = 0; e < hinges_.size(); ++e) {
+    const HingeTable::Corners& corners = mesh_.hinges->corners[e];
+    double bent = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      bent += hinges_[e].segment<3>(3 * i).dot(u.segment<3>(3 * corners[at(i)]));
+    }
+    for (int i = 0; i < 4; ++i) {
+      result.segment<3>(3 * corners[at(i)]) += bent * hinges_[e].segment<3>(3 * i);
+    }
+  }
+}
+
 /// -(P - p0) d^2V/dx^2 (incremental_potential.cpp) and g P/V dV/dx dV/dx^T.
 void VibrationMode::add_gas(const VectorXd& u, VectorXd& result) const {
   if (rank_one_ == 0.0) return;
@@ -114,6 +134,7 @@ VectorXd VibrationMode::fastest(double weight) const {
   return max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
     VectorXd result = weight * drag_ * u;
     add_springs(u, weight, result);
+    add_hinges(u, result);
     add_gas(u, result);
     return result;
   });
@@ -124,6 +145,7 @@ Oscillation VibrationMode::along(const VectorXd& u) const {
   add_springs(u, 0.0, stiff);
   add_springs(u, 1.0, both);
   const double damped = u.dot(both - stiff) + drag_;
+  add_hinges(u, stiff);
   add_gas(u, stiff);
   return {std::max(0.0, u.dot(stiff)), damped};
 }

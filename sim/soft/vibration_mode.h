@@ -1,6 +1,6 @@
 // Vibration modes: small motions of a body about a state of rest:
 //
-//   u'' = -K u - D u',    m K = d^2E/dx^2 of springs and gas,    m D = dashpots and drag.
+//   u'' = -K u - D u',    m K = d^2E/dx^2 of springs, hinges and gas,    m D = dashpots and drag.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,6 +29,7 @@ class VibrationMode {
 
  private:
   void add_springs(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
+  void add_hinges(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;
   void add_gas(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;
 
   const SoftMesh& mesh_;
@@ -41,6 +42,9 @@ class VibrationMode {
   std::vector<double> stretch_;   // of the edges: 1 - L / l
   std::vector<Vec3> across_;      // m, of the edges: between the vertices on their two sides
   VertexArray area_;              // dV/dx, m^2
+  /// Of the hinges, 1/s: hinge_stiffness_root over the root of m. What hinges out of their rest
+  /// angle add, as springs out of their rest length do, is left out: it is small where they yield.
+  std::vector<Eigen::Matrix<double, 12, 1>> hinges_;
 };
 
 }  // namespace pneuma::sim

@@ -38,6 +38,7 @@ struct SoftMaterial {
   double start_volume = 1.0;      // m^3, at which the gas has its temperature
   double ambient_pressure = 0.0;  // Pa, outside of a body with gas
   double vertex_mass = 0.35;      // kg, > 0
+  double bending = 0.0;           // N m, >= 0: rigidity of the surface; needs SoftMesh::hinges
   PressureWeighting pressure_weighting = PressureWeighting::uniform;
   Damping damping = Damping::dashpot;
   // Fraction of the velocity lost, 0 <= rho_g < 1: per 1/60 s under `dashpot`, and per step,

@@ -133,6 +133,23 @@ TEST(StabilityLimit, IsWhereSmallMotionsOfABodyBeginToGrow) {
   }
 }
 
+TEST(StabilityLimit, HoldsForHingesThatAreStifferThanTheSprings) {
+  SoftBody body = make_body(make_sphere(3.0, 8, 8));
+  body.material.k = 10.0;
+  body.material.n = 0.0;
+  body.mesh = with_hinges(*body.mesh);
+  body.material.bending = 1000.0;
+  const VibrationMode motions(*body.mesh, body.material, body.positions);
+  const Oscillation fastest = motions.along(motions.fastest(0.0));
+  EXPECT_NEAR(fastest.squared_frequency / greatest_eigenvalue(body, false), 1.0, 0.005);
+  for (const Integrator integrator : explicit_integrators) {
+    const double predicted =
+        stability_limit(integrator, *body.mesh, body.material, body.positions).step;
+    EXPECT_FALSE(grows(integrator, body, 0.98 * predicted));
+    EXPECT_TRUE(grows(integrator, body, 1.02 * predicted));
+  }
+}
+
 TEST(StabilityLimit, OfABodyThatItsGasWillBlowUpHoldsAtTheStartAndWhenItIsBlownUp) {
   // Before, its gas is the stiffer; after, springs are stiff across themselves, too.
   for (const double n : {1.0, 10.0}) {

@@ -1,5 +1,6 @@
 #include "app/study/error/reference_equation.h"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -98,6 +99,40 @@ bool add_pressure(const sim::SoftBody& body, const std::vector<double>& weights,
   return true;
 }
 
+/// K/2 (2 sin(t/2) - q0)^2 of every hinge, t being the angle between its triangles: its derivative
+/// by t is their torque about the edge, which acts on the vertices across it with the lever of
+/// their height, and on the edge's ends with what balances both in force and torque (Bridson et
+/// al., Simulation of clothing with folds and wrinkles, 2003, with E turned around).
+void add_hinges(const sim::SoftBody& body, const Part& part) {
+  if (body.material.bending == 0.0) return;
+  const sim::HingeTable& hinges = *body.mesh->hinges;
+  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
+    const auto& corners = hinges.corners[e];
+    const auto point = [&](std::size_t i) {
+      return sim::Vec3(part.x + 3 * static_cast<std::size_t>(corners[i]));
+    };
+    const sim::Vec3 x3 = point(0), x4 = point(1), x1 = point(2), x2 = point(3);
+    const sim::Vec3 along = x4 - x3;
+    const sim::Vec3 n1 = (x1 - x3).cross(x1 - x4), n2 = (x2 - x4).cross(x2 - x3);
+    const double length = along.norm();
+    const double angle = std::atan2(n1.cross(n2).dot(along) / length, n1.dot(n2));
+    const double torque = body.material.bending * hinges.weights[e] *
+                          (2.0 * std::sin(0.5 * angle) - hinges.rest_values[e]) *
+                          std::cos(0.5 * angle) / body.material.vertex_mass;
+    const sim::Vec3 u1 = length / n1.squaredNorm() * n1, u2 = length / n2.squaredNorm() * n2;
+    const double s1 = (x1 - x4).dot(along) / (length * length);
+    const double s2 = (x2 - x4).dot(along) / (length * length);
+    const double r1 = (x1 - x3).dot(along) / (length * length);
+    const double r2 = (x2 - x3).dot(along) / (length * length);
+    const std::array<sim::Vec3, 4> along_vertices = {s1 * u1 + s2 * u2, -r1 * u1 - r2 * u2, u1, u2};
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        part.a[3 * corners[i] + c] += torque * along_vertices[i][c];
+      }
+    }
+  }
+}
+
 /// Gravity, and the drag that loses the fraction rho_g of the velocity in 1/60 s (ERRATA row 5).
 void set_gravity_and_drag(const sim::SoftBody& body, const sim::Vec3& gravity, const Part& part) {
   const double gamma = -60.0 * std::log(1.0 - body.material.rho_g);
@@ -147,6 +182,7 @@ bool ReferenceEquation::operator()(const double* state, double* derivative) cons
     const Part part{state + first, state + velocities + first, derivative + velocities + first};
     set_gravity_and_drag(body, gravity_, part);
     add_springs(body, part);
+    add_hinges(body, part);
     if (!add_pressure(body, pressure_weights_[b], part)) return false;
     first += static_cast<std::size_t>(3 * body.mesh->topology.vertex_count());
   }

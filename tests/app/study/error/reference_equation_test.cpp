@@ -75,6 +75,24 @@ TEST(ReferenceEquation, IsTheSimulationsWithEveryChoice) {
   check("light", [](auto& m) { m.vertex_mass = 0.01; });
 }
 
+TEST(ReferenceEquation, IsTheSimulationsWithBending) {
+  sim::SoftBody body = moving_body();
+  body.mesh = sim::with_hinges(*body.mesh);
+  body.material.bending = 200.0;
+  const double without = difference_from_simulation(moving_body());
+  // Angles by an arc function, against the distance of unit normals: some ten roundings more.
+  EXPECT_LT(difference_from_simulation(body), 10.0 * rounding);
+  EXPECT_LT(without, rounding);
+  sim::AccelerationScratch scratch(*body.mesh);
+  sim::VertexArray with(body.positions.size()), none(body.positions.size());
+  sim::SoftAcceleration(*body.mesh, body.material, gravity, scratch)(body.positions,
+                                                                     body.velocities, with);
+  body.material.bending = 0.0;
+  sim::SoftAcceleration(*body.mesh, body.material, gravity, scratch)(body.positions,
+                                                                     body.velocities, none);
+  EXPECT_GT((with.rows() - none.rows()).norm(), 0.1 * none.rows().norm());
+}
+
 TEST(ReferenceEquation, IsTheGradientOfTheEnergiesWhereNothingIsLost) {
   sim::SoftBody body = moving_body();
   sim::undamp(body.material);

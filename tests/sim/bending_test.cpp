@@ -1,0 +1,175 @@
+// The hinges of a surface: their energy against closed forms, their derivatives against differences
+// of it.
+#include "sim/soft/bending.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/mesh/measure.h"
+#include "sim/mesh/primitives.h"
+#include "sim/mesh/rotation.h"
+#include "sim/soft/incremental_potential.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr double rigidity = 7.0;  // N m
+
+/// With hinges at rest in its shape, and moved out of it at random.
+SoftBody bent(const TriangleMesh& mesh, double amount) {
+  SoftBody body = make_body(mesh, {1.0, -2.0, 3.0});
+  body.mesh = with_hinges(*body.mesh);
+  perturb(body, amount, 5);
+  return body;
+}
+
+/// Four triangles: the vertices across each edge are joined by an edge themselves.
+TriangleMesh tetrahedron() {
+  return {{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.2, 1.1, 0.0}, {0.3, 0.2, 0.9}},
+          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+}
+
+std::vector<SoftBody> bent_bodies() {
+  return {bent(tetrahedron(), 0.1), bent(make_box({2.0, 1.0, 0.5}, 2), 0.1),
+          bent(make_icosphere(1.0, 1), 0.15), bent(make_torus(2.0, 0.7, 7, 6), 0.1)};
+}
+
+VertexArray forces(const SoftBody& body) {
+  VertexArray result(body.positions.size());
+  add_bending_forces(*body.mesh, body.positions, rigidity, 1, result);
+  return result;
+}
+
+/// At positions with one coordinate moved.
+template <class Value>
+auto moved(SoftBody body, int v, int axis, double by, const Value& value) {
+  body.positions[v][axis] += by;
+  return value(body);
+}
+
+TEST(Bending, NothingBendsAShapeAtRestWhereverItIsAndWhateverItsSize) {
+  SoftBody body = bent(make_box({2.0, 1.0, 0.5}, 2), 0.0);
+  const auto energy = [&] { return bending_energy(*body.mesh, body.positions, rigidity); };
+  // q to rounding, which is 1e-8 of it where its square rounds to 1e-16.
+  EXPECT_LT(energy(), 1e-12);
+  const Mat3 rotation = rotation_of_degrees({20.0, 70.0, -40.0}).toRotationMatrix();
+  for (int v = 0; v < body.positions.size(); ++v) {
+    body.positions[v] = 3.0 * rotation * Vec3(body.positions[v]);
+  }
+  EXPECT_LT(energy(), 1e-12);
+}
+
+TEST(Bending, ForcesAreTheSlopeOfTheEnergy) {
+  const double h = 1e-6;  // truncation h^2 E''' and rounding 1e-16 E / h are near 1e-9 of a force
+  for (const SoftBody& body : bent_bodies()) {
+    const VertexArray force = forces(body);
+    ASSERT_GT(force.rows().norm(), 1.0);
+    const auto energy = [](const SoftBody& b) {
+      return bending_energy(*b.mesh, b.positions, rigidity);
+    };
+    for (int v = 0; v < force.size(); ++v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double slope =
+            (moved(body, v, axis, h, energy) - moved(body, v, axis, -h, energy)) / (2.0 * h);
+        EXPECT_NEAR(-slope, force[v][axis], 1e-6 * force.rows().norm());
+      }
+    }
+  }
+}
+
+TEST(Bending, ForcesPushAndTurnNothingAsAWhole) {
+  for (const SoftBody& body : bent_bodies()) {
+    const VertexArray force = forces(body);
+    Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
+    for (int v = 0; v < force.size(); ++v) {
+      net += force[v];
+      torque += Vec3(body.positions[v]).cross(Vec3(force[v]));
+    }
+    EXPECT_LT(net.norm(), 1e-12 * force.rows().norm());
+    EXPECT_LT(torque.norm(), 1e-11 * force.rows().norm());  // arms of some metres
+  }
+}
+
+TEST(Bending, HessianIsTheSlopeOfTheForces) {
+  const double h = 1e-6;
+  for (const SoftBody& body : bent_bodies()) {
+    const MeshTopology& topology = body.mesh->topology;
+    IncrementalPotential energy(*body.mesh);
+    energy.rest_lengths = body.mesh->rest_lengths;
+    energy.bending = rigidity;
+    EnergyPoint point(*body.mesh);
+    point.positions = body.positions;
+    ASSERT_TRUE(evaluate(*body.mesh, energy, point));
+    VertexMatrix matrix(topology, body.mesh->hinges.get());
+    hessian_without_rank_one(*body.mesh, energy, point, opposite_vertices(topology), matrix);
+    for (int v = 0; v < body.positions.size(); ++v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        VertexArray unit(body.positions.size()), column(body.positions.size());
+        unit[v][axis] = 1.0;
+        matrix.multiply(unit, column);
+        const auto rows = [&](const SoftBody& b) { return VertexArray::Rows(forces(b).rows()); };
+        const VertexArray::Rows slope =
+            (moved(body, v, axis, h, rows) - moved(body, v, axis, -h, rows)) / (2.0 * h);
+        // Of forces of some 1e2 N, rounding 1e-14 / h, and truncation.
+        EXPECT_LT((slope + column.rows()).norm(), 1e-6 * column.rows().norm() + 1e-5);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) matrix.fix(1, axis);
+    VertexArray unit(body.positions.size()), column(body.positions.size());
+    unit[1] = Vec3(1.0, 2.0, 3.0);
+    matrix.multiply(unit, column);
+    EXPECT_EQ(column.rows(), unit.rows());
+  }
+}
+
+TEST(Bending, AtTheRestAngleTheHessianIsTheSquareOfItsRoot) {
+  const SoftBody body = bent(make_icosphere(1.0, 1), 0.0);
+  for (int e = 0; e < body.mesh->topology.edge_count(); ++e) {
+    const auto root = hinge_stiffness_root(*body.mesh, body.positions, rigidity, e);
+    const HingeHessian whole = hinge_hessian(*body.mesh, body.positions, rigidity, e);
+    EXPECT_LT((whole - root * root.transpose()).norm(), 1e-12 * whole.norm());
+  }
+}
+
+/// A sheet that is flat at rest, rolled up to a torus of the radii R and r: half the rigidity times
+/// the integral of the squared sum of its curvatures, of which Willmore's energy is a quarter, pi^2
+/// (R/r)^2 / sqrt((R/r)^2 - 1). By Gauss and Bonnet the product of the curvatures adds nothing.
+TEST(Bending, OfASheetRolledUpToATorusIsThatOfAPlate) {
+  const double ratio = 3.0;
+  const double expected =
+      2.0 * rigidity * std::pow(std::numbers::pi * ratio, 2) / std::sqrt(ratio * ratio - 1.0);
+  double last_error = 1.0;
+  for (const int slices : {16, 32}) {
+    SoftBody body = bent(make_torus(ratio, 1.0, 3 * slices, slices), 0.0);
+    HingeTable flat = *body.mesh->hinges;
+    std::ranges::fill(flat.rest_values, 0.0);
+    SoftMesh mesh = *body.mesh;
+    mesh.hinges = std::make_shared<const HingeTable>(std::move(flat));
+    const double error = std::abs(bending_energy(mesh, body.positions, rigidity) / expected - 1.0);
+    // Second order: angles of 2 pi / slices.
+    EXPECT_LT(error, 10.0 / (slices * slices));
+    EXPECT_LT(error, 0.5 * last_error);
+    last_error = error;
+  }
+}
+
+TEST(Bending, ATriangleWithoutHeightIsSoft) {
+  // A vertex on a face of a box, near one of its edges: slivers.
+  TriangleMesh mesh = tetrahedron();
+  mesh.vertices.push_back({0.5, 1e-6, 0.0});
+  mesh.triangles[0] = {0, 2, 4};
+  mesh.triangles.push_back({4, 2, 1});
+  mesh.triangles.push_back({0, 4, 1});
+  const SoftBody body = bent(mesh, 0.0);
+  for (int e = 0; e < body.mesh->topology.edge_count(); ++e) {
+    const auto root = hinge_stiffness_root(*body.mesh, body.positions, rigidity, e);
+    EXPECT_LT(root.squaredNorm(), 1e4 * rigidity);  // 1/m^2: unsoftened some 1e18
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim
