@@ -152,7 +152,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
   r.scenery.draw(view, frame.ground, r.ground_plane);
   if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
   r.layer.compose();
-  if (frame.caption) r.lettering.draw(view, frame.caption->text);
+  r.lettering.draw(view, frame);
   r.target.read(image);
 }
 

@@ -88,18 +88,6 @@ render::Mesh rigid_mesh(const sim::RigidBox& box, const ShapePointer& shape) {
   return mesh;
 }
 
-/// The renderer's letters are ASCII: any other character becomes one question mark.
-std::string to_ascii(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool continues_a_character = (byte & 0xC0) == 0x80;
-    if (byte < 0x80) result += c;
-    if (byte >= 0x80 && !continues_a_character) result += '?';
-  }
-  return result;
-}
-
 /// On a caption; of more bodies the first ones.
 constexpr int most_pressures = 8;
 
@@ -111,7 +99,7 @@ std::string pressure_lines(const sim::World& world) {
     const sim::GasLaw law = sim::gas_law(body.material);
     if (!(law.strength > 0.0) || ++count > most_pressures) continue;
     const double volume = sim::volume(body.mesh->topology, body.positions);
-    lines += fmt::format("\n{}: {:.4g} Pa, {:.4g} mol", to_ascii(body.name),
+    lines += fmt::format("\n{}: {:.4g} Pa, {:.4g} mol", body.name,
                          sim::gauge_pressure(law, volume), body.material.n);
   }
   return lines;
@@ -150,7 +138,7 @@ Show parse_show(const std::string& option, const std::string& list) {
 
 FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
                            const render::Camera& camera)
-    : title_(to_ascii(scene.title.empty() ? scene.name : scene.title)),
+    : title_(scene.title.empty() ? scene.name : scene.title),
       caption_(scene.picture.caption),
       pressures_(scene.picture.pressures),
       rounded_(scene.picture.rounded),

@@ -48,6 +48,9 @@ void check_mesh(const Mesh& mesh, std::size_t i) {
   require(mesh.normals.empty() || mesh.normals.size() == vertices,
           "mesh {} has {} positions and {} normals; as many are needed, or none", i, vertices,
           mesh.normals.size());
+  require(mesh.colours.empty() || mesh.colours.size() == vertices,
+          "mesh {} has {} positions and {} colours of its own; as many are needed, or none", i,
+          vertices, mesh.colours.size());
   require(mesh.roughness >= 0.05f && mesh.roughness <= 1.0f,
           "mesh {}: the roughness is {}; allowed is 0.05..1", i, mesh.roughness);
   require(mesh.room.empty() || mesh.room.size() == mesh.shape->triangles.size(),
@@ -68,6 +71,15 @@ void check_camera(const Camera& camera) {
           to_text(camera.target));
   require(camera.field_of_view >= 1.0f && camera.field_of_view <= 120.0f,
           "camera: the field of view is {}; allowed is 1..120 degrees", camera.field_of_view);
+}
+
+void check_legend(const Legend& legend) {
+  require(legend.colours.size() >= 2, "legend: it has {} colours; allowed are two or more",
+          legend.colours.size());
+  for (const Legend::Tick& tick : legend.ticks) {
+    require(tick.at >= 0.0f && tick.at <= 1.0f, "legend: the tick '{}' is at {}; allowed is 0..1",
+            tick.text, tick.at);
+  }
 }
 
 void check_light(const Light& light) {
@@ -103,6 +115,11 @@ void check_frame(const Frame& frame) {
     require(line.width > 0.0f && std::isfinite(line.width),
             "line {}: the width is {}; it must be positive", i, line.width);
   }
+  for (const Label& label : frame.labels) {
+    require(drawable(label.position), "label '{}': the position is {}; it must be finite",
+            label.text, to_text(label.position));
+  }
+  if (frame.legend) check_legend(*frame.legend);
 }
 
 }  // namespace pneuma::render

@@ -46,6 +46,7 @@ struct Mesh {
   std::vector<Vec3f> positions;  // per vertex
   std::vector<Vec3f> normals;    // per vertex, unit; empty for flat shading
   float roughness = 0.35f;       // of the surface, 0.05 (shines) .. 1 (dull)
+  std::vector<Colour> colours;   // per vertex, in place of the shape's; empty: those
   // Per triangle, m: how far the drawn surface may bulge out of it to look round; empty: nowhere.
   std::vector<float> room;
 };
@@ -54,7 +55,7 @@ struct Mesh {
 struct Point {
   Vec3f position;
   Colour colour;
-  float diameter = 6.0f;       // pixels at 480 lines; scales with the picture's height
+  float diameter = 6.0f;       // pixels at 480 lines; scales with the picture's height, down to 5
   bool always_visible = true;  // drawn over what would hide it (faintly), or hidden by it
 };
 
@@ -62,12 +63,30 @@ struct Line {
   Vec3f from;
   Vec3f to;
   Colour colour;
-  float width = 1.5f;  // pixels at 480 lines
+  float width = 1.5f;           // pixels at 480 lines
+  bool always_visible = false;  // also drawn, faintly, over what hides it
 };
 
 /// Lines of text in the lower left corner.
 struct Caption {
-  std::string text;  // ASCII; newlines start a new line
+  std::string text;  // UTF-8; newlines start a new line
+};
+
+/// A name over a point, in front of all bodies.
+struct Label {
+  Vec3f position;
+  std::string text;  // UTF-8
+};
+
+/// What the colours of surfaces mean: a bar from its low end, at the bottom, to its high end.
+struct Legend {
+  struct Tick {
+    float at;  // 0 at the low end, 1 at the high end
+    std::string text;
+  };
+  std::string title;
+  std::vector<Colour> colours;  // evenly from low to high, at least two
+  std::vector<Tick> ticks;
 };
 
 struct Frame {
@@ -79,6 +98,9 @@ struct Frame {
   std::vector<Point> points;
   std::vector<Line> lines;
   std::optional<Caption> caption;
+  std::vector<Label> labels;
+  bool scale_bar = false;  // how long a metre is where the camera's target is
+  std::optional<Legend> legend;
 };
 
 }  // namespace pneuma::render

@@ -62,6 +62,13 @@ Vec3f mixed(const SurfacePoint& point, std::span<const Vec3f> of) {
          point.weights[2] * of[point.corners[2]];
 }
 
+/// Linear colours of a mesh that has its own.
+std::vector<Vec3f> own_colours(const Mesh& mesh) {
+  std::vector<Vec3f> colours;
+  for (const Colour& colour : mesh.colours) colours.push_back(to_linear(colour));
+  return colours;
+}
+
 Eigen::Vector4f material(const Vec3f& colour, float roughness) {
   return {colour.x(), colour.y(), colour.z(), roughness};
 }
@@ -111,7 +118,8 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
     pixels = pixels_per_metre(mesh, view);
   }
   std::vector<SurfaceVertex> vertices;  // of the points so far
-  const Shape& shape = shape_of(mesh.shape);
+  const std::vector<Vec3f> own = own_colours(mesh);
+  const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
   const auto add_vertices = [&](const std::vector<SurfacePoint>& points) {
     for (std::size_t i = vertices.size(); i < points.size(); ++i) {
       Vec3f position = rounded_position(mesh.positions, mesh.normals, share, points[i]);
@@ -119,7 +127,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
         position = kept_above_ground(position, height_of(points[i], mesh.positions));
       }
       vertices.push_back({position, mixed(points[i], mesh.normals).normalized(),
-                          material(mixed(points[i], shape.colours), mesh.roughness)});
+                          material(mixed(points[i], colours), mesh.roughness)});
     }
   };
   const auto needs_halving = [&](const std::vector<SurfacePoint>& points, std::uint32_t a,
@@ -136,7 +144,8 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
 
 void DrawnSurface::add_flat(const Mesh& mesh) {
   add_lit_mesh(mesh);
-  const Shape& shape = shape_of(mesh.shape);
+  const std::vector<Vec3f> own = own_colours(mesh);
+  const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
   Refinement apart;
   for (const Triangle& t : mesh.shape->triangles) {
     const auto first = static_cast<std::uint32_t>(apart.points.size());
@@ -149,7 +158,7 @@ void DrawnSurface::add_flat(const Mesh& mesh) {
       apart.points.push_back({{first + i, first + i, first + i}, {1.0f, 0.0f, 0.0f}});
       positions_.push_back(mesh.positions[v]);
       normals_.push_back(normal);
-      vertices_.push_back({mesh.positions[v], normal, material(shape.colours[v], mesh.roughness)});
+      vertices_.push_back({mesh.positions[v], normal, material(colours[v], mesh.roughness)});
     }
   }
   append(apart);

@@ -10,7 +10,10 @@ void IndirectLighting::take_bodies(const std::vector<Mesh>& meshes, const Vec3f&
   bodies_.clear();
   for (const Mesh& mesh : meshes) {
     const Shape& shape = shape_of(mesh.shape);
-    bodies_.push_back(elements_of(mesh, shape.albedo, shape.patches, to_light, is_lit));
+    std::vector<Vec3f> own;
+    for (const Colour& colour : mesh.colours) own.push_back(to_linear(colour));
+    bodies_.push_back(
+        elements_of(mesh, own.empty() ? shape.albedo : own, shape.patches, to_light, is_lit));
   }
 }
 

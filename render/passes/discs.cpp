@@ -49,6 +49,12 @@ void main() {
 }
 )";
 
+constexpr float readable = 5.0f;  // pixels: in small pictures discs shrink no further
+
+float shown_diameter(float diameter, float pixel_scale) {
+  return std::max(diameter * pixel_scale, std::min(diameter, readable));
+}
+
 }  // namespace
 
 Discs::Discs()
@@ -69,7 +75,7 @@ void Discs::draw(const View& view, const std::vector<Point>& points) {
   std::vector<Instance> shining_through;
   for (const Point& point : ordered) {
     const Instance instance = {point.position, point.colour,
-                               0.5f * point.diameter * view.pixel_scale};
+                               0.5f * shown_diameter(point.diameter, view.pixel_scale)};
     all.push_back(instance);
     if (point.always_visible) shining_through.push_back(instance);
   }

@@ -1,153 +1,168 @@
 #include "render/passes/lettering.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-// Written without care for warnings; it is used as it is.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_easy_font.h>
-#pragma GCC diagnostic pop
 
 namespace pneuma::render {
 namespace {
 
-constexpr const char* vertex_source = R"(
-layout(location = 0) in vec2 position;  // pixels from the upper left corner
-layout(location = 1) in vec4 ink;
-uniform vec2 picture_size;
-flat out vec4 shade;
-
-void main() {
-  shade = ink;
-  vec2 clip = position / picture_size * 2.0 - 1.0;
-  gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
-}
-)";
-
-constexpr const char* fragment_source = R"(
-flat in vec4 shade;
-out vec4 colour;
-void main() { colour = shade; }
-)";
-
-using Ink = Eigen::Vector4f;  // sRGB and opacity
 const Ink letter_ink = {0.97f, 0.97f, 0.96f, 1.0f};
 const Ink panel_ink = {0.10f, 0.12f, 0.15f, 0.68f};
 
-/// As stb_easy_font writes them.
-struct FontVertex {
-  float x;
-  float y;
-  float z;
-  unsigned char colour[4];
+struct Rectangle {
+  Eigen::Vector2f min;
+  Eigen::Vector2f max;
+
+  bool meets(const Rectangle& other) const {
+    return (min.array() < other.max.array()).all() && (other.min.array() < max.array()).all();
+  }
 };
 
-struct Vertex {
-  Eigen::Vector2f position;
-  Ink ink;
-};
+int whole(float pixels) { return static_cast<int>(std::lround(pixels)); }
 
-std::string printable(std::string text) {
-  for (char& c : text) {
-    if (c != '\n' && (c < ' ' || c > '~')) c = '?';
-  }
-  return text;
+std::string length_text(float metres) {
+  if (metres >= 1000.0f) return fmt::format("{:g} km", metres / 1000.0f);
+  if (metres >= 1.0f) return fmt::format("{:g} m", metres);
+  if (metres >= 0.01f) return fmt::format("{:g} cm", metres * 100.0f);
+  return fmt::format("{:g} mm", metres * 1000.0f);
 }
 
-float width_of(std::string line) { return static_cast<float>(stb_easy_font_width(line.data())); }
-
-/// How many characters of `line` fit: up to the last space where there is one, else as many as go,
-/// at least one.
-std::size_t fitting(const std::string& line, float width) {
-  std::size_t count = line.size();
-  while (count > 1 && width_of(line.substr(0, count)) > width) --count;
-  if (count == line.size()) return count;
-  const std::size_t space = line.rfind(' ', count);
-  return space == line.npos || space == 0 ? count : space;
-}
-
-/// The text with a new line wherever one would be wider than `width`, in the font's units.
-std::string wrapped(const std::string& text, float width) {
-  std::string result;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string line = text.substr(begin, end - begin);
-    do {
-      const std::size_t count = fitting(line, width);
-      if (!result.empty()) result += '\n';
-      result += line.substr(0, count);
-      line.erase(0, std::max(count, std::min(line.find_first_not_of(' ', count), line.size())));
-    } while (!line.empty());
-    begin = end + 1;
-  }
-  return result;
-}
-
-/// Rectangles of four corners each: upper left, upper right, lower right, lower left.
-std::vector<FontVertex> font_rectangles(std::string& text) {
-  constexpr std::size_t bytes_per_character = 30 * 4 * sizeof(FontVertex);  // none has more strokes
-  std::vector<FontVertex> corners(text.size() * bytes_per_character / sizeof(FontVertex));
-  const int count = stb_easy_font_print(0.0f, 0.0f, text.data(), nullptr, corners.data(),
-                                        static_cast<int>(corners.size() * sizeof(FontVertex)));
-  corners.resize(4 * static_cast<std::size_t>(count));
-  return corners;
-}
-
-void add_rectangle(std::vector<Vertex>& vertices, const Eigen::Vector2f& min,
-                   const Eigen::Vector2f& max, const Ink& ink) {
-  const Eigen::Vector2f upper_right = {max.x(), min.y()};
-  const Eigen::Vector2f lower_left = {min.x(), max.y()};
-  for (const Eigen::Vector2f& corner : {min, upper_right, max, min, max, lower_left}) {
-    vertices.push_back({corner, ink});
-  }
+/// Pixels from the upper left corner; nothing behind the eye or beside the picture.
+std::optional<Eigen::Vector2f> seen_at(const View& view, const Vec3f& point) {
+  const Eigen::Vector4f clip = view.view_projection * point.homogeneous();
+  if (clip.w() <= 0.0f) return std::nullopt;
+  const Eigen::Vector2f at = clip.head<2>() / clip.w();
+  if ((at.array().abs() > 1.0f).any()) return std::nullopt;
+  return Eigen::Vector2f(0.5f * (1.0f + at.x()) * static_cast<float>(view.width),
+                         0.5f * (1.0f - at.y()) * static_cast<float>(view.height));
 }
 
 }  // namespace
 
-Lettering::Lettering()
-    : program_("caption", "", vertex_source, fragment_source),
-      picture_size_(program_.uniform("picture_size")) {
-  glBindVertexArray(vao_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-  set_attribute(0, 2, sizeof(Vertex), offsetof(Vertex, position));
-  set_attribute(1, 4, sizeof(Vertex), offsetof(Vertex, ink));
+float round_length(float length) {
+  const float power = std::pow(10.0f, std::floor(std::log10(length)));
+  for (const float factor : {5.0f, 2.0f}) {
+    if (factor * power <= length) return factor * power;
+  }
+  return power;
 }
 
-void Lettering::draw(const View& view, const std::string& caption) {
-  // Whole pixels for each of the font's, so that every stroke is equally wide.
-  const float scale = std::max(1.0f, std::round(view.pixel_scale * 1.5f));
-  const float margin = 5.0f * scale;
-  const float padding = 4.0f * scale;
-  const float room = static_cast<float>(view.width) - 2.0f * (margin + padding);
-  std::string text = caption.empty() ? "" : wrapped(printable(caption), room / scale);
-  const std::vector<FontVertex> corners = font_rectangles(text);
-  if (corners.empty()) return;
-  const Eigen::Vector2f text_size =
-      scale * Eigen::Vector2f(static_cast<float>(stb_easy_font_width(text.data())),
-                              static_cast<float>(stb_easy_font_height(text.data())));
-  const Eigen::Vector2f origin = {
-      margin + padding, static_cast<float>(view.height) - margin - padding - text_size.y()};
+void Lettering::draw(const View& view, const Frame& frame) {
+  em_ = std::max(11.0f, std::round(13.5f * view.pixel_scale));  // below, letters are hard to read
+  padding_ = std::round(0.45f * em_);
+  margin_ = std::round(0.6f * em_);
+  drawing_.begin();
+  draw_labels(view, frame.labels);
+  if (frame.legend) draw_legend(view, *frame.legend);
+  const float right = frame.scale_bar ? draw_scale_bar(view) : static_cast<float>(view.width);
+  if (frame.caption && !frame.caption->text.empty()) draw_caption(view, frame.caption->text, right);
+  drawing_.draw(view);
+}
 
-  std::vector<Vertex> vertices;
-  const Eigen::Vector2f border = Eigen::Vector2f::Constant(padding);
-  add_rectangle(vertices, origin - border, origin + text_size + border, panel_ink);
-  for (std::size_t i = 0; i < corners.size(); i += 4) {
-    add_rectangle(vertices, origin + scale * Eigen::Vector2f(corners[i].x, corners[i].y),
-                  origin + scale * Eigen::Vector2f(corners[i + 2].x, corners[i + 2].y), letter_ink);
+TextLayout Lettering::laid_out(const std::string& text, float most_width) const {
+  return lay_out(drawing_.font(), text, em_, most_width);
+}
+
+void Lettering::panel(const TextLayout& layout, float x, float y) {
+  const Eigen::Vector2f min = {std::round(x), std::round(y)};
+  const Eigen::Vector2f size = {std::ceil(layout.width), std::ceil(layout.height)};
+  drawing_.rectangle(min, (min + size).array() + 2.0f * padding_, panel_ink);
+  drawing_.text(layout, whole(min.x() + padding_), whole(min.y() + padding_), letter_ink);
+}
+
+void Lettering::draw_caption(const View& view, const std::string& text, float right) {
+  const TextLayout layout = laid_out(text, right - 2.0f * (margin_ + padding_));
+  panel(layout, margin_,
+        static_cast<float>(view.height) - margin_ - 2.0f * padding_ - std::ceil(layout.height));
+}
+
+float Lettering::draw_scale_bar(const View& view) {
+  const float distance = (view.target - view.eye).norm();
+  const float pixels = 0.5f * static_cast<float>(view.height) * view.projection(1, 1) / distance;
+  const float length = round_length(0.2f * static_cast<float>(view.width) / pixels);
+  const TextLayout layout = laid_out(length_text(length), static_cast<float>(view.width));
+  const float width = std::max(length * pixels, std::ceil(layout.width));
+  const float thick = std::max(2.0f, std::round(0.2f * em_));
+  const Eigen::Vector2f max = {static_cast<float>(view.width) - margin_,
+                               static_cast<float>(view.height) - margin_};
+  const Eigen::Vector2f min =
+      max - Eigen::Vector2f(width + 2.0f * padding_,
+                            std::ceil(layout.height) + 2.0f * padding_ + 2.0f * thick);
+  drawing_.rectangle(min, max, panel_ink);
+  drawing_.text(layout, whole(0.5f * (min.x() + max.x() - layout.width)), whole(min.y() + padding_),
+                letter_ink);
+  const float middle = 0.5f * (min.x() + max.x());
+  const float bottom = max.y() - padding_;
+  const Eigen::Vector2f from = {middle - 0.5f * length * pixels, bottom - thick};
+  const Eigen::Vector2f to = {middle + 0.5f * length * pixels, bottom};
+  drawing_.rectangle(from, to, letter_ink);
+  for (const float end : {from.x(), to.x() - 0.5f * thick}) {
+    drawing_.rectangle({end, from.y() - thick}, {end + 0.5f * thick, to.y()}, letter_ink);
   }
+  return min.x();
+}
 
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDisable(GL_DEPTH_TEST);
-  program_.use();
-  set_uniform(picture_size_,
-              Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
-  glBindVertexArray(vao_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
-               vertices.data(), GL_STREAM_DRAW);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+void Lettering::draw_labels(const View& view, const std::vector<Label>& labels) {
+  const Eigen::Vector2f picture = {static_cast<float>(view.width), static_cast<float>(view.height)};
+  std::vector<Rectangle> taken;
+  for (const Label& label : labels) {
+    const auto at = seen_at(view, label.position);
+    if (!at || label.text.empty()) continue;
+    const TextLayout layout = laid_out(label.text, picture.x() - 2.0f * (margin_ + padding_));
+    const Eigen::Vector2f size = {std::ceil(layout.width) + 2.0f * padding_,
+                                  std::ceil(layout.height) + 2.0f * padding_};
+    Eigen::Vector2f min = {at->x() - 0.5f * size.x(), at->y() - size.y() - 0.3f * em_};
+    min = min.cwiseMin(picture - size).cwiseMax(0.0f);
+    // Above the labels before it that are in its way, for as long as there is room.
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const Rectangle& other : taken) {
+        if (!other.meets({min, min + size}) || other.min.y() < size.y() + 1.0f) continue;
+        min.y() = other.min.y() - size.y() - 1.0f;
+        moved = true;
+      }
+    }
+    taken.push_back({min, min + size});
+    panel(layout, min.x(), min.y());
+  }
+}
+
+void Lettering::draw_legend(const View& view, const Legend& legend) {
+  const float picture_width = static_cast<float>(view.width);
+  const float bar_height = std::round(0.4f * static_cast<float>(view.height));
+  const float bar_width = std::round(1.1f * em_);
+  const TextLayout title = laid_out(legend.title, 0.3f * picture_width);
+  std::vector<TextLayout> ticks;
+  float widest = 0.0f;
+  for (const Legend::Tick& tick : legend.ticks) {
+    ticks.push_back(laid_out(tick.text, 0.3f * picture_width));
+    widest = std::max(widest, std::ceil(ticks.back().width));
+  }
+  const float line = drawing_.font().line_height(em_);
+  const float width = std::max(std::ceil(title.width), bar_width + padding_ + widest);
+  const float height = std::ceil(title.height) + padding_ + bar_height + line;
+  const Eigen::Vector2f min = {picture_width - margin_ - 2.0f * padding_ - width, margin_};
+  const Eigen::Vector2f inside = min.array() + padding_;
+  drawing_.rectangle(min, inside + Eigen::Vector2f(width + padding_, height + padding_), panel_ink);
+  drawing_.text(title, whole(inside.x()), whole(inside.y()), letter_ink);
+  // Half a line is left free above and below the bar, for the letters at its ends.
+  const float top = std::round(inside.y() + std::ceil(title.height) + padding_ + 0.5f * line);
+  const auto colours = legend.colours.size();
+  for (int row = 0; row < static_cast<int>(bar_height); ++row) {
+    const float at = 1.0f - (static_cast<float>(row) + 0.5f) / bar_height;
+    const auto number = static_cast<std::size_t>(at * static_cast<float>(colours - 1) + 0.5f);
+    const Colour& colour = legend.colours[number];
+    const Eigen::Vector2f from = {inside.x(), top + static_cast<float>(row)};
+    drawing_.rectangle(from, from + Eigen::Vector2f(bar_width, 1.0f),
+                       {colour.x(), colour.y(), colour.z(), 1.0f});
+  }
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const float y = top + (1.0f - legend.ticks[i].at) * bar_height;
+    drawing_.text(ticks[i], whole(inside.x() + bar_width + padding_), whole(y - 0.5f * line),
+                  letter_ink);
+  }
 }
 
 }  // namespace pneuma::render

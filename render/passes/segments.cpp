@@ -70,11 +70,17 @@ Segments::Segments()
       near_(quads_.program().uniform("near")) {}
 
 void Segments::draw_lines(const View& view, const std::vector<Line>& lines) {
-  instances_.clear();
-  for (const Line& line : lines) {
-    instances_.push_back({line.from, line.to, line.colour, line.width * view.pixel_scale});
-  }
-  draw(view, 1.0f);
+  const auto collect = [&](bool hidden) {
+    instances_.clear();
+    for (const Line& line : lines) {
+      if (hidden && !line.always_visible) continue;
+      instances_.push_back({line.from, line.to, line.colour, line.width * view.pixel_scale});
+    }
+  };
+  collect(true);
+  draw(view, GL_GEQUAL, 0.4f);
+  collect(false);
+  draw(view, GL_LESS, 1.0f);
 }
 
 void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes) {
@@ -86,14 +92,14 @@ void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes)
           {mesh.positions[from], mesh.positions[to], ink, 1.1f * view.pixel_scale});
     }
   }
-  draw(view, 0.7f);
+  draw(view, GL_LESS, 0.7f);
 }
 
-void Segments::draw(const View& view, float opacity) {
+void Segments::draw(const View& view, GLenum depth_test, float opacity) {
   if (instances_.empty()) return;
   quads_.begin(view);
   set_uniform(near_, view.near);
-  quads_.draw(instances_, GL_LESS, opacity);
+  quads_.draw(instances_, depth_test, opacity);
 }
 
 ShaderSources line_shaders() { return {vertex_source, fragment_source}; }

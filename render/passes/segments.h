@@ -26,7 +26,7 @@ class Segments {
     float width;  // pixels
   };
 
-  void draw(const View& view, float opacity);
+  void draw(const View& view, GLenum depth_test, float opacity);
 
   std::vector<Instance> instances_;
   InstancedQuads<Instance> quads_;

@@ -13,6 +13,9 @@ void main() { gl_Position = view_projection * vec4(position, 0.0, 1.0); }`,
 
 const ink = [0.09, 0.10, 0.12];  // of the wireframe
 
+// Pixels: in small pictures discs shrink no further. As in render/passes/discs.cpp.
+const readable = 5;
+
 class Picture {
   constructor(canvas, recording) {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
@@ -215,7 +218,7 @@ class Picture {
     const forward = subtract(view.target, view.eye);
     points.sort((a, b) => dot(b.position, forward) - dot(a.position, forward));
     const floats = points.flatMap(({ position, colour, diameter }) =>
-      [...position, ...colour, 0.5 * diameter * view.pixelScale]);
+      [...position, ...colour, 0.5 * Math.max(diameter * view.pixelScale, Math.min(diameter, readable))]);
     this.beginQuads(this.discs, view, 0.55);
     gl.depthFunc(gl.GEQUAL);
     this.discVertices.drawQuads(floats);
