@@ -100,7 +100,7 @@ void Renderer::Resources::draw_shadows(const Frame& frame, const View& view, boo
                        view.to_light,
                        [this](const Vec3f& point) { return shadow_depths.lit(point); });
   if (on_ground) {
-    ground_shadow.draw(shadow_map, shadow_depths, view.to_light, indirect.bodies());
+    ground_shadow.draw(shadow_map, shadow_depths, view.to_light, indirect.bodies(), surface);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "render/light/contact_shade.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -88,7 +90,7 @@ GroundShadow::GroundShadow()
 }
 
 void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
-                        std::span<const BodyElements> bodies) {
+                        std::span<const BodyElements> bodies, const DrawnSurface& surface) {
   picture_to_map_.setIdentity();
   picture_to_map_(0, 0) = picture_to_map_(1, 1) = static_cast<float>(size) / inner;
   picture_to_map_(0, 3) = picture_to_map_(1, 3) = -static_cast<float>(margin) / inner;
@@ -106,6 +108,11 @@ void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const 
   blur(cover_, wide_step);
   blur(soft_cover_, wide_step);
   measure_openness(bodies);
+  if (bodies.empty()) {
+    contact_.assign(texels, 0.0f);  // surfaces take no light of each other
+  } else {
+    measure_contact(surface);
+  }
   add_up();
   average_down();
   upload();
@@ -200,6 +207,15 @@ void GroundShadow::measure_openness(std::span<const BodyElements> bodies) {
   }
 }
 
+void GroundShadow::measure_contact(const DrawnSurface& surface) {
+  constexpr float reach = 7.0f;  // texels
+  constexpr float step = 2.6f;   // so that the blur reaches about as far
+  const GroundPicture picture = {world_to_picture_, size, reach * texel_};
+  if (measure_nearness(surface.vertices(), surface.triangles(), picture, contact_)) {
+    blur(contact_, step);
+  }
+}
+
 float GroundShadow::openness_at(int x, int y) const {
   const auto place = [](int texel, int& first, float& rest) {
     const float at = std::clamp((static_cast<float>(texel) + 0.5f) / texels_per_point - 0.5f, 0.0f,
@@ -231,7 +247,7 @@ void GroundShadow::add_up() {
       const float blocked =
           std::clamp(narrow_[i] + (cover_[i] - narrow_[i]) * softness, 0.0f, 1.0f);
       // Three hundredths of the sky are not seen to be missing.
-      const float open = std::min(1.0f, openness_at(x, y) + 0.03f);
+      const float open = std::min(1.0f, openness_at(x, y) + 0.03f) * (1.0f - 0.9f * contact_[i]);
       const Light3 left = sky_part * open + (1.0f - sky_part) * (1.0f - blocked);
       left_[0][i] = left[green];
       bytes_[i] = {tone_[static_cast<std::size_t>(1023.0f * left[0])],

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "render/geometry/drawn_surface.h"
 #include "render/light/gather.h"
 #include "render/passes/shadow_map.h"
 
@@ -21,7 +22,8 @@ namespace pneuma::render {
 /// five passes over so small a picture would take ten times as long.
 ///
 /// To it comes, at every fourth texel, what bodies take of the sky (light/gather.h): the soft dark
-/// around the place where a body touches the ground.
+/// around the place where a body touches the ground. Next to that place, where a body's surface
+/// comes near to the ground, it is darker still (light/contact_shade.h).
 class GroundShadow {
  public:
   GroundShadow();
@@ -34,7 +36,7 @@ class GroundShadow {
 
   /// After `map` has been drawn and its depths read.
   void draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
-            std::span<const BodyElements> bodies);
+            std::span<const BodyElements> bodies, const DrawnSurface& surface);
 
   /// The texture: what is left of the ground's colour, in sRGB.
   void bind(GLuint unit) const;
@@ -57,6 +59,7 @@ class GroundShadow {
   void measure_cover(const ShadowMap& map, const ShadowDepths& depths);
   void blur(Picture& picture, float step);
   void measure_openness(std::span<const BodyElements> bodies);
+  void measure_contact(const DrawnSurface& surface);
   float openness_at(int x, int y) const;
   void add_up();
   void average_down();
@@ -76,6 +79,7 @@ class GroundShadow {
   Picture narrow_;
   Picture scratch_;
   Picture openness_;           // fraction of the sky that is seen, at some of the texels
+  Picture contact_;            // how near surfaces come to the ground around a texel, 0..1
   std::vector<Picture> left_;  // of the ground's light; each half as many texels a side
   std::array<std::uint8_t, 1024> tone_;
   Receivers receivers_;
