@@ -12,7 +12,7 @@ struct PileResult {
   double end_speed = 0.0;      // m/s, of the fastest box's centre or vertex
   double drift = 0.0;          // m sideways, of the last box
   double rests_at = 0.0;       // s from which on nothing was faster than 0.01 m/s; infinite: never
-  int crossings = 0;          // edges between bodies, over all looks
+  int crossings = 0;           // edges between bodies, over all looks
 };
 
 struct PileOptions {
