@@ -36,10 +36,9 @@ Shape shape_of(const HingeTable::Corners& hinge, const VertexArray& x) {
 
 }  // namespace
 
-double hinge_value(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+HingeAngle hinge_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 first = area_vector(a, b, c).normalized(), second = area_vector(b, a, d).normalized();
-  const double size = (first - second).norm();
-  return (c - a).dot(second) < 0.0 ? size : -size;
+  return {first.dot(second), first.cross(second).dot((b - a).normalized())};
 }
 
 HingeTable make_hinges(const MeshTopology& topology, const VertexArray& rest_positions) {
@@ -59,9 +58,9 @@ HingeTable make_hinges(const MeshTopology& topology, const VertexArray& rest_pos
     const bool bends = c != d && min_height > 0.0;
     const double softened = std::pow(std::min(1.0, min_height / sliver), 3);
     table.weights.push_back(bends ? softened * length * length / area : 0.0);
-    table.rest_values.push_back(bends ? hinge_value(rest_positions[a], rest_positions[b],
-                                                    rest_positions[c], rest_positions[d])
-                                      : 0.0);
+    table.rest.push_back(bends ? hinge_angle(rest_positions[a], rest_positions[b],
+                                             rest_positions[c], rest_positions[d])
+                               : HingeAngle{});
   }
   return table;
 }

@@ -10,20 +10,18 @@ namespace {
 
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 
-double norm(Vec4d v) { return std::sqrt(dot(v, v)); }
-
 /// A hinge as it is bent now.
 struct Bent {
   Vec4d edge;                            // b - a
   Vec4d to_first, to_second;             // from a to c and d
   Vec4d first, second;                   // twice the area vectors of the triangles
   double squared_first, squared_second;  // of their lengths
-  double value = 0.0;                    // q
-  double slope = 0.0;                    // dq/dt = cos(t/2)
-  bool flat() const { return !(squared_first > 0.0 && squared_second > 0.0); }  // no angle
+  double length = 0.0;                   // of the edge
+  double cosine = 1.0, sine = 0.0;       // of t - t0
+  bool is_flat() const { return !(squared_first > 0.0 && squared_second > 0.0); }  // a triangle is
 };
 
-Bent bend(const HingeTable::Corners& corners, const VertexReader& x) {
+Bent bend(const HingeTable::Corners& corners, const HingeAngle& rest, const VertexReader& x) {
   Bent bent;
   const Vec4d a = x[corners[0]];
   bent.edge = x[corners[1]] - a;
@@ -33,12 +31,13 @@ Bent bend(const HingeTable::Corners& corners, const VertexReader& x) {
   bent.second = cross(bent.to_second, bent.edge);
   bent.squared_first = dot(bent.first, bent.first);
   bent.squared_second = dot(bent.second, bent.second);
-  if (bent.flat()) return bent;
-  const Vec4d n1 = (1.0 / std::sqrt(bent.squared_first)) * bent.first;
-  const Vec4d n2 = (1.0 / std::sqrt(bent.squared_second)) * bent.second;
-  const double size = norm(n1 - n2);
-  bent.value = dot(bent.to_first, bent.second) < 0.0 ? size : -size;
-  bent.slope = 0.5 * norm(n1 + n2);
+  if (bent.is_flat()) return bent;
+  bent.length = std::sqrt(dot(bent.edge, bent.edge));
+  const double scale = 1.0 / std::sqrt(bent.squared_first * bent.squared_second);
+  const double cosine = scale * dot(bent.first, bent.second);
+  const double sine = scale / bent.length * dot(cross(bent.first, bent.second), bent.edge);
+  bent.cosine = cosine * rest.cosine + sine * rest.sine;
+  bent.sine = sine * rest.cosine - cosine * rest.sine;
   return bent;
 }
 
@@ -49,10 +48,9 @@ struct AngleGradient {
 };
 
 AngleGradient angle_gradient(const Bent& bent) {
-  const double length = norm(bent.edge);
-  const Vec4d first = (length / bent.squared_first) * bent.first;
-  const Vec4d second = (length / bent.squared_second) * bent.second;
-  const double squared = length * length;
+  const Vec4d first = (bent.length / bent.squared_first) * bent.first;
+  const Vec4d second = (bent.length / bent.squared_second) * bent.second;
+  const double squared = bent.length * bent.length;
   const double f = dot(bent.to_first, bent.edge) / squared;
   const double s = dot(bent.to_second, bent.edge) / squared;
   return {(1.0 - f) * first + (1.0 - s) * second, f * first + s * second, -first, -second};
@@ -104,10 +102,12 @@ double bending_energy(const SoftMesh& mesh, const VertexArray& positions, double
   const VertexReader x(positions);
   double sum = 0.0;
   for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
-    const double bent = bend(hinges.corners[e], x).value - hinges.rest_values[e];
-    sum += hinges.weights[e] * bent * bent;
+    const Bent bent = bend(hinges.corners[e], hinges.rest[e], x);
+    // 1 - cosine, which near the rest angle would be rounding.
+    sum += hinges.weights[e] *
+           (bent.cosine > 0.0 ? bent.sine * bent.sine / (1.0 + bent.cosine) : 1.0 - bent.cosine);
   }
-  return 0.5 * rigidity * sum;
+  return rigidity * sum;
 }
 
 void add_bending_forces(const SoftMesh& mesh, const VertexArray& positions, double rigidity,
@@ -118,10 +118,9 @@ void add_bending_forces(const SoftMesh& mesh, const VertexArray& positions, doub
   const VertexWriter out(forces);
   for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
     const HingeTable::Corners& corners = hinges.corners[e];
-    const Bent bent = bend(corners, x);
-    if (bent.flat()) continue;
-    const double torque =
-        -rigidity * hinges.weights[e] * (bent.value - hinges.rest_values[e]) * bent.slope;
+    const Bent bent = bend(corners, hinges.rest[e], x);
+    if (bent.is_flat()) continue;
+    const double torque = -rigidity * hinges.weights[e] * bent.sine;
     const AngleGradient gradient = angle_gradient(bent);
     const auto add = [&](int v, Vec4d along) {
       out.put(stride * v, fma(torque, along, force[stride * v]));
@@ -135,28 +134,26 @@ void add_bending_forces(const SoftMesh& mesh, const VertexArray& positions, doub
 
 Vec12 hinge_stiffness_root(const SoftMesh& mesh, const VertexArray& positions, double rigidity,
                            int edge) {
-  const Bent bent = bend(mesh.hinges->corners[at(edge)], VertexReader(positions));
-  if (bent.flat()) return Vec12::Zero();
-  return std::sqrt(rigidity * mesh.hinges->weights[at(edge)]) * bent.slope *
-         stacked(angle_gradient(bent));
+  const HingeTable& hinges = *mesh.hinges;
+  const Bent bent = bend(hinges.corners[at(edge)], hinges.rest[at(edge)], VertexReader(positions));
+  if (bent.is_flat()) return Vec12::Zero();
+  return std::sqrt(rigidity * hinges.weights[at(edge)]) * stacked(angle_gradient(bent));
 }
 
-/// E'' = K (dq/dt^2 + (q - q0) d^2q/dt^2) dt/dx dt/dx^T + K (q - q0) dq/dt d^2t/dx^2, d^2q/dt^2 =
-/// -q/4.
+/// E'' = K cos(t - t0) dt/dx dt/dx^T + K sin(t - t0) d^2t/dx^2.
 HingeHessian hinge_hessian(const SoftMesh& mesh, const VertexArray& positions, double rigidity,
                            int edge) {
-  const Bent bent = bend(mesh.hinges->corners[at(edge)], VertexReader(positions));
+  const HingeTable& hinges = *mesh.hinges;
+  const Bent bent = bend(hinges.corners[at(edge)], hinges.rest[at(edge)], VertexReader(positions));
   HingeHessian result = HingeHessian::Zero();
-  if (bent.flat()) return result;
+  if (bent.is_flat()) return result;
   const Vec3 along = to_vec3(bent.edge);
   add_angle_hessian(along, to_vec3(bent.to_first), 1.0, 2, result);
   add_angle_hessian(along, to_vec3(bent.to_second), -1.0, 3, result);
-  const double stretch = bent.value - mesh.hinges->rest_values[at(edge)];
   const Vec12 gradient = stacked(angle_gradient(bent));
-  result *= stretch * bent.slope;
-  result +=
-      (bent.slope * bent.slope - 0.25 * stretch * bent.value) * gradient * gradient.transpose();
-  return rigidity * mesh.hinges->weights[at(edge)] * result;
+  result *= bent.sine;
+  result += bent.cosine * gradient * gradient.transpose();
+  return rigidity * hinges.weights[at(edge)] * result;
 }
 
 }  // namespace pneuma::sim

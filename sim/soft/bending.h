@@ -1,6 +1,6 @@
 // The bending of a soft body's surface: hinges between its triangles (sim/mesh/hinges.h), each of
-// the energy K/2 (q - q0)^2. Springs alone hold neither flat nor concave faces: there gas bends
-// them without stretching them by more than the square of their slope.
+// the energy K (1 - cos(t - t0)). Springs alone hold neither flat nor concave faces: there gas
+// bends them without stretching them by more than the square of their slope.
 #pragma once
 
 #include <Eigen/Core>

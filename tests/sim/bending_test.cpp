@@ -54,7 +54,7 @@ auto moved(SoftBody body, int v, int axis, double by, const Value& value) {
 TEST(Bending, NothingBendsAShapeAtRestWhereverItIsAndWhateverItsSize) {
   SoftBody body = bent(make_box({2.0, 1.0, 0.5}, 2), 0.0);
   const auto energy = [&] { return bending_energy(*body.mesh, body.positions, rigidity); };
-  // q to rounding, which is 1e-8 of it where its square rounds to 1e-16.
+  // Angles to rounding, squared.
   EXPECT_LT(energy(), 1e-12);
   const Mat3 rotation = rotation_of_degrees({20.0, 70.0, -40.0}).toRotationMatrix();
   for (int v = 0; v < body.positions.size(); ++v) {
@@ -146,7 +146,7 @@ TEST(Bending, OfASheetRolledUpToATorusIsThatOfAPlate) {
   for (const int slices : {16, 32}) {
     SoftBody body = bent(make_torus(ratio, 1.0, 3 * slices, slices), 0.0);
     HingeTable flat = *body.mesh->hinges;
-    std::ranges::fill(flat.rest_values, 0.0);
+    std::ranges::fill(flat.rest, HingeAngle{});
     SoftMesh mesh = *body.mesh;
     mesh.hinges = std::make_shared<const HingeTable>(std::move(flat));
     const double error = std::abs(bending_energy(mesh, body.positions, rigidity) / expected - 1.0);

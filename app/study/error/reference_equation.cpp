@@ -99,7 +99,7 @@ bool add_pressure(const sim::SoftBody& body, const std::vector<double>& weights,
   return true;
 }
 
-/// K/2 (2 sin(t/2) - q0)^2 of every hinge, t being the angle between its triangles: its derivative
+/// K (1 - cos(t - t0)) of every hinge, t being the angle between its triangles: its derivative
 /// by t is their torque about the edge, which acts on the vertices across it with the lever of
 /// their height, and on the edge's ends with what balances both in force and torque (Bridson et
 /// al., Simulation of clothing with folds and wrinkles, 2003, with E turned around).
@@ -116,9 +116,9 @@ void add_hinges(const sim::SoftBody& body, const Part& part) {
     const sim::Vec3 n1 = (x1 - x3).cross(x1 - x4), n2 = (x2 - x4).cross(x2 - x3);
     const double length = along.norm();
     const double angle = std::atan2(n1.cross(n2).dot(along) / length, n1.dot(n2));
-    const double torque = body.material.bending * hinges.weights[e] *
-                          (2.0 * std::sin(0.5 * angle) - hinges.rest_values[e]) *
-                          std::cos(0.5 * angle) / body.material.vertex_mass;
+    const double rest = std::atan2(hinges.rest[e].sine, hinges.rest[e].cosine);
+    const double torque = body.material.bending * hinges.weights[e] * std::sin(angle - rest) /
+                          body.material.vertex_mass;
     const sim::Vec3 u1 = length / n1.squaredNorm() * n1, u2 = length / n2.squaredNorm() * n2;
     const double s1 = (x1 - x4).dot(along) / (length * length);
     const double s2 = (x2 - x4).dot(along) / (length * length);
