@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/host/interrupt.h"
+#include "app/record/shape_deviation.h"
 #include "app/world/settled_volume.h"
 #include "assets/load_model.h"
 #include "scenes/loader/keys.h"
@@ -20,26 +21,36 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double extent = 6.0;               // m, of the longest side
-constexpr double mass = 2.0;                 // kg
+constexpr double mass = 5.0;                 // kg
 constexpr double stiffness = 4000.0;         // N/m
 constexpr double ambient_pressure = 2000.0;  // Pa: the weight on a few m^2 changes V by a percent
 /// Pa above it, of springs that hold it in shape. Springs at rest in the shape hold less: gas wants
 /// thin walls to bend until the body is a ball.
 constexpr double held_pressure = 100.0, free_pressure = 20.0;
 constexpr double drop = 1.0;  // m
+/// Of the speed in 1/60 s: round bodies roll no further than some metres.
+constexpr double drag = 0.05;
 
-/// Meshes up to this are held in shape by tensions, which take the factors of a matrix to find,
-/// and a few implicit steps to try.
-constexpr int max_held_vertices = 20'000;
-/// Volume at rest over that of the shape, within which tensions hold the shape in earnest.
-constexpr double least_held = 0.95, most_held = 1.05;
+/// Meshes up to this are held in shape by tensions, if these keep it: they take the factors of a
+/// matrix to find, and a few implicit steps to try.
+constexpr int max_held_vertices = 5'000;
+/// Of the diagonal, by which gas may bend a shape that tensions hold.
+constexpr double max_deviation = 0.03;
+/// Below, springs along the edges hold what there is of faces; above, hinges take too long.
+constexpr int min_bending_vertices = 50, max_bending_vertices = 20'000;
+
+/// Finer meshes come to rest no later, but take longer: s.
+constexpr int long_run_vertices = 3'000;
+constexpr double duration = 20.0, short_duration = 10.0;
 
 /// Of the longest stable step: vertices that are pushed together are stiffer than small motions.
 constexpr double safe_fraction = 0.7;
+/// A step of it is as long as one of velocity_verlet, and takes half the time.
+constexpr sim::Integrator integrator = sim::Integrator::symplectic_euler;
 constexpr int frames_per_second = 30;
 constexpr int least_steps_per_second = 240;
 /// Beyond these, implicit steps are quicker.
-constexpr int most_steps_per_second = 30'000, implicit_steps_per_second = 120;
+constexpr int most_steps_per_second = 60'000, implicit_steps_per_second = 120;
 
 struct Choice {
   sim::SoftBody body;
@@ -71,11 +82,16 @@ void fill(sim::SoftBody& body, double gauge) {
   material.n = (ambient_pressure + gauge) * volume / (sim::gas_constant * material.temperature);
 }
 
+/// Whether gas leaves the shape nearly as it is, the body being alone and without weight.
+bool keeps_shape(const sim::SoftBody& body) {
+  const auto settled = settled_body(body);
+  return settled && shape_deviation(*settled) <= max_deviation;
+}
+
 /// Whether springs can hold the shape, with tensions that also keep it there.
 bool hold(Choice& choice) {
   sim::SoftBody body = choice.body;
   const sim::MeshTopology& topology = body.mesh->topology;
-  if (topology.vertex_count() > max_held_vertices) return false;
   fill(body, held_pressure);
   try {
     body.mesh = sim::make_soft_mesh(
@@ -83,17 +99,36 @@ bool hold(Choice& choice) {
   } catch (const sim::EquilibriumError&) {
     return false;
   }
-  const double start = sim::volume(body.mesh->topology, body.positions);
-  const auto settled = settled_volume(body);
-  if (!settled || *settled < least_held * start || *settled > most_held * start) return false;
+  if (!keeps_shape(body)) return false;
   choice.body = body;
   choice.gauge_pressure = held_pressure;
   return true;
 }
 
+/// The fastest motion of the hinges over that of the springs: so slow, they cost no step.
+constexpr double hinge_speed = 0.5;
+
+void stiffen(sim::SoftBody& body) {
+  body.mesh = sim::with_hinges(*body.mesh);
+  sim::SoftMaterial hinges = body.material;
+  hinges.k = hinges.n = hinges.rho_g = 0.0;
+  hinges.bending = 1.0;
+  const auto step = [&](const sim::SoftMaterial& material) {
+    return sim::stability_limit(integrator, *body.mesh, material, body.positions).step;
+  };
+  const double ratio = step(hinges) / step(body.material);
+  if (std::isfinite(ratio)) body.material.bending = std::pow(hinge_speed * ratio, 2);
+}
+
+/// What keeps the shape: tensions, or less pressure; and bending stiffness against its weight.
+void choose_hold(Choice& choice) {
+  const int count = choice.body.positions.size();
+  if (count <= max_held_vertices) choice.held = hold(choice);
+  if (count >= min_bending_vertices && count <= max_bending_vertices) stiffen(choice.body);
+}
+
 void choose_step(Choice& choice) {
-  const double limit =
-      safe_fraction * sim::settled_stability_limit(sim::Integrator::rk4, choice.body).step;
+  const double limit = safe_fraction * sim::settled_stability_limit(integrator, choice.body).step;
   const double frames = std::ceil(1.0 / (limit * frames_per_second));
   choice.implicit = !(frames * frames_per_second <= most_steps_per_second);
   choice.steps_per_second =
@@ -110,9 +145,10 @@ Choice choose(const sim::TriangleMesh& mesh) {
   body.velocities = sim::VertexArray(body.positions.size());
   body.material.k = stiffness;
   body.material.k_max = 3.0 * stiffness;
+  body.material.rho_g = drag;
   body.material.vertex_mass = mass / body.positions.size();
   fill(body, choice.gauge_pressure);
-  choice.held = hold(choice);
+  choose_hold(choice);
   choose_step(choice);
   return choice;
 }
@@ -122,6 +158,12 @@ std::string repairs_text(const std::vector<std::string>& repaired) {
   std::string text;
   for (const std::string& done : repaired) text += fmt::format("# Repaired: {}\n", done);
   return text;
+}
+
+std::string bending_text(const sim::SoftMaterial& material) {
+  if (material.bending == 0.0) return "";
+  return fmt::format("bending = {}  # N m: springs alone hold neither flat nor concave faces\n",
+                     material.bending);
 }
 
 /// The keys that say how the file is read.
@@ -153,7 +195,7 @@ std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   return fmt::format(
       R"(# Made from the model's mesh, to be kept and edited.
 {}title = "A model falls"
-duration = 6.0
+duration = {}
 
 [simulation]
 integrator = "{}"
@@ -175,15 +217,18 @@ model.rotation = [{}, 0.0, 0.0]
 position = [0.0, 0.0, {}]
 k = {}
 k_max = {}
-vertex_mass = {}  # {} kg in all
-gauge_pressure = {}
+vertex_mass = {}  # {} kg in all, whatever the mesh
+rho_g = {}  # so that round bodies roll no further than some metres
+{}gauge_pressure = {}
 rest = "{}"
 )",
-      repairs_text(model.repaired), choice.implicit ? "implicit_euler" : "rk4",
-      choice.steps_per_second, ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent,
-      0.5 * extent, frames_per_second, scenes::value_text(&file), choice_text(given), options.scale,
-      extent, options.rotation.x(), 0.5 * height + drop, material.k, material.k_max,
-      material.vertex_mass, mass, choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
+      repairs_text(model.repaired),
+      choice.body.positions.size() > long_run_vertices ? short_duration : duration,
+      choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
+      ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
+      scenes::value_text(&file), choice_text(given), options.scale, extent, options.rotation.x(),
+      0.5 * height + drop, material.k, material.k_max, material.vertex_mass, mass, material.rho_g,
+      bending_text(material), choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

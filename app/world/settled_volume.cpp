@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
@@ -69,21 +70,27 @@ double volume_of(const sim::World& world) {
 
 }  // namespace
 
-std::optional<double> settled_volume(const sim::SoftBody& body) {
-  const sim::GasLaw law = sim::gas_law(body.material);
-  const bool gas = law.strength > 0.0;
-  if (gas && body.material.k == 0.0) return balanced_volume(law);
+std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body) {
   sim::World world = quiet_world(body);
   double last = volume_of(world);
-  if (!gas) return last;
   sim::Stepper stepper(world);
   for (int i = 0; i < most_steps; ++i) {
     if (stepper.step(world)) return std::nullopt;
     const double now = volume_of(world);
-    if (std::abs(now - last) < settled_change * now) return now;
+    if (std::abs(now - last) < settled_change * now) return std::move(world.soft.front());
     last = now;
   }
   return std::nullopt;
+}
+
+std::optional<double> settled_volume(const sim::SoftBody& body) {
+  const sim::GasLaw law = sim::gas_law(body.material);
+  const bool gas = law.strength > 0.0;
+  if (gas && body.material.k == 0.0) return balanced_volume(law);
+  if (!gas) return sim::volume(body.mesh->topology, body.positions);
+  const auto settled = settled_body(body);
+  if (!settled) return std::nullopt;
+  return sim::volume(settled->mesh->topology, settled->positions);
 }
 
 std::optional<double> held_pressure(const sim::SoftBody& body, double volume) {

@@ -7,6 +7,10 @@
 
 namespace pneuma::app {
 
+/// The body where it comes to rest alone and without weight, its gas pushing evenly; none when no
+/// balance is found.
+std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body);
+
 /// m^3 of the body at rest, alone and without weight: where springs and gas balance each other. By
 /// implicit steps so long that they hardly do anything but minimise the energy; the gas pushes
 /// evenly (uniform). Infinite when gas meets no springs; none when no balance is found.

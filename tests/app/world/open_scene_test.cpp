@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "app/host/errors.h"
+#include "app/record/shape_deviation.h"
 #include "app/world/build_world.h"
 #include "app/world/model_scene.h"
 #include "app/world/settled_volume.h"
@@ -49,6 +50,17 @@ TEST_F(OpenScene, AModelFallsAndRestsAtThePredictedVolume) {
     EXPECT_NEAR(volume_of(world.soft[0]) / predicted, 1.0, 0.1);
     EXPECT_LT(sim::bounds(world).low.z(), 0.2);  // it may still bounce
   }
+}
+
+TEST_F(OpenScene, BendingStiffnessHoldsFlatFaces) {
+  const auto deviation = [&](const std::vector<std::string>& overrides) {
+    sim::World world = build_world(open(sim::make_box({6.0, 6.0, 0.6}, 6), overrides));
+    EXPECT_FALSE(sim::run(world, 3.0));
+    return shape_deviation(world.soft.at(0));
+  };
+  // Gas bends the two large faces outwards by twice this together, unless something holds them.
+  EXPECT_GT(deviation({"body.bending=0"}), 0.04);
+  EXPECT_LT(deviation({}), 0.02);
 }
 
 TEST_F(OpenScene, ItsTextIsAFileToKeep) {
