@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <map>
-#include <utility>
 
-#include "app/host/errors.h"
 #include "app/picture/body_colours.h"
+#include "app/picture/colour_field.h"
+#include "app/picture/ghost.h"
 #include "app/picture/overlay.h"
 #include "app/picture/rounding_room.h"
 #include "sim/mesh/measure.h"
@@ -18,11 +15,6 @@
 
 namespace pneuma::app {
 namespace {
-
-using ShowName = std::pair<std::string_view, bool Show::*>;
-constexpr std::array<ShowName, 3> show_names = {ShowName{"wireframe", &Show::wireframe},
-                                                ShowName{"particles", &Show::particles},
-                                                ShowName{"contacts", &Show::contacts}};
 
 using ShapePointer = std::shared_ptr<const render::MeshShape>;
 using sim::Vec3;
@@ -99,8 +91,8 @@ std::string pressure_lines(const sim::World& world) {
     const sim::GasLaw law = sim::gas_law(body.material);
     if (!(law.strength > 0.0) || ++count > most_pressures) continue;
     const double volume = sim::volume(body.mesh->topology, body.positions);
-    lines += fmt::format("\n{}: {:.4g} Pa, {:.4g} mol", body.name,
-                         sim::gauge_pressure(law, volume), body.material.n);
+    lines += fmt::format("\n{}: {:.4g} Pa, {:.4g} mol", body.name, sim::gauge_pressure(law, volume),
+                         body.material.n);
   }
   return lines;
 }
@@ -110,40 +102,26 @@ render::Caption caption(const std::string& title, const sim::World& world, bool 
                       pressures ? pressure_lines(world) : std::string())};
 }
 
+void add_overlays(const sim::World& world, std::span<const sim::Contact> contacts, const Show& show,
+                  render::Frame& frame) {
+  if (show.field != ColourField::none) add_field(world, show, frame);
+  if (show.ghost) add_ghosts(world, frame);
+  if (show.particles) add_particles(world, contacts, frame);
+  if (show.contacts) add_contacts(contacts, frame);
+  if (show.labels) add_labels(world, frame);
+  frame.scale_bar = show.scale;
+}
+
 }  // namespace
 
-std::vector<std::string> shown_names(Show show) {
-  std::vector<std::string> names;
-  for (const auto& [name, member] : show_names) {
-    if (show.*member) names.emplace_back(name);
-  }
-  return names;
-}
-
-Show parse_show(const std::string& option, const std::string& list) {
-  Show show;
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    const std::string name = list.substr(begin, end - begin);
-    const auto known = std::ranges::find(show_names, name, &ShowName::first);
-    if (known == show_names.end()) {
-      throw UsageError(fmt::format(
-          "{}: '{}' is not known; allowed are wireframe, particles and contacts", option, name));
-    }
-    show.*known->second = true;
-    begin = end + 1;
-  }
-  return show;
-}
-
-FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
+FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start,
                            const render::Camera& camera)
     : title_(scene.title.empty() ? scene.name : scene.title),
       caption_(scene.picture.caption),
       pressures_(scene.picture.pressures),
       rounded_(scene.picture.rounded),
-      joints_(world) {
-  scenery_.camera = camera;
+      camera_(scene, start, camera),
+      joints_(start) {
   scenery_.light.shadows = scene.picture.shadows;
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
 
@@ -152,18 +130,19 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& world,
     const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
     const auto roughness = static_cast<float>(body.roughness);
     if (scenes::is_box(body)) {
-      const ShapePointer shape = rigid_shape(world.rigid.at(rigid_looks_.size()), body);
+      const ShapePointer shape = rigid_shape(start.rigid.at(rigid_looks_.size()), body);
       rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness});
     } else {
-      const ShapePointer shape = soft_shape(*world.soft.at(soft_looks_.size()).mesh, body);
+      const ShapePointer shape = soft_shape(*start.soft.at(soft_looks_.size()).mesh, body);
       soft_looks_.insert(soft_looks_.end(), copies, {shape, roughness});
     }
   }
 }
 
 render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::Contact> contacts,
-                                  Show show) const {
+                                  const Show& show) const {
   render::Frame frame = scenery_;
+  frame.camera = camera_.at(world);
   frame.wireframe = show.wireframe;
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
@@ -178,8 +157,7 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts;
   if (rounded_ && only_surfaces) set_rounding_room(frame.meshes);
   joints_.add(world, frame);
-  if (show.particles) add_particles(world, contacts, frame);
-  if (show.contacts) add_contacts(contacts, frame);
+  add_overlays(world, contacts, show, frame);
   if (caption_) frame.caption = caption(title_, world, pressures_);
   return frame;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "app/world/touch.h"
 #include "sim/collision/surface_view.h"
+#include "sim/inspect/closed_surface.h"
 
 namespace pneuma::app {
 namespace {
@@ -79,6 +81,16 @@ void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame) 
     const Colour colour = contact_colour(contact);
     frame.points.push_back({point, colour, free_diameter});
     frame.lines.push_back({point, point + normal_length * normal, colour});
+  }
+}
+
+void add_labels(const sim::World& world, render::Frame& frame) {
+  const int count = static_cast<int>(world.soft.size() + world.rigid.size());
+  for (int body = 0; body < count; ++body) {
+    const sim::Bounds bounds = body_bounds(world, body);
+    sim::Vec3 top = bounds.centre();
+    top.z() = bounds.high.z();
+    frame.labels.push_back({top.cast<float>(), sim::body_name(world, body)});
   }
 }
 

@@ -1,4 +1,4 @@
-// Collision particles and contacts, drawn over the surfaces.
+// Collision particles, contacts and names, drawn over the surfaces.
 #pragma once
 
 #include <span>
@@ -17,5 +17,8 @@ void add_particles(const sim::World& world, std::span<const sim::Contact> contac
 /// For each contact a disc where the bodies touch and a line along the normal, in a colour of the
 /// kinds of bodies.
 void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame);
+
+/// The bodies' names, over them.
+void add_labels(const sim::World& world, render::Frame& frame);
 
 }  // namespace pneuma::app

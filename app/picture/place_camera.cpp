@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "app/host/errors.h"
+#include "app/picture/camera_motion.h"
 #include "app/world/simulation.h"
 #include "app/world/touch.h"
 #include "render/frame/camera.h"
@@ -40,24 +43,115 @@ struct Extent {
   }
 };
 
+/// What must stay free: the caption's two lines at the bottom, a little at the other sides.
+render::Margins margins_of(const scenes::PictureScene& picture) {
+  constexpr float side = 0.06f;
+  constexpr float caption = 0.23f;
+  return {side, side, picture.caption ? caption : side};
+}
+
+render::ViewFit make_fit(const scenes::Scene& scene, const Vec3& origin) {
+  // The scene counts azimuth from +x, the renderer from -y.
+  const render::ViewDirection direction{static_cast<float>(scene.camera.azimuth) + 90.0f,
+                                        static_cast<float>(scene.camera.elevation)};
+  const float aspect =
+      static_cast<float>(scene.picture.width) / static_cast<float>(scene.picture.height);
+  return render::ViewFit(direction, static_cast<float>(scene.camera.field_of_view), aspect,
+                         margins_of(scene.picture), origin.cast<float>());
+}
+
+template <class Visit>
+void for_each_vertex(const sim::World& world, const Visit& visit) {
+  for (const sim::SoftBody& body : world.soft) {
+    for (int v = 0; v < body.positions.size(); ++v) visit(Vec3(body.positions[v]));
+  }
+  for (const sim::RigidBox& box : world.rigid) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                      (corner & 4) != 0 ? 0.5 : -0.5);
+      visit(Vec3(box.position + box.orientation * box.size.cwiseProduct(sign)));
+    }
+  }
+}
+
+/// Of what is seen from all around, every point counts as a circle about the vertical through the
+/// middle.
+void add_circle(const Vec3& point, const Vec3& middle, render::ViewFit& fit) {
+  constexpr int sides = 24;
+  // Of the polygon's corners, so that it is around the circle.
+  const double radius = std::hypot(point.x() - middle.x(), point.y() - middle.y()) /
+                        std::cos(std::numbers::pi / sides);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    fit.add(Vec3(middle.x() + radius * std::cos(angle), middle.y() + radius * std::sin(angle),
+                 point.z())
+                .cast<float>());
+  }
+}
+
+/// The widest circles of what is seen from all around: one for each of a few heights.
+class Rings {
+ public:
+  Rings(const Vec3& middle, double low, double high) : middle_(middle), low_(low), high_(high) {}
+
+  void add(const Vec3& point) {
+    const double part = (point.z() - low_) / std::max(high_ - low_, 1e-9);
+    const auto i = static_cast<std::size_t>(std::clamp(part, 0.0, 1.0) * (count - 1) + 0.5);
+    const double radius = std::hypot(point.x() - middle_.x(), point.y() - middle_.y());
+    Ring& ring = rings_[i];
+    ring.radius = std::max(ring.radius, radius);
+    ring.low = std::min(ring.low, point.z());
+    ring.high = std::max(ring.high, point.z());
+  }
+
+  void add_to(render::ViewFit& fit) const {
+    for (const Ring& ring : rings_) {
+      if (ring.low > ring.high) continue;
+      for (const double z : {ring.low, ring.high}) {
+        add_circle({middle_.x() + ring.radius, middle_.y(), z}, middle_, fit);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t count = 33;
+  struct Ring {
+    double radius = 0.0;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+  };
+  Vec3 middle_;
+  double low_;
+  double high_;
+  std::array<Ring, count> rings_;
+};
+
+/// A camera that is to be turned: its target lies on the axis.
+render::Camera with_target_on_axis(render::Camera camera, const Vec3& middle) {
+  const render::Vec3f backward = camera.eye - camera.target;
+  const float across = backward.head<2>().norm();
+  if (across < 1e-6f) return camera;
+  const float to_axis = (camera.eye.head<2>() - middle.cast<float>().head<2>()).norm() / across;
+  camera.target = camera.eye - to_axis * backward;
+  return camera;
+}
+
 /// Frames and not steps: what lies between two pictures is seen by nobody.
-Extent run_ahead(const scenes::Scene& scene, const sim::World& start, int threads,
-                 const OnFrame& on_frame) {
-  Extent extent;
-  extent.start = sim::bounds(start);
-  extent.include(start);
+template <class Visit>
+void run_ahead(const scenes::Scene& scene, const sim::World& start, int threads,
+               const OnFrame& on_frame, const Visit& visit) {
+  visit(start);
   Simulation simulation(scene, start, threads);
   const std::int64_t last = scenes::frame_count(scene);
   try {
     while (simulation.frame() < last) {
       simulation.advance_frame();
-      extent.include(simulation.world());
+      visit(simulation.world());
       if (on_frame) on_frame(simulation.world());
     }
   } catch (const DivergenceError&) {
     // The run itself will come to the same step and report it.
   }
-  return extent;
 }
 
 render::Camera fixed_camera(const scenes::CameraScene& scene) {
@@ -68,15 +162,20 @@ render::Camera fixed_camera(const scenes::CameraScene& scene) {
   return camera;
 }
 
-render::Camera automatic_camera(const scenes::Scene& scene, const Bounds& bounds) {
-  // The scene counts azimuth from +x, the renderer from -y.
-  const render::ViewDirection direction{static_cast<float>(scene.camera.azimuth) + 90.0f,
-                                        static_cast<float>(scene.camera.elevation)};
-  const float aspect =
-      static_cast<float>(scene.picture.width) / static_cast<float>(scene.picture.height);
-  const render::Box box{bounds.low.cast<float>(), bounds.high.cast<float>()};
-  return render::look_at_bounds(box, direction, static_cast<float>(scene.camera.field_of_view),
-                                aspect);
+/// Beside the body that is followed, three times as far as would fill the picture with it.
+render::Camera following_camera(const scenes::Scene& scene, const sim::World& start) {
+  constexpr double around = 3.0;
+  const Bounds body = bounds_of_body(start, scene.camera.follow);
+  render::ViewFit fit = make_fit(scene, body.centre());
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                    (corner & 4) != 0 ? 0.5 : -0.5);
+    const Vec3 point = body.centre() + around * body.size().cwiseProduct(sign);
+    fit.add(point.cast<float>());
+  }
+  render::Camera camera = fit.camera();
+  camera.target = body.centre().cast<float>();
+  return camera;
 }
 
 std::string flown_away(const Bounds& useful, const Bounds& run) {
@@ -139,14 +238,42 @@ Bounds useful_bounds(const Bounds& start, const Bounds& run, double largest_body
   return useful;
 }
 
+render::Camera camera_around(const scenes::Scene& scene, const sim::World& world) {
+  const Bounds bounds = sim::bounds(world);
+  Rings rings(bounds.centre(), bounds.low.z(), bounds.high.z());
+  for_each_vertex(world, [&](const Vec3& point) { rings.add(point); });
+  render::ViewFit fit = make_fit(scene, bounds.centre());
+  rings.add_to(fit);
+  return with_target_on_axis(fit.camera(), bounds.centre());
+}
+
 PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
                           const OnFrame& on_frame) {
+  if (!scene.camera.path.empty()) return {camera_on_path(scene.camera, 0.0), ""};
   if (scene.camera.eye && scene.camera.target) {
     return {fixed_camera(scene.camera), what_camera_misses(scene, start)};
   }
-  const Extent extent = run_ahead(scene, start, threads, on_frame);
+  if (!scene.camera.follow.empty()) return {following_camera(scene, start), ""};
+  Extent extent;
+  extent.start = sim::bounds(start);
+  const bool turns = scene.camera.orbit != 0.0;
+  const Vec3 middle = extent.start.centre();
+  render::ViewFit fit = make_fit(scene, middle);
+  const double height = extent.start.size().norm();
+  Rings rings(middle, middle.z() - height, middle.z() + height);
+  run_ahead(scene, start, threads, on_frame, [&](const sim::World& world) {
+    extent.include(world);
+    // Of the run so far: a body that grows later on moves what it then shows itself.
+    const Bounds useful = useful_bounds(extent.start, extent.run, extent.largest_body);
+    for_each_vertex(world, [&](const Vec3& point) {
+      const Vec3 shown = point.cwiseMax(useful.low).cwiseMin(useful.high);
+      turns ? rings.add(shown) : fit.add(shown.cast<float>());
+    });
+  });
+  if (turns) rings.add_to(fit);
+  PlacedCamera placed{fit.camera(), ""};
+  if (turns) placed.camera = with_target_on_axis(placed.camera, middle);
   const Bounds useful = useful_bounds(extent.start, extent.run, extent.largest_body);
-  PlacedCamera placed{automatic_camera(scene, useful), ""};
   if (useful.low != extent.run.low || useful.high != extent.run.high) {
     placed.notice = flown_away(useful, extent.run);
   }

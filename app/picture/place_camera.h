@@ -20,11 +20,16 @@ struct PlacedCamera {
   std::string notice;  // what the user should know about it, if anything
 };
 
-/// The scene's own camera or, where the scene leaves it to the program, one that has all bodies in
-/// view over the whole run: for that the run is simulated once ahead. A run that diverges counts up
-/// to there.
+/// The scene's own camera at the start or, where the scene leaves it to the program, one that has
+/// all bodies in view over the whole run, above the caption: for that the run is simulated once
+/// ahead. A run that diverges counts up to there. A camera that follows a body shows that body, and
+/// nothing is simulated.
 PlacedCamera place_camera(const scenes::Scene& scene, const sim::World& start, int threads,
                           const OnFrame& on_frame = {});
+
+/// The nearest camera that has all bodies in view as they are, from every side that `turned`
+/// (camera_motion.h) brings it to.
+render::Camera camera_around(const scenes::Scene& scene, const sim::World& world);
 
 /// Why the scene's own camera shows nothing of it at the start; empty where it does, and where the
 /// scene leaves the camera to the program.

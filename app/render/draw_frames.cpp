@@ -70,7 +70,7 @@ class FrameWriter {
   void wait() { finishing_.finish(); }
 
  private:
-  render::Frame build(const Simulation& simulation, Show show) const {
+  render::Frame build(const Simulation& simulation, const Show& show) const {
     return output_.builder.build(simulation.world(), simulation.stepper().contacts(), show);
   }
 

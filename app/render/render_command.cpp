@@ -62,7 +62,11 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   add_frames_option(*command, typed->frames);
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
       ->type_name("WxH");
-  command->add_option("--show", typed->show, "What else to draw: wireframe, particles, contacts")
+  command
+      ->add_option("--show", typed->show,
+                   "What else to draw: wireframe, particles, contacts, ghost (rest shapes), labels, "
+                   "scale; one of strain, velocity, pressure as colours, which end at the "
+                   "picture's largest value or, as velocity=5, at a number")
       ->type_name("LIST");
   command
       ->add_option("--overlay", typed->overlay,
@@ -91,7 +95,8 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
        "pneuma render one_sphere --set body.k=200 --set duration=4 --show wireframe --out stiff",
        "pneuma render pressure_firm --video firm.mp4",
        "pneuma render two_spheres_contact --show particles,contacts,wireframe",
-       "pneuma render sphere_in_torus --overlay particles", "pneuma render two_balls.toml",
+       "pneuma render sphere_in_torus --overlay particles",
+       "pneuma render press --show strain,ghost,labels,scale", "pneuma render two_balls.toml",
        "pneuma render my_scene.toml --out pictures --frames 60 --size 640x480 --resume"});
   command->callback([typed, &action] { action = [typed] { return render_scene(read(*typed)); }; });
 }

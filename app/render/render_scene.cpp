@@ -101,7 +101,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   log.append_launch(request.command_line, request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
-  const FrameBuilder builder(scene, log.world(), log.camera());
+  const FrameBuilder builder(scene, start, log.camera());
   try {
     draw_frames(simulation, frames.last, {builder, request.pictures, renderer, log}, progress);
   } catch (const DivergenceError& error) {

@@ -28,23 +28,6 @@ void require(bool fine, const std::string& message) {
   if (!fine) throw std::invalid_argument("look_at_bounds: " + message);
 }
 
-/// The span of the eye's offset along one axis from which all points are in view, as a function of
-/// how far forward the eye is: a point at (u, depth) is in view when |u - eye_u| <= slope (depth -
-/// eye_depth), that is when  eye_u - slope eye_depth >= right  and  -eye_u - slope eye_depth >=
-/// left.
-struct Span {
-  float slope;
-  float right = -std::numeric_limits<float>::infinity();
-  float left = -std::numeric_limits<float>::infinity();
-
-  void add(float u, float depth) {
-    right = std::max(right, u - slope * depth);
-    left = std::max(left, -u - slope * depth);
-  }
-  float furthest_forward() const { return -(right + left) / (2.0f * slope); }
-  float centre() const { return 0.5f * (right - left); }
-};
-
 }  // namespace
 
 void Box::grow(const Vec3f& point) {
@@ -76,46 +59,65 @@ Mat4f projection_matrix(float field_of_view, float aspect, float near, float far
   return projection;
 }
 
-Camera look_at_bounds(const Box& box, const ViewDirection& direction, float field_of_view,
-                      float aspect, float margin) {
-  require(!box.empty() && box.min.allFinite() && box.max.allFinite(),
-          "the box must be finite, with min <= max");
+void ViewFit::Span::add(float u, float depth) {
+  right = std::max(right, u - high * depth);
+  left = std::max(left, -u - low * depth);
+}
+
+ViewFit::ViewFit(const ViewDirection& direction, float field_of_view, float aspect,
+                 const Margins& margins, const Vec3f& origin)
+    : origin_(origin), field_of_view_(field_of_view) {
   require(std::isfinite(direction.azimuth), "the azimuth must be finite");
   require(std::abs(direction.elevation) <= 90.0f,
           fmt::format("the elevation is {}; allowed is -90..90 degrees", direction.elevation));
   require(field_of_view >= 1.0f && field_of_view <= 120.0f,
           fmt::format("the field of view is {}; allowed is 1..120 degrees", field_of_view));
   require(aspect > 0.0f && std::isfinite(aspect), "the aspect must be positive");
-  require(margin >= 0.0f && margin < 1.0f,
-          fmt::format("the margin is {}; allowed is 0 or more and below 1", margin));
-
+  for (const float margin : {margins.side, margins.top, margins.bottom}) {
+    require(margin >= 0.0f && margin < 1.0f,
+            fmt::format("the margin is {}; allowed is 0 or more and below 1", margin));
+  }
   const float azimuth = direction.azimuth * radians;
   const float elevation = direction.elevation * radians;
-  const Vec3f backward = {std::sin(azimuth) * std::cos(elevation),
-                          -std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
-  const Eigen::Matrix3f axes = view_axes(backward);
-  const Vec3f centre = box.centre();
-  const Vec3f half = (0.5f * (box.max - box.min)).cwiseMax(0.0005f);
+  backward_ = {std::sin(azimuth) * std::cos(elevation), -std::cos(azimuth) * std::cos(elevation),
+               std::sin(elevation)};
+  axes_ = view_axes(backward_);
+  const float slope = std::tan(0.5f * field_of_view * radians);
+  const float side = (1.0f - margins.side) * slope * aspect;
+  across_ = {side, side};
+  upright_ = {(1.0f - margins.bottom) * slope, (1.0f - margins.top) * slope};
+}
 
-  const float slope = (1.0f - margin) * std::tan(0.5f * field_of_view * radians);
-  Span across{slope * aspect};
-  Span upright{slope};
-  float nearest = std::numeric_limits<float>::infinity();
-  for (int i = 0; i < 8; ++i) {
-    const Vec3f corner = axes * Box{-half, half}.corner(i);
-    across.add(corner.x(), -corner.z());
-    upright.add(corner.y(), -corner.z());
-    nearest = std::min(nearest, -corner.z());
-  }
-  const float forward = std::min(across.furthest_forward(), upright.furthest_forward());
-  const Vec3f eye = axes.transpose() * Vec3f(across.centre(), upright.centre(), -forward);
+void ViewFit::add(const Vec3f& point) {
+  const Vec3f seen = axes_ * (point - origin_);
+  const float depth = -seen.z();
+  across_.add(seen.x(), depth);
+  upright_.add(seen.y(), depth);
+  nearest_ = std::min(nearest_, depth);
+  furthest_ = std::max(furthest_, depth);
+}
 
+Camera ViewFit::camera() const {
+  const float forward = std::min(across_.furthest_forward(), upright_.furthest_forward());
+  const Vec3f eye =
+      axes_.transpose() * Vec3f(across_.centre(forward), upright_.centre(forward), -forward);
   Camera camera;
-  camera.eye = centre + eye;
-  // The target is level with the box's centre, so that it also says how far away the scene is.
-  camera.target = camera.eye + backward * forward;
-  camera.field_of_view = field_of_view;
+  camera.eye = origin_ + eye;
+  const float distance = std::max(0.5f * (nearest_ + furthest_) - forward, 0.001f);
+  camera.target = camera.eye - distance * backward_;
+  camera.field_of_view = field_of_view_;
   return camera;
+}
+
+Camera look_at_bounds(const Box& box, const ViewDirection& direction, float field_of_view,
+                      float aspect, float margin) {
+  require(!box.empty() && box.min.allFinite() && box.max.allFinite(),
+          "the box must be finite, with min <= max");
+  const Vec3f half = (0.5f * (box.max - box.min)).cwiseMax(0.0005f);
+  ViewFit fit(direction, field_of_view, aspect, {margin, margin, margin}, box.centre());
+  const Box seen = {box.centre() - half, box.centre() + half};
+  for (int i = 0; i < 8; ++i) fit.add(seen.corner(i));
+  return fit.camera();
 }
 
 }  // namespace pneuma::render

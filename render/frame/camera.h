@@ -34,6 +34,54 @@ struct ViewDirection {
   float elevation = 25.0f;  // degrees above the horizon, -90..90
 };
 
+/// Parts of the picture's half width and half height that stay free, each 0 or more and below 1.
+struct Margins {
+  float side = 0.1f;
+  float top = 0.1f;
+  float bottom = 0.1f;
+};
+
+/// Finds the nearest camera in a direction that has all points in view.
+class ViewFit {
+ public:
+  /// `origin`: near the points, for the digits' sake. Throws std::invalid_argument when an argument
+  /// is out of its range.
+  ViewFit(const ViewDirection& direction, float field_of_view, float aspect, const Margins& margins,
+          const Vec3f& origin);
+
+  void add(const Vec3f& point);
+
+  /// Of all points so far, at least one. Its target is level with the middle of their depths, and
+  /// no nearer than a millimetre.
+  Camera camera() const;
+
+ private:
+  /// The eye's offset along one axis from which all points are in view, as a function of how far
+  /// forward the eye is: a point at (u, depth) is in view when
+  /// -low (depth - eye_depth) <= u - eye_u <= high (depth - eye_depth).
+  struct Span {
+    float low;  // slopes of the view's sides
+    float high;
+    float right = -std::numeric_limits<float>::infinity();
+    float left = -std::numeric_limits<float>::infinity();
+
+    void add(float u, float depth);
+    float furthest_forward() const { return -(right + left) / (low + high); }
+    float centre(float forward) const {
+      return 0.5f * (right + high * forward - left - low * forward);
+    }
+  };
+
+  Vec3f origin_;
+  Vec3f backward_;
+  Eigen::Matrix3f axes_;
+  float field_of_view_;
+  Span across_;
+  Span upright_;
+  float nearest_ = std::numeric_limits<float>::infinity();  // depth of the points, m
+  float furthest_ = -std::numeric_limits<float>::infinity();
+};
+
 /// The nearest camera in that direction that has the whole box in view, centred, with `margin` of
 /// the picture's half width and half height left free on each side (0 <= margin < 1). A box smaller
 /// than a millimetre is seen as one of a millimetre. Throws std::invalid_argument when the box is

@@ -51,29 +51,18 @@ class Assignment {
   }
 
   void operator()(std::vector<sim::KeyFrame>* member) const {
-    const auto* rows = std::get_if<Array>(&value_.data);
-    if (rows == nullptr || rows->empty()) {
-      refuse_type(value_, key_.name, "an array of rows [time, x, y, z]");
-    }
-    std::vector<sim::KeyFrame> keys;
-    for (const Value& row : *rows) {
-      keys.push_back(key_frame(row));
-      check_times(row, keys);
-    }
-    *member = std::move(keys);
+    *member = timed_rows("an array of rows [time, x, y, z]",
+                         [this](const Value& row) { return key_frame(row); });
   }
 
   void operator()(std::vector<TimedValue>* member) const {
-    const auto* rows = std::get_if<Array>(&value_.data);
-    if (rows == nullptr || rows->empty()) {
-      refuse_type(value_, key_.name, "an array of rows [time, value]");
-    }
-    std::vector<TimedValue> keys;
-    for (const Value& row : *rows) {
-      keys.push_back(timed_value(row));
-      check_times(row, keys);
-    }
-    *member = std::move(keys);
+    *member = timed_rows("an array of rows [time, value]",
+                         [this](const Value& row) { return timed_value(row); });
+  }
+
+  void operator()(std::vector<CameraKey>* member) const {
+    *member = timed_rows("an array of rows [time, eye x, y, z, target x, y, z]",
+                         [this](const Value& row) { return camera_key(row); });
   }
 
   void operator()(std::vector<Region>* member) const {
@@ -185,11 +174,17 @@ class Assignment {
     return result;
   }
 
-  template <class Row>
-  void check_times(const Value& row, const std::vector<Row>& keys) const {
-    if (keys.size() < 2 || keys.back()[0] > keys[keys.size() - 2][0]) return;
-    refuse(row, fmt::format("{}: the row of {} s follows that of {} s; times must rise", key_.name,
-                            keys.back()[0], keys[keys.size() - 2][0]));
+  /// Rows of rising times.
+  template <class Read>
+  auto timed_rows(std::string_view expected, const Read& read) const {
+    const auto* rows = std::get_if<Array>(&value_.data);
+    if (rows == nullptr || rows->empty()) refuse_type(value_, key_.name, expected);
+    std::vector<decltype(read(value_))> keys;
+    for (const Value& row : *rows) {
+      keys.push_back(read(row));
+      check_times(row, keys);
+    }
+    return keys;
   }
 
   void check_start(const Value& time, double seconds) const {
@@ -209,18 +204,42 @@ class Assignment {
     return key;
   }
 
-  sim::KeyFrame key_frame(const Value& row) const {
+  /// A time, then places along x, y, z.
+  template <class Key>
+  Key timed_row(const Value& row, std::string_view expected) const {
+    Key key{};
     const auto* elements = std::get_if<Array>(&row.data);
-    if (elements == nullptr || elements->size() != 4) {
-      refuse_type(row, key_.name, "a row [time, x, y, z]");
+    if (elements == nullptr || elements->size() != key.size()) {
+      refuse_type(row, key_.name, expected);
     }
-    sim::KeyFrame key;
-    for (std::size_t i = 0; i < 4; ++i) {
-      key[i] =
-          number((*elements)[i], i == 0 ? fmt::format("{} time", key_.name) : element_name(i - 1));
+    for (std::size_t i = 0; i < key.size(); ++i) {
+      key[i] = number((*elements)[i],
+                      i == 0 ? fmt::format("{} time", key_.name) : element_name((i - 1) % 3));
     }
     check_start(elements->front(), key[0]);
     return key;
+  }
+
+  sim::KeyFrame key_frame(const Value& row) const {
+    return timed_row<sim::KeyFrame>(row, "a row [time, x, y, z]");
+  }
+
+  CameraKey camera_key(const Value& row) const {
+    const auto key = timed_row<CameraKey>(row, "a row [time, eye x, y, z, target x, y, z]");
+    if (std::equal(key.begin() + 1, key.begin() + 4, key.begin() + 4)) {
+      refuse(row, fmt::format("{}: eye and target of {} s are the same point, so the camera looks "
+                              "nowhere",
+                              key_.name, key[0]));
+    }
+    return key;
+  }
+
+  /// `row` is the last of the keys.
+  template <class Key>
+  void check_times(const Value& row, const std::vector<Key>& keys) const {
+    if (keys.size() < 2 || keys.back()[0] > keys[keys.size() - 2][0]) return;
+    refuse(row, fmt::format("{}: the row of {} s follows that of {} s; times must rise", key_.name,
+                            keys.back()[0], keys[keys.size() - 2][0]));
   }
 
   Region region(const Value& row) const {

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "scenes/loader/nearest.h"
+
 namespace pneuma::scenes {
 namespace {
 
@@ -20,6 +22,7 @@ class Checks {
     check_frames();
     check_picture();
     check_camera();
+    check_followed_body();
     check_names();
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       check_body(scene_.bodies[i], headers_[i]);
@@ -98,6 +101,17 @@ class Checks {
     } else if (camera.eye && *camera.eye == *camera.target) {
       report_.add(at, "eye and target are the same point, so the camera looks nowhere");
     }
+  }
+
+  void check_followed_body() {
+    const std::string& follow = scene_.camera.follow;
+    if (follow.empty() || !reader_.valid({&follow})) return;
+    std::vector<std::string_view> names;
+    for (const BodyScene& body : scene_.bodies) names.push_back(body.name);
+    if (std::ranges::find(names, follow) != names.end()) return;
+    report_.add(reader_.origin({&follow}, whole_file),
+                fmt::format("follow: there is no body {}{}", in_quotes(follow),
+                            suggestion_and_all(follow, names)));
   }
 
   void check_names() {

@@ -71,6 +71,7 @@ struct ValueText {
   }
   std::string operator()(const std::vector<Region>* value) const { return rows_text(*value); }
   std::string operator()(const std::vector<TimedValue>* value) const { return rows_text(*value); }
+  std::string operator()(const std::vector<CameraKey>* value) const { return rows_text(*value); }
   std::string operator()(const std::optional<sim::ContactMaterial>* value) const {
     return value->has_value() ? "true" : "false";
   }
@@ -90,6 +91,9 @@ struct TypeText {
   std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
   std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
   std::string operator()(const std::vector<sim::KeyFrame>*) const { return "rows [time, x, y, z]"; }
+  std::string operator()(const std::vector<CameraKey>*) const {
+    return "rows [time, eye x, y, z, target x, y, z]";
+  }
   std::string operator()(const std::vector<Region>*) const {
     return "rows [xmin, ymin, zmin, xmax, ymax, zmax]";
   }

@@ -132,6 +132,9 @@ struct SpringScene {
   std::optional<double> rest_length;           // m
 };
 
+/// Where the camera is at a time (s): its eye, then its target, m.
+using CameraKey = std::array<double, 7>;
+
 /// Without an eye and a target the camera is placed so that every body is in view over the whole
 /// run.
 struct CameraScene {
@@ -140,6 +143,9 @@ struct CameraScene {
   double azimuth = -60.0;       // degrees from +x towards +y: where an automatic camera stands
   double elevation = 22.0;      // degrees above the horizon
   double field_of_view = 35.0;  // degrees, vertical
+  std::vector<CameraKey> path;  // in place of eye and target: times rise
+  std::string follow;           // a body's name: the camera keeps its place beside it
+  double orbit = 0.0;           // degrees/s about the vertical through the target
 };
 
 struct PictureScene {

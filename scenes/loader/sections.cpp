@@ -138,18 +138,31 @@ Section ground_section(Scene& scene) {
 Section camera_section(Scene& scene) {
   CameraScene& camera = scene.camera;
   const bool placed = camera.eye.has_value() || camera.target.has_value();
-  const Applicability automatic{"a camera without eye and target", !placed};
-  return {.table = "camera",
-          .what = placed ? "a camera with an eye and a target" : "an automatic camera",
-          .keys = {
-              selector({"eye", &camera.eye, place(), "m", "where the camera stands"}),
-              selector({"target", &camera.target, place(), "m", "the point it looks at"}),
-              only(automatic, {"azimuth", &camera.azimuth, between(-360, 360), "degrees",
-                               "of the automatic camera's place, from +x towards +y"}),
-              only(automatic, {"elevation", &camera.elevation, between(-89, 89), "degrees",
-                               "of the automatic camera's place above the horizon"}),
-              {"field_of_view", &camera.field_of_view, between(1, 120), "degrees", "vertical"},
-          }};
+  const bool on_path = !camera.path.empty();
+  const Applicability automatic{"a camera without eye, target and path", !placed && !on_path};
+  const Applicability free{"a camera without path", !on_path};
+  return {
+      .table = "camera",
+      .what = on_path  ? "a camera with a path"
+              : placed ? "a camera with an eye and a target"
+                       : "an automatic camera",
+      .keys = {
+          selector(only(free, {"eye", &camera.eye, place(), "m", "where the camera stands"})),
+          selector(only(free, {"target", &camera.target, place(), "m", "the point it looks at"})),
+          selector({"path", &camera.path, place(), "s, m",
+                    "where eye and target are at some times, in place of both"}),
+          only(free, {"follow", &camera.follow, any(), "",
+                      "a body's name: the camera moves as it does, and shows it alone if it "
+                      "is automatic",
+                      check_line}),
+          only(free, {"orbit", &camera.orbit, between(-3600, 3600), "degrees/s",
+                      "how fast the camera goes around the vertical through its target"}),
+          only(automatic, {"azimuth", &camera.azimuth, between(-360, 360), "degrees",
+                           "of the automatic camera's place, from +x towards +y"}),
+          only(automatic, {"elevation", &camera.elevation, between(-89, 89), "degrees",
+                           "of the automatic camera's place above the horizon"}),
+          {"field_of_view", &camera.field_of_view, between(1, 120), "degrees", "vertical"},
+      }};
 }
 
 Section picture_section(Scene& scene) {

@@ -143,5 +143,33 @@ TEST(LookAtBounds, StandsOffFromABoxWithoutSize) {
   EXPECT_GT((camera.eye - camera.target).norm(), 0.0f);
 }
 
+TEST(ViewFit, LeavesItsMarginsFreeAndNoMore) {
+  const Margins margins = {0.1f, 0.05f, 0.3f};
+  ViewFit fit({35.0f, 20.0f}, 40.0f, 1.5f, margins, {1, 2, 3});
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 200; ++i) {
+    const auto number = static_cast<float>(i);
+    points.push_back(
+        {1 + 3 * std::sin(7 * number), 2 + std::cos(number), 3 + std::sin(3 * number)});
+    fit.add(points.back());
+  }
+  const Camera camera = fit.camera();
+  const Mat4f to_clip = projection_matrix(40.0f, 1.5f, 0.1f, 100.0f) * view_matrix(camera);
+  Box seen;
+  for (const Vec3f& point : points) {
+    const Eigen::Vector4f clip = to_clip * point.homogeneous();
+    seen.grow(clip.head<3>() / clip.w());
+  }
+  const float rounding = 1e-4f;
+  EXPECT_LE(seen.max.x(), 0.9f + rounding);
+  EXPECT_GE(seen.min.x(), -0.9f - rounding);
+  EXPECT_LE(seen.max.y(), 0.95f + rounding);
+  EXPECT_GE(seen.min.y(), -0.7f - rounding);
+  // Nearer is not possible: one direction is filled from side to side.
+  const bool wide = seen.max.x() > 0.9f - rounding && seen.min.x() < -0.9f + rounding;
+  const bool high = seen.max.y() > 0.95f - rounding && seen.min.y() < -0.7f + rounding;
+  EXPECT_TRUE(wide || high) << seen.min.transpose() << " to " << seen.max.transpose();
+}
+
 }  // namespace
 }  // namespace pneuma::render

@@ -163,7 +163,7 @@ const std::vector<BrokenScene> inapplicable_keys = {
      before_body("[camera]\neye = [9, 0, 1]\ntarget = [0, 0, 1]\nazimuth = 3"),
      4,
      1,
-     {"a camera without eye and target only"}},
+     {"a camera without eye, target and path only"}},
     {"static_with_impulses",
      "[simulation]\ncontact = \"impulses\"\n[[body]]\nkind = \"static\"\n",
      4,

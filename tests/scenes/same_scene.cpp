@@ -175,12 +175,15 @@ void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
 }
 
 void compare(Comparison& c, const CameraScene& a, const CameraScene& b) {
-  const auto& [eye, target, azimuth, elevation, field_of_view] = a;
+  const auto& [eye, target, azimuth, elevation, field_of_view, path, follow, orbit] = a;
   c.member("eye", eye, b.eye);
   c.member("target", target, b.target);
   c.member("azimuth", azimuth, b.azimuth);
   c.member("elevation", elevation, b.elevation);
   c.member("field_of_view", field_of_view, b.field_of_view);
+  c.member("path", path, b.path);
+  c.member("follow", follow, b.follow);
+  c.member("orbit", orbit, b.orbit);
 }
 
 void compare(Comparison& c, const PictureScene& a, const PictureScene& b) {

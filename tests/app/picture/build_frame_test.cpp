@@ -143,13 +143,5 @@ TEST(BuildFrame, KeepsTheLettersOfAName) {
   EXPECT_TRUE(builder.build(built.world).caption->text.starts_with("Bälle × 2\n"));
 }
 
-TEST(ParseShow, TakesAListOfKnownNames) {
-  EXPECT_TRUE(parse_show("--show", "wireframe").wireframe);
-  EXPECT_TRUE(parse_show("--show", "wireframe,wireframe").wireframe);
-  for (const char* wrong : {"", "wire", "wireframe,", ",wireframe", "wireframe particles"}) {
-    EXPECT_THROW(parse_show("--show", wrong), UsageError) << wrong;
-  }
-}
-
 }  // namespace
 }  // namespace pneuma::app

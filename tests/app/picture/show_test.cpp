@@ -1,0 +1,175 @@
+// What --show takes, and what it puts into a frame.
+#include "app/picture/show.h"
+
+#include <gtest/gtest.h>
+
+#include "app/host/errors.h"
+#include "app/picture/build_frame.h"
+#include "app/picture/colour_field.h"
+#include "app/picture/ghost.h"
+#include "app/world/build_world.h"
+#include "render/frame/check_frame.h"
+#include "scenes/loader/load_scene.h"
+
+namespace pneuma::app {
+namespace {
+
+using sim::Vec3;
+
+TEST(ParseShow, TakesAListOfKnownNames) {
+  EXPECT_TRUE(parse_show("--show", "wireframe").wireframe);
+  EXPECT_TRUE(parse_show("--show", "wireframe,wireframe").wireframe);
+  const Show show = parse_show("--show", "labels,velocity=2.5,ghost");
+  EXPECT_TRUE(show.labels && show.ghost);
+  EXPECT_EQ(show.field, ColourField::velocity);
+  EXPECT_EQ(show.field_end, 2.5);
+  for (const char* wrong :
+       {"", "wire", "wireframe,", ",wireframe", "wireframe particles", "strain,velocity",
+        "strain=", "strain=0", "strain=-1", "strain=x", "strain=1x", "strain=inf", "labels=1"}) {
+    EXPECT_THROW(parse_show("--show", wrong), UsageError) << wrong;
+  }
+}
+
+TEST(ShownNames, AreWhatParseShowTakes) {
+  for (const char* list :
+       {"wireframe,particles,contacts,ghost,labels,scale", "strain", "scale,pressure=0.125"}) {
+    std::string names;
+    for (const std::string& name : shown_names(parse_show("--show", list))) {
+      names += (names.empty() ? "" : ",") + name;
+    }
+    EXPECT_EQ(names, list);
+  }
+}
+
+constexpr const char* ball_and_box = R"(
+[[body]]
+name = "ball"
+radius = 2.0
+n = 1.5
+position = [0.0, 0.0, 5.0]
+velocity = [3.0, 0.0, 4.0]
+[[body]]
+name = "box"
+kind = "rigid"
+position = [9.0, 0.0, 5.0]
+velocity = [0.0, 2.0, 0.0]
+)";
+
+struct Made {
+  scenes::Scene scene = scenes::parse_scene(ball_and_box, "x.toml");
+  sim::World world = build_world(scene);
+
+  render::Frame frame(const std::string& list) const {
+    const render::Frame made =
+        FrameBuilder(scene, world, {}).build(world, {}, parse_show("--show", list));
+    EXPECT_NO_THROW(render::check_frame(made));
+    return made;
+  }
+};
+
+TEST(ColourField, IsThePressureOfTheGasLaw) {
+  const Made made;
+  double volume = 0.0;
+  const sim::SoftBody& ball = made.world.soft[0];
+  for (const auto& [a, b, c] : ball.mesh->topology.triangles()) {
+    const Vec3 x = ball.positions[a], y = ball.positions[b], z = ball.positions[c];
+    volume += x.dot(y.cross(z)) / 6.0;
+  }
+  const auto values = field_values(made.world, ColourField::pressure);
+  EXPECT_NEAR(values[0][0], 1.5 * 8.314472 * 293.15 / volume, 1e-9 * values[0][0]);
+  EXPECT_TRUE(values[1].empty()) << "a box has no gas";
+}
+
+TEST(ColourField, IsTheSpeedOfEachVertex) {
+  const auto values = field_values(Made().world, ColourField::velocity);
+  for (const double speed : values[0]) EXPECT_DOUBLE_EQ(speed, 5.0);
+  for (const double speed : values[1]) EXPECT_DOUBLE_EQ(speed, 2.0);
+}
+
+TEST(ColourField, IsTheLargestStrainOfAVertexsSprings) {
+  Made made;
+  sim::SoftBody& ball = made.world.soft[0];
+  const auto at_rest = field_values(made.world, ColourField::strain);
+  for (const double strain : at_rest[0]) EXPECT_NEAR(strain, 0.0, 1e-12);
+  const Vec3 centre = sim::mean(ball.positions);
+  for (int v = 0; v < ball.positions.size(); ++v) {
+    ball.positions[v] = centre + 1.25 * (Vec3(ball.positions[v]) - centre);
+  }
+  const auto blown_up = field_values(made.world, ColourField::strain);
+  for (const double strain : blown_up[0]) EXPECT_NEAR(strain, 0.25, 1e-12);
+}
+
+TEST(ColourField, ColoursMeshesByTheLegend) {
+  const render::Frame frame = Made().frame("velocity=10");
+  ASSERT_TRUE(frame.legend);
+  EXPECT_EQ(frame.legend->ticks.back().text, "10");
+  EXPECT_EQ(frame.meshes[0].colours.at(0), viridis(0.5));
+  EXPECT_EQ(frame.meshes[1].colours.at(0), viridis(0.2));
+  // Without an end the picture's own: 5 m/s is a round number.
+  EXPECT_EQ(Made().frame("velocity").legend->ticks.back().text, "5");
+  const render::Frame pressure = Made().frame("pressure");
+  EXPECT_EQ(pressure.meshes[1].colours.at(0), pressure.meshes[1].colours.at(7));
+  EXPECT_FALSE(Made().frame("ghost").legend);
+}
+
+TEST(RoundEnd, IsTheNextOfOneTwoFive) {
+  for (const auto& [value, end] : {std::pair(0.0, 1.0),
+                                   {1.0, 1.0},
+                                   {1.1, 2.0},
+                                   {3.0, 5.0},
+                                   {7.0, 10.0},
+                                   {0.03, 0.05},
+                                   {5000.0, 5000.0}}) {
+    EXPECT_DOUBLE_EQ(round_end(value), end) << value;
+  }
+}
+
+TEST(Viridis, GrowsLighterFromEndToEnd) {
+  const auto lightness = [](double part) {
+    return render::Vec3f(0.2126f, 0.7152f, 0.0722f).dot(viridis(part));
+  };
+  for (double part = 0.0; part < 0.99; part += 0.01) {
+    EXPECT_LT(lightness(part), lightness(part + 0.01)) << part;
+  }
+  EXPECT_EQ(viridis(-1.0), viridis(0.0));
+  EXPECT_EQ(viridis(2.0), viridis(1.0));
+}
+
+TEST(Ghost, FindsHowABodyWasTurnedAndMoved) {
+  Made made;
+  sim::SoftBody& ball = made.world.soft[0];
+  const Eigen::AngleAxisd turn(2.1, Vec3(1.0, 2.0, -0.5).normalized());
+  const Vec3 shift = {3.0, -4.0, 5.0};
+  const Vec3 centre = sim::mean(ball.mesh->rest_positions);
+  for (int v = 0; v < ball.positions.size(); ++v) {
+    // Also blown up, which is no matter of its pose.
+    const Vec3 rest = ball.mesh->rest_positions[v];
+    ball.positions[v] = shift + turn * (centre + 1.5 * (rest - centre));
+  }
+  const Eigen::Isometry3d pose = pose_of(ball);
+  EXPECT_LT((pose.linear() - turn.toRotationMatrix()).norm(), 1e-12);
+  EXPECT_LT((pose * centre - (shift + turn * centre)).norm(), 1e-12);
+}
+
+TEST(Ghost, IsDrawnAsTheEdgesOfTheRestShape) {
+  const Made made;
+  const render::Frame frame = made.frame("ghost");
+  const auto& edges = made.world.soft[0].mesh->topology.edges();
+  ASSERT_EQ(frame.lines.size(), edges.size());
+  EXPECT_TRUE(frame.lines.front().always_visible);
+  // At the start the body is its rest shape; single precision.
+  const render::Vec3f from = Vec3(made.world.soft[0].positions[edges[0][0]]).cast<float>();
+  EXPECT_LT((frame.lines.front().from - from).norm(), 1e-5f);
+}
+
+TEST(Labels, NameEveryBodyOverItsTop) {
+  const render::Frame frame = Made().frame("labels,scale");
+  ASSERT_EQ(frame.labels.size(), 2u);
+  EXPECT_EQ(frame.labels[0].text, "ball");
+  EXPECT_NEAR(frame.labels[0].position.z(), 7.0f, 1e-5f);
+  EXPECT_EQ(frame.labels[1].text, "box");
+  EXPECT_TRUE(frame.scale_bar);
+}
+
+}  // namespace
+}  // namespace pneuma::app
