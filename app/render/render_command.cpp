@@ -8,6 +8,7 @@
 
 #include "app/render/render_request.h"
 #include "app/render/render_scene.h"
+#include "app/render/turntable.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
 
@@ -63,10 +64,11 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
       ->type_name("WxH");
   command
-      ->add_option("--show", typed->show,
-                   "What else to draw: wireframe, particles, contacts, ghost (rest shapes), labels, "
-                   "scale; one of strain, velocity, pressure as colours, which end at the "
-                   "picture's largest value or, as velocity=5, at a number")
+      ->add_option(
+          "--show", typed->show,
+          "What else to draw: wireframe, particles, contacts, ghost (rest shapes), labels, "
+          "scale; one of strain, velocity, pressure as colours, which end at the "
+          "picture's largest value or, as velocity=5, at a number")
       ->type_name("LIST");
   command
       ->add_option("--overlay", typed->overlay,
@@ -85,7 +87,30 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
                       greatest_step_parts))
       ->check(CLI::IsMember({"stop", "substep"}));
   command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");
-  command->add_option("--video", request.video, "Also a video, by ffmpeg")->type_name("FILE");
+  command
+      ->add_option("--video", request.video,
+                   "Also a video, by ffmpeg; an animated picture as NAME.apng, without it")
+      ->type_name("FILE");
+  auto* turntable =
+      command
+          ->add_option("--turntable", request.turntable,
+                       "In place of the run's pictures so many of its last frame, seen from all "
+                       "around: turntable/NAME_00000.png, ...")
+          ->check(CLI::Range(1, max_turntable))
+          ->type_name("N");
+  turntable->excludes("--overlay")->excludes("--resume");
+  command
+      ->add_option("--reference", request.reference.folder,
+                   "A folder with the same pictures: exit code 7 if one is further from it than "
+                   "--threshold")
+      ->check(CLI::ExistingDirectory)
+      ->type_name("DIR");
+  command
+      ->add_option("--threshold", request.reference.threshold,
+                   "Mean difference of two pictures that is let pass, 0..255 [0]")
+      ->check(CLI::Range(0.0, 255.0))
+      ->needs("--reference")
+      ->type_name("X");
   add_backend_option(*command, request.backend);
   add_threads_option(*command, request.threads);
   add_quiet_option(*command, request.quiet);
@@ -96,7 +121,9 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
        "pneuma render pressure_firm --video firm.mp4",
        "pneuma render two_spheres_contact --show particles,contacts,wireframe",
        "pneuma render sphere_in_torus --overlay particles",
-       "pneuma render press --show strain,ghost,labels,scale", "pneuma render two_balls.toml",
+       "pneuma render press --show strain,ghost,labels,scale",
+       "pneuma render cat_on_sphere --frames 60 --turntable 90 --video cat.apng",
+       "pneuma render one_torus --reference torus --threshold 0.5", "pneuma render two_balls.toml",
        "pneuma render my_scene.toml --out pictures --frames 60 --size 640x480 --resume"});
   command->callback([typed, &action] { action = [typed] { return render_scene(read(*typed)); }; });
 }

@@ -12,9 +12,12 @@
 #include "app/host/interrupt.h"
 #include "app/host/run_command.h"
 #include "app/picture/choose_camera.h"
+#include "app/render/animated_png.h"
 #include "app/render/contact_sheet.h"
 #include "app/render/draw_frames.h"
 #include "app/render/log/run_log.h"
+#include "app/render/redraw.h"
+#include "app/render/turntable.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
 #include "app/world/open_scene.h"
@@ -97,7 +100,12 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
       folder, request.existing,
       {scene, start, frames, request.pictures, request.on_divergence, renderer.description()},
       [&] { return choose_camera(scene, start, request.threads, progress); });
-  if (log.finished()) return progress.say("the run is finished already");
+  if (log.finished()) {
+    if (log.lost().empty()) return progress.say("the run is finished already");
+    Simulation again(scene, start, request.threads, request.on_divergence);
+    const FrameBuilder builder(scene, start, log.camera());
+    return redraw_lost(again, {builder, request.pictures, renderer, log}, progress);
+  }
   log.append_launch(request.command_line, request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
@@ -114,6 +122,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
 /// Before the run, which may take long.
 void check_video(const scenes::Scene& scene, const std::string& video, Progress& progress) {
   check_video_place(video);
+  if (is_animated_png(video)) return;
   if (const auto ffmpeg = find_program("ffmpeg")) {
     try_video(*ffmpeg, scene.picture.width, scene.picture.height, video);
   } else {
@@ -121,9 +130,14 @@ void check_video(const scenes::Scene& scene, const std::string& video, Progress&
   }
 }
 
-void make_video(const RunFolder& folder, std::int64_t first, int frames_per_second,
+void make_video(const RunFolder& folder, const Frames& frames, int frames_per_second,
                 const std::string& video) {
-  const auto command = video_command(folder, first, frames_per_second, video);
+  if (is_animated_png(video)) {
+    write_animated_png(folder, frames.first, frames.last, frames_per_second, video);
+    fmt::print("{}\n", video);
+    return;
+  }
+  const auto command = video_command(folder, frames.first, frames_per_second, video);
   if (const auto ffmpeg = find_program("ffmpeg")) {
     run_command(*ffmpeg, command);
     fmt::print("{}\n", video);
@@ -142,6 +156,52 @@ void keep_scene(const scenes::Scene& scene, const RunFolder& folder) {
   fmt::print("{}\n", folder.scene().string());
 }
 
+/// The last of the frames from all around, in place of the run's.
+void make_turntable(const RenderRequest& request, const scenes::Scene& scene,
+                    std::int64_t last_frame, const RunFolder& folder, Progress& progress) {
+  if (std::filesystem::exists(folder.frame(0)) && request.existing != ExistingRun::overwrite) {
+    throw base::IoError(
+        fmt::format("{} is there already; replace it with --overwrite, or choose another folder "
+                    "with --out",
+                    folder.frame(0).string()));
+  }
+  folder.make();
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  start.settings.particles.shown = shows_particles(request.pictures);
+  warn_before_run(request.pictures, scene, start, progress);
+  render::Renderer renderer(picture_options(scene.picture, request.backend));
+  Simulation simulation(scene, start, request.threads, request.on_divergence);
+  while (simulation.frame() < last_frame) {
+    throw_if_interrupted();
+    progress.show(fmt::format("t = {:.2f} s", sim::time(simulation.world())));
+    simulation.advance_frame();
+  }
+  const bool automatic =
+      !scene.camera.eye && scene.camera.path.empty() && scene.camera.follow.empty();
+  const render::Camera base = automatic ? camera_around(scene, simulation.world())
+                                        : place_camera(scene, start, request.threads).camera;
+  const FrameBuilder builder(scene, start, base);
+  const render::Camera camera =
+      automatic ? base : CameraMotion(scene, start, base).at(simulation.world());
+  draw_turntable(simulation, camera, builder, request.pictures.show, request.turntable, folder,
+                 renderer, progress);
+}
+
+/// What is made of a run's pictures: sheet, video, comparison.
+ExitCode make_more(const RenderRequest& request, const scenes::Scene& scene,
+                   const RunFolder& pictures, const Frames& frames) {
+  if (request.sheet) {
+    write_contact_sheet(pictures, frames.first, frames.last, *request.sheet);
+    fmt::print("{}\n", pictures.sheet().string());
+  }
+  if (!request.video.empty()) {
+    make_video(pictures, frames, scene.picture.frames_per_second, request.video);
+  }
+  if (request.reference.folder.empty()) return ExitCode::done;
+  return compare_with_reference(pictures, frames.first, frames.last, request.reference);
+}
+
 }  // namespace
 
 ExitCode render_scene(const RenderRequest& request) {
@@ -151,20 +211,20 @@ ExitCode render_scene(const RenderRequest& request) {
   const RunFolder folder = folder_of(scene, request.out);
   try {
     if (!request.video.empty()) check_video(scene, request.video, progress);
+    if (request.turntable > 0) {
+      const RunFolder pictures = turntable_folder(folder);
+      make_turntable(request, scene, frames.last, pictures, progress);
+      fmt::print("{}\n", pictures.path().string());
+      return make_more(request, scene, pictures, {0, request.turntable - 1});
+    }
     make_frames(request, scene, frames, folder, progress);
     if (assets::has_model_ending(request.scene)) keep_scene(scene, folder);
     fmt::print("{}\n", folder.path().string());
-    if (request.sheet) {
-      write_contact_sheet(folder, frames.first, frames.last, *request.sheet);
-      fmt::print("{}\n", folder.sheet().string());
-    }
-    if (!request.video.empty()) {
-      make_video(folder, frames.first, scene.picture.frames_per_second, request.video);
-    }
+    return make_more(request, scene, folder, frames);
   } catch (const Interrupted&) {
+    if (request.turntable > 0) throw;
     throw Interrupted("interrupted; continue with: " + resume_command(request.command_line));
   }
-  return ExitCode::done;
 }
 
 }  // namespace pneuma::app

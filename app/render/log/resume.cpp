@@ -150,14 +150,13 @@ void require_same_run(const RunFolder& folder, const Json& then, const Json& now
   throw base::IoError(fmt::format("{} holds {}; {}", folder.path().string(), holds, advice));
 }
 
-/// A finished run whose pictures have been lost since is not worth the name.
-void require_frames(const RunFolder& folder, const Json& record) {
+/// Of a finished run: the lines of frames whose pictures have been lost since.
+std::vector<Json> lost_frames(const RunFolder& folder, const Json& record) {
+  std::vector<Json> lost;
   for (const Json& line : record.value("frames", Json::array())) {
-    const std::int64_t frame = line.value("frame", std::int64_t{-1});
-    if (is_whole(folder, line, frame)) continue;
-    refuse(folder, fmt::format("a finished run of {} without its frame {}", folder.name(), frame),
-           "draw it again with --overwrite");
+    if (!is_whole(folder, line, line.value("frame", std::int64_t{-1}))) lost.push_back(line);
   }
+  return lost;
 }
 
 /// The journal that a record was made of.
@@ -175,18 +174,23 @@ JournalContents journal_of(Json record) {
   return journal;
 }
 
+/// Throws unless a finished run can be stepped again: its settings stayed the same.
+void require_one_kind_of_steps(const RunFolder& folder, const JournalContents& journal,
+                               std::string_view purpose) {
+  if (!settings_changed(journal)) return;
+  refuse(folder,
+         fmt::format("a finished run of {} whose settings changed on the way, which cannot be "
+                     "stepped again {}",
+                     folder.name(), purpose),
+         "draw it again with --overwrite");
+}
+
 /// Makes an unfinished run of a finished one that is to have more frames. Its state is gone, so
 /// that it is stepped again through the frames that are there: not possible when its steps were not
 /// all of one kind.
 std::optional<JournalContents> reopened(const RunFolder& folder, const Json& record) {
   const JournalContents journal = journal_of(record);
-  if (settings_changed(journal)) {
-    refuse(folder,
-           fmt::format("a finished run of {} whose settings changed on the way, which cannot be "
-                       "stepped again for more frames",
-                       folder.name()),
-           "draw it again with --overwrite");
-  }
+  require_one_kind_of_steps(folder, journal, "for more frames");
   std::string text = journal.header.dump() + "\n";
   for (const Json& line : journal.lines) text += line.dump() + "\n";
   base::write_file_atomically(folder.journal().string(),
@@ -207,13 +211,18 @@ OpenedFolder continue_run(const RunFolder& folder, const Json& identity,
     const auto bytes = base::read_file(folder.record().string());
     const Json record = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
     require_same_run(folder, record, identity, scene_toml, false);
-    require_frames(folder, record);
+    std::vector<Json> lost = lost_frames(folder, record);
+    if (!lost.empty()) {
+      require_one_kind_of_steps(
+          folder, journal_of(record),
+          fmt::format("for its lost frame {}", lost.front().value("frame", std::int64_t{-1})));
+    }
     std::error_code ignored;
     fs::remove(folder.state(), ignored);  // when the run was killed between its last two acts
     if (extends(record.value("run", Json::object()), identity)) {
       return {false, reopened(folder, record)};
     }
-    return {true, std::nullopt};
+    return {true, std::nullopt, record, std::move(lost)};
   }
   if (fs::exists(folder.frame(identity.at("first_frame").get<std::int64_t>()))) {
     refuse(folder, fmt::format("frames of {} but no record of their run", folder.name()),

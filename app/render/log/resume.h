@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/render/log/journal.h"
 #include "app/render/log/run_folder.h"
@@ -18,12 +19,15 @@ enum class ExistingRun { refuse, overwrite, resume };
 struct OpenedFolder {
   bool finished = false;                      // nothing is left to be drawn
   std::optional<JournalContents> unfinished;  // none: the run starts from the beginning
+  Json record = {};                           // of a finished run
+  std::vector<Json> lost = {};                // its lines of frames whose pictures are gone
 };
 
 /// Makes the folder, and room for a run of this identity in it: removes an old run or finds the one
 /// to continue, as `existing` says. It may go on to a later last frame; a finished one then becomes
 /// unfinished again. One that diverged may go on with another [simulation] than it
-/// had, and with other steps of those that diverge. Throws base::IoError when the folder holds
+/// had, and with other steps of those that diverge. Pictures that a finished run has lost can be
+/// drawn again unless its settings changed on the way. Throws base::IoError when the folder holds
 /// another run, or one that is going on.
 OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Json& identity,
                          const std::string& scene_toml);

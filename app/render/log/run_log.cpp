@@ -14,7 +14,11 @@ RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity&
   const Json identity = identity_json(run);
   const OpenedFolder opened =
       open_folder(folder, existing, identity, scenes::print_scene(run.scene));
-  if (opened.finished) return;
+  if (opened.finished) {
+    lost_ = opened.lost;
+    if (!lost_.empty()) camera_ = camera_of(opened.record);
+    return;
+  }
 
   const auto& old = opened.unfinished;
   const Json header = old ? old->header : run_header(identity, run.scene, choose_camera());

@@ -23,8 +23,11 @@ class RunLog {
   RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run,
          const ChooseCamera& choose_camera);
 
-  /// All frames are there already: nothing below may be called but folder().
+  /// The run has come to its end before: nothing below may be called but folder(), lost() and
+  /// camera().
   bool finished() const { return !journal_; }
+  /// Of a finished run: the record's lines of frames whose pictures are gone, in their order.
+  const std::vector<Json>& lost() const { return lost_; }
 
   const RunFolder& folder() const { return folder_; }
   const render::Camera& camera() const { return camera_; }
@@ -48,6 +51,7 @@ class RunLog {
   render::Camera camera_;
   std::int64_t next_frame_ = 0;
   sim::World world_;
+  std::vector<Json> lost_;
   std::optional<Journal> journal_;  // none: the run is finished
 };
 

@@ -120,6 +120,20 @@ TEST_F(ResumeTest, AFinishedRunStaysAsItIs) {
   EXPECT_TRUE(fs::exists(out() / "fall_sheet.png"));
 }
 
+TEST_F(ResumeTest, LostPicturesOfAFinishedRunAreDrawnAgain) {
+  ASSERT_EQ(render("--overlay wireframe").exit_code, 0);
+  const auto before = pictures();
+  const std::string record_before = read_text(out() / "run.json");
+  fs::remove(out() / "fall_00003.png");
+  fs::remove(out() / "fall_overlay_00007.png");
+  write_text(out() / "fall_00012.png", "half");
+  const ProgramResult result = render("--overlay wireframe --resume");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("3 lost pictures"), std::string::npos) << result.output;
+  EXPECT_EQ(pictures(), before);
+  EXPECT_EQ(read_text(out() / "run.json"), record_before);
+}
+
 /// Interrupted or finished: what comes out is what comes out in one go.
 TEST_F(ResumeTest, AFirstPartCanBeContinuedToALaterEnd) {
   ASSERT_EQ(render(longer + " --frames 10").exit_code, 0);

@@ -198,7 +198,10 @@ TEST_F(UnfinishedRun, IsFinishedOnceItHasARecord) {
   EXPECT_TRUE(open(ExistingRun::resume, identity_).finished);
   EXPECT_FALSE(fs::exists(folder_.state()));
   fs::remove(folder_.frame(2));
-  EXPECT_NE(refusal(identity_).find("without its frame 2"), std::string::npos);
+  const OpenedFolder opened = open(ExistingRun::resume, identity_);
+  EXPECT_TRUE(opened.finished);
+  ASSERT_EQ(opened.lost.size(), 1u);
+  EXPECT_EQ(opened.lost.front()["frame"], 2);
 }
 
 TEST_F(UnfinishedRun, GoesOnToALaterEndAndSaysSo) {

@@ -1,0 +1,53 @@
+#include "app/render/redraw.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/host/interrupt.h"
+#include "app/record/world_json.h"
+#include "render/image/png.h"
+#include "sim/base/file.h"
+#include "sim/inspect/inspect.h"
+
+namespace pneuma::app {
+namespace {
+
+void draw(const Simulation& simulation, const Show& show, const FrameOutput& output,
+          const std::filesystem::path& file) {
+  render::Image image;
+  output.renderer.draw(
+      output.builder.build(simulation.world(), simulation.stepper().contacts(), show), image);
+  base::write_file_atomically(file.string(), render::encode_png(image));
+}
+
+void require_state(const Simulation& simulation, const Json& line, const RunFolder& folder) {
+  if (line.value("state_hash", "") == hex(sim::state_hash(simulation.world()))) return;
+  throw base::IoError(
+      fmt::format("{}: frame {} comes to another state than its record says; draw the run again "
+                  "with --overwrite",
+                  folder.path().string(), simulation.frame()));
+}
+
+}  // namespace
+
+void redraw_lost(Simulation& simulation, const FrameOutput& output, Progress& progress) {
+  const RunFolder& folder = output.log.folder();
+  for (const Json& line : output.log.lost()) {
+    const auto frame = line.at("frame").get<std::int64_t>();
+    while (simulation.frame() < frame) {
+      throw_if_interrupted();
+      progress.show(fmt::format("stepping to the lost frame {}: t = {:.2f} s", frame,
+                                sim::time(simulation.world())));
+      simulation.advance_frame();
+    }
+    require_state(simulation, line, folder);
+    draw(simulation, output.pictures.show, output, folder.frame(frame));
+    if (output.pictures.overlay) {
+      draw(simulation, *output.pictures.overlay, output, folder.overlay(frame));
+    }
+  }
+  progress.say(fmt::format("{} lost pictures drawn again", output.log.lost().size()));
+}
+
+}  // namespace pneuma::app
