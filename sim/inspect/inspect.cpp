@@ -6,6 +6,7 @@
 #include "sim/joints/body_springs.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/hash_vertices.h"
+#include "sim/potential/contact_potential.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/bending.h"
 #include "sim/soft/pressure_force.h"
@@ -56,6 +57,7 @@ Energy energy(const World& world) {
   for (const SoftBody& body : world.soft) sum += energy(body, world.settings.gravity);
   for (const RigidBox& box : world.rigid) sum += energy(box, world.settings.gravity);
   sum.spring += spring_energy_between_bodies(world);
+  if (world.settings.contact == ContactMethod::potential) sum.contact = contact_energy(world);
   return sum;
 }
 

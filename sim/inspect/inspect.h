@@ -17,8 +17,9 @@ struct Energy {
   double spring = 0.0;  // of hinges, too
   double gas = 0.0;
   double gravity = 0.0;
+  double contact = 0.0;  // of a world in which contact is a potential
 
-  double total() const { return kinetic + spring + gas + gravity; }
+  double total() const { return kinetic + spring + gas + gravity + contact; }
 };
 
 struct Momentum {

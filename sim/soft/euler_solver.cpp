@@ -90,28 +90,32 @@ bool EulerSolver::step(double beta, const EulerBase& base, const VertexArray& gu
   return true;
 }
 
-void EulerSolver::set_energy(double beta, const EulerBase& base) {
-  const double slowing = 1.0 + drag_rate(material_) * beta;
-  energy_.inertia = material_.vertex_mass * slowing / (beta * beta);
-  energy_.target.rows() =
+void set_step_energy(const SoftMesh& mesh, const SoftMaterial& material, const Vec3& gravity,
+                     double beta, const EulerBase& base, IncrementalPotential& energy) {
+  const double slowing = 1.0 + drag_rate(material) * beta;
+  energy.inertia = material.vertex_mass * slowing / (beta * beta);
+  energy.target.rows() =
       base.state.positions.rows() + beta / slowing * base.state.velocities.rows();
-  const Vec3 fall = beta * beta / slowing * gravity_;
-  for (int v = 0; v < energy_.target.size(); ++v) energy_.target[v] += fall;
-  for (int v = 0; has_pins() && v < energy_.target.size(); ++v) {
-    if (!is_pinned(energy_, v)) continue;
-    energy_.target[v] = base.state.positions[v] + beta * base.state.velocities[v];
+  const Vec3 fall = beta * beta / slowing * gravity;
+  for (int v = 0; v < energy.target.size(); ++v) energy.target[v] += fall;
+  for (int v = 0; energy.is_pinned != nullptr && v < energy.target.size(); ++v) {
+    if (!is_pinned(energy, v)) continue;
+    energy.target[v] = base.state.positions[v] + beta * base.state.velocities[v];
   }
 
-  const double dashpot = dashpot_constant(material_) / beta;
-  energy_.stiffness = material_.k + dashpot;
-  const double dashpot_fraction = energy_.stiffness > 0.0 ? dashpot / energy_.stiffness : 0.0;
-  for (std::size_t e = 0; e < energy_.rest_lengths.size(); ++e) {
-    energy_.rest_lengths[e] =
-        (1.0 - dashpot_fraction) * mesh_.rest_lengths[e] + dashpot_fraction * base.lengths[e];
+  const double dashpot = dashpot_constant(material) / beta;
+  energy.stiffness = material.k + dashpot;
+  const double dashpot_fraction = energy.stiffness > 0.0 ? dashpot / energy.stiffness : 0.0;
+  for (std::size_t e = 0; e < energy.rest_lengths.size(); ++e) {
+    energy.rest_lengths[e] =
+        (1.0 - dashpot_fraction) * mesh.rest_lengths[e] + dashpot_fraction * base.lengths[e];
   }
+  energy.bending = material.bending;
+  energy.gas = gas_law(material);
+}
 
-  energy_.bending = material_.bending;
-  energy_.gas = gas_law(material_);
+void EulerSolver::set_energy(double beta, const EulerBase& base) {
+  set_step_energy(mesh_, material_, gravity_, beta, base, energy_);
   energy_.friction_anchor.rows() = base.state.positions.rows();
   energy_.regularisation_length = anchor_speed * beta;
   energy_.friction = false;

@@ -21,6 +21,11 @@ struct EulerBase {
 void edge_lengths(const MeshTopology& topology, const VertexArray& positions,
                   std::vector<double>& lengths);
 
+/// Fills in inertia, target, springs with dashpots, and gas of a step of `beta` seconds from
+/// `base`: all but bounds and friction.
+void set_step_energy(const SoftMesh& mesh, const SoftMaterial& material, const Vec3& gravity,
+                     double beta, const EulerBase& base, IncrementalPotential& energy);
+
 class EulerSolver {
  public:
   /// Refers to the mesh, which must outlive it. Takes memory for all that follows.

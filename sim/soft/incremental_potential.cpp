@@ -151,27 +151,36 @@ std::vector<std::array<int, 2>> opposite_vertices(const MeshTopology& topology) 
   return opposite;
 }
 
+EdgeHessian edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
+                         const EnergyPoint& point, const std::vector<std::array<int, 2>>& opposite,
+                         std::size_t edge) {
+  // V = sum of a . (b x c) / 6 is linear in each vertex. In b, the gradient b x c / 6 at a changes
+  // by u x c / 6 with u: of an edge with c and c' across it, d^2V/da db u = u x (c - c') / 6.
+  const VertexArray& x = point.positions;
+  const auto& [a, b] = mesh.topology.edges()[edge];
+  const Mat3 spring =
+      spring_hessian(x[b] - x[a], point.lengths[edge], energy.stiffness, energy.rest_lengths[edge]);
+  const Vec3 across = x[opposite[edge][0]] - x[opposite[edge][1]];
+  return {spring, pressure(energy, point) / 6.0 * cross_matrix(across) - spring};
+}
+
 void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& energy,
                               const EnergyPoint& point,
                               const std::vector<std::array<int, 2>>& opposite,
                               VertexMatrix& hessian) {
-  const VertexArray& x = point.positions;
   hessian.set_identity(energy.inertia);
   const auto& edges = mesh.topology.edges();
-  // V = sum of a . (b x c) / 6 is linear in each vertex. In b, the gradient b x c / 6 at a changes
-  // by u x c / 6 with u: of an edge with c and c' across it, d^2V/da db u = u x (c - c') / 6.
-  const double sixth_pressure = pressure(energy, point) / 6.0;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto& [a, b] = edges[e];
-    const Mat3 spring =
-        spring_hessian(x[b] - x[a], point.lengths[e], energy.stiffness, energy.rest_lengths[e]);
-    const Vec3 across = x[opposite[e][0]] - x[opposite[e][1]];
-    hessian.add(a, spring);
-    hessian.add(b, spring);
-    hessian.add_between(static_cast<int>(e), sixth_pressure * cross_matrix(across) - spring);
+    const EdgeHessian of_edge = edge_hessian(mesh, energy, point, opposite, e);
+    hessian.add(a, of_edge.own);
+    hessian.add(b, of_edge.own);
+    hessian.add_between(static_cast<int>(e), of_edge.between);
   }
-  if (mesh.hinges && energy.bending > 0.0) add_bending_hessian(mesh, energy, x, hessian);
-  if (energy.friction) add_friction_hessian(energy, x, hessian);
+  if (mesh.hinges && energy.bending > 0.0) {
+    add_bending_hessian(mesh, energy, point.positions, hessian);
+  }
+  if (energy.friction) add_friction_hessian(energy, point.positions, hessian);
 }
 
 }  // namespace pneuma::sim

@@ -83,6 +83,16 @@ void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& ener
 /// from its first vertex to its second.
 std::vector<std::array<int, 2>> opposite_vertices(const MeshTopology& topology);
 
+/// What an edge adds to d^2E/dx^2, N/m: to both of its ends' own blocks, and to the block in the
+/// rows of its first and the columns of its second vertex.
+struct EdgeHessian {
+  Mat3 own;
+  Mat3 between;
+};
+EdgeHessian edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
+                         const EnergyPoint& point, const std::vector<std::array<int, 2>>& opposite,
+                         std::size_t edge);
+
 /// d^2E/dx^2 in N/m at a point that has been evaluated, without the gas's term P/V dV/dx dV/dx^T,
 /// which would fill the matrix.
 void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& energy,

@@ -30,6 +30,16 @@ void leave_out_what_swept_contacts_do(bool shows_particles, Plan& plan) {
   leave_out(Stage::depenetrate, "swept soft bodies do not overlap");
 }
 
+void leave_out_what_the_potential_does(bool shows_particles, Plan& plan) {
+  for (const Stage stage : {Stage::broad_phase, Stage::move_particles, Stage::find_contacts,
+                            Stage::resolve_contacts, Stage::depenetrate}) {
+    const bool is_shown =
+        shows_particles && (stage == Stage::broad_phase || stage == Stage::move_particles);
+    if (is_shown || !plan.runs(stage)) continue;
+    item(plan, stage) = {false, "contact is a term of the equation that integrate_soft solves"};
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(Stage stage) {
@@ -85,6 +95,10 @@ Plan make_plan(const World& world) {
   }
   if (world.settings.contact == ContactMethod::swept) {
     leave_out_what_swept_contacts_do(world.settings.particles.shown, plan);
+  }
+  if (world.settings.contact == ContactMethod::potential) {
+    leave_out_what_the_potential_does(
+        world.settings.particles.shown && plan.runs(Stage::move_particles), plan);
   }
   return plan;
 }

@@ -106,6 +106,9 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     swept.emplace(world);
   }
   if (has_gas_flow(world)) gas_flow.emplace(world);
+  if (world.settings.contact == ContactMethod::potential && !world.soft.empty()) {
+    potential = std::make_unique<PotentialMemory>(world);
+  }
 }
 
 Stepper::Stepper(const World& world, StepperOptions options)
@@ -137,6 +140,7 @@ std::optional<Divergence> Stepper::step(World& world) {
 std::optional<Divergence> Stepper::step_bodies(World& world) {
   StepWorkspace& w = *workspace_;
   if (w.swept) return step_swept(world);
+  if (w.potential) return step_by_potential(world);
   const StageRunner run(w);
   std::optional<Divergence> divergence;
 
@@ -178,6 +182,14 @@ std::optional<Divergence> Stepper::step_bodies(World& world) {
 std::optional<Divergence> Stepper::step_swept(World& world) {
   StepWorkspace& w = *workspace_;
   if (auto divergence = swept_step(world, w)) return divergence;
+  if (world.settings.particles.shown) walk_to_be_shown(world, w);
+  ++world.steps;
+  return std::nullopt;
+}
+
+std::optional<Divergence> Stepper::step_by_potential(World& world) {
+  StepWorkspace& w = *workspace_;
+  if (auto divergence = potential_step(world, w)) return divergence;
   if (world.settings.particles.shown) walk_to_be_shown(world, w);
   ++world.steps;
   return std::nullopt;

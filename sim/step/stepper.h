@@ -46,7 +46,8 @@ struct StepWorkspace;
 /// identically. Results do not depend on the number of threads.
 class Stepper {
  public:
-  /// Throws std::invalid_argument for a body that the integrator cannot step (can_integrate).
+  /// Throws std::invalid_argument for a body that the integrator cannot step (can_integrate), or,
+  /// where contact is a potential, for a box that moves freely.
   explicit Stepper(const World& world, StepperOptions options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;
@@ -76,6 +77,7 @@ class Stepper {
  private:
   std::optional<Divergence> step_bodies(World& world);
   std::optional<Divergence> step_swept(World& world);
+  std::optional<Divergence> step_by_potential(World& world);
 
   std::unique_ptr<StepWorkspace> workspace_;
 };

@@ -2,9 +2,11 @@
 // (stages.h). Private to sim/step.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "sim/joints/gas_flow.h"
+#include "sim/step/potential_step.h"
 #include "sim/step/stage_memory.h"
 #include "sim/step/swept_search.h"
 #include "sim/step/workers.h"
@@ -35,7 +37,8 @@ struct StepWorkspace {
   FindContactsMemory find_contacts;
   ResolveContactsMemory resolve_contacts;
   DepenetrateMemory depenetrate;
-  std::optional<SweptMemory> swept;  // if the world has swept contacts
+  std::optional<SweptMemory> swept;            // if the world has swept contacts
+  std::unique_ptr<PotentialMemory> potential;  // if contact is a potential
 };
 
 }  // namespace pneuma::sim

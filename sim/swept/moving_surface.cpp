@@ -15,12 +15,22 @@ WayBox edge_box(const MovingSurface& surface, int edge) {
   return box;
 }
 
-/// Goes down two trees together and collects pairs of features.
+/// Goes down two trees, or one with itself, and collects pairs of features.
 class PairSearch {
  public:
   PairSearch(const MovingSurface& first, const MovingSurface& second,
              std::vector<NearFeatures>& pairs)
-      : first_(first), second_(second), pairs_(pairs) {}
+      : first_(first), second_(second), pairs_(pairs), is_within_(&first == &second) {}
+
+  /// Every two triangles of one surface once.
+  void descend_within(int i) {
+    const SurfaceTree::Node& node = first_.tree->nodes()[at(i)];
+    if (node.is_leaf()) return meet_leaves(node, node);
+    const int left = i + 1, right = first_.tree->nodes()[at(left)].next;
+    descend_within(left);
+    descend_within(right);
+    descend(left, right);
+  }
 
   void descend(int i, int j) {
     const WayBox &one = first_.nodes[at(i)], &other = second_.nodes[at(j)];
@@ -43,8 +53,9 @@ class PairSearch {
   }
 
   void meet_leaves(const SurfaceTree::Node& a, const SurfaceTree::Node& b) {
+    const bool is_same = is_within_ && a.first == b.first;
     for (int s = a.first; s < a.end; ++s) {
-      for (int t = b.first; t < b.end; ++t) {
+      for (int t = is_same ? s + 1 : b.first; t < b.end; ++t) {
         const int one = first_.tree->order()[at(s)], other = second_.tree->order()[at(t)];
         if (overlap(first_.triangles[at(one)], second_.triangles[at(other)])) meet(one, other);
       }
@@ -57,11 +68,13 @@ class PairSearch {
     for (const int v : a.triangles()[at(one)]) {
       if (first_.tree->owner_of_vertex(v) != one) continue;
       if (!overlap(first_.vertices[at(v)], second_.triangles[at(other)])) continue;
+      if (is_within_ && has(b.triangles()[at(other)], v)) continue;
       pairs_.push_back({{FeatureKind::vertex, v}, {FeatureKind::triangle, other}});
     }
     for (const int v : b.triangles()[at(other)]) {
       if (second_.tree->owner_of_vertex(v) != other) continue;
       if (!overlap(first_.triangles[at(one)], second_.vertices[at(v)])) continue;
+      if (is_within_ && has(a.triangles()[at(one)], v)) continue;
       pairs_.push_back({{FeatureKind::triangle, one}, {FeatureKind::vertex, v}});
     }
     for (const int e : a.triangle_edges()[at(one)]) {
@@ -71,14 +84,23 @@ class PairSearch {
       for (const int f : b.triangle_edges()[at(other)]) {
         if (second_.tree->owner_of_edge(f) != other || second_.tree->is_flat(f)) continue;
         if (!overlap(around, edge_box(second_, f))) continue;
+        if (is_within_ && share_a_vertex(a.edges()[at(e)], a.edges()[at(f)])) continue;
         pairs_.push_back({{FeatureKind::edge, e}, {FeatureKind::edge, f}});
       }
     }
   }
 
+  static bool has(const Triangle& triangle, int vertex) {
+    return triangle[0] == vertex || triangle[1] == vertex || triangle[2] == vertex;
+  }
+  static bool share_a_vertex(const std::array<int, 2>& one, const std::array<int, 2>& other) {
+    return one[0] == other[0] || one[0] == other[1] || one[1] == other[0] || one[1] == other[1];
+  }
+
   const MovingSurface& first_;
   const MovingSurface& second_;
   std::vector<NearFeatures>& pairs_;
+  const bool is_within_;
 };
 
 /// Of all ways along a direction, m.
@@ -250,6 +272,10 @@ void find_near_features(const MovingSurface& first, const MovingSurface& second,
   } else {
     PairSearch(first, second, pairs).descend(0, 0);
   }
+}
+
+void find_near_features(const MovingSurface& surface, std::vector<NearFeatures>& pairs) {
+  PairSearch(surface, surface, pairs).descend_within(0);
 }
 
 Vec3 direction_apart(const MovingSurface& first, const MovingSurface& second, Moment moment) {

@@ -59,6 +59,9 @@ struct NearFeatures {
 void find_near_features(const MovingSurface& first, const MovingSurface& second,
                         std::vector<NearFeatures>& pairs);
 
+/// The same of one surface with itself. Features that share a vertex are no pair.
+void find_near_features(const MovingSurface& surface, std::vector<NearFeatures>& pairs);
+
 /// Of two boxes: from the second to the first, across the face that keeps them furthest apart.
 Vec3 direction_apart(const MovingSurface& first, const MovingSurface& second, Moment moment);
 

@@ -30,8 +30,17 @@ enum class SoftSearch {
 
 /// How bodies in contact are kept apart.
 enum class ContactMethod {
-  impulses,  // the paper's: found after the motion, then impulses and displacements (5.3)
-  swept,     // found before anything passes through a soft body (ERRATA row 67)
+  impulses,   // the paper's: found after the motion, then impulses and displacements (5.3)
+  swept,      // found before anything passes through a soft body (ERRATA row 67)
+  potential,  // a term of the equation of motion (ERRATA row 73, sim/potential/contact_potential.h)
+};
+
+/// Of contact as a potential.
+struct PotentialSettings {
+  // m, from which on surfaces push each other, and at most a twentieth of an edge.
+  double distance = 0.1;
+  std::optional<double> stiffness;     // Pa; none: default_stiffness
+  double regularisation_speed = 0.02;  // m/s, at which friction and restitution act in full
 };
 
 /// Whose form of the paper's formulas a world follows (ERRATA row 68).
@@ -61,6 +70,7 @@ struct Settings {
   // this, and no more than a fiftieth of an edge.
   double skin_thickness = 0.5;
   SoftSearch soft_search = SoftSearch::particles;
+  PotentialSettings potential;
   ParticleSettings particles;
   double relaxation_time = 0.1;  // s in which soft features that overlap part by a factor e;
                                  // 0: at once, as in the paper (ERRATA row 61)

@@ -152,7 +152,8 @@ void compare(Comparison& c, const SpringScene& a, const SpringScene& b) {
 
 void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   const auto& [method, steps_per_second, integrator, gravity, ground, contact, skin_thickness,
-               soft_search, particles, relaxation_time, contact_iterations, sleep_speed, seed] = a;
+               soft_search, potential, particles, relaxation_time, contact_iterations, sleep_speed,
+               seed] = a;
   const auto& [per_vertex, attraction, max_sweeps, settled_below, shown] = particles;
   c.member("particles.shown", shown, b.particles.shown);
   c.member("method", method, b.method);
@@ -163,6 +164,11 @@ void compare(Comparison& c, const sim::Settings& a, const sim::Settings& b) {
   if (ground && b.ground) compare(c, *ground, *b.ground);
   c.member("contact", contact, b.contact);
   c.member("skin_thickness", skin_thickness, b.skin_thickness);
+  const auto& [distance, stiffness, regularisation_speed] = potential;
+  c.member("potential.distance", distance, b.potential.distance);
+  c.member("potential.stiffness", stiffness, b.potential.stiffness);
+  c.member("potential.regularisation_speed", regularisation_speed,
+           b.potential.regularisation_speed);
   c.member("soft_search", soft_search, b.soft_search);
   c.member("per_vertex", per_vertex, b.particles.per_vertex);
   c.member("attraction", attraction, b.particles.attraction);

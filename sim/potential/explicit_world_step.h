@@ -1,0 +1,82 @@
+// The explicit integrators on the equation of a whole world, contact included: every stage sees all
+// bodies where they are then.
+#pragma once
+
+#include <vector>
+
+#include "sim/potential/contact_potential.h"
+#include "sim/potential/continuous_collision.h"
+#include "sim/potential/implicit_world_step.h"
+#include "sim/soft/acceleration.h"
+#include "sim/soft/explicit_step.h"
+
+namespace pneuma::sim {
+
+/// The model's equation of all bodies of a world with contact (acceleration.h,
+/// contact_potential.h), for explicit_step and for reference solvers. What forces do not move has
+/// no acceleration.
+class WorldAcceleration {
+ public:
+  /// Refers to both; of the world its meshes, materials and gravity.
+  WorldAcceleration(const World& world, const ContactSurfaces& surfaces);
+
+  /// Writes dv/dt in m/s^2. Returns the least volume of a body with gas in m^3, or 1: not above
+  /// zero, or not a number, where the force means nothing. Pairs are looked for again when a vertex
+  /// is further than what was looked around it.
+  double operator()(const VertexArray& positions, const VertexArray& velocities,
+                    VertexArray& acceleration) const;
+
+  /// m, around every vertex, from the next search on.
+  void set_margin(double margin) { margin_ = margin; }
+  /// All pairs that may meet on straight ways.
+  const std::vector<ContactPair>& pairs_between(const VertexArray& from,
+                                                const VertexArray& to) const;
+  /// The greatest of h^2 K / m over the contacts at some positions, K their stiffness.
+  double contact_stiffness(const VertexArray& positions, double step) const;
+
+ private:
+  struct Body {
+    int soft;
+    int first_vertex;
+    double vertex_mass;
+    SoftAcceleration equation;
+    VertexArray positions, velocities, acceleration;
+  };
+  bool covers(const VertexArray& positions) const;
+  void search(const VertexArray& positions) const;
+
+  const ContactSurfaces& surfaces_;
+  std::vector<AccelerationScratch> scratch_;
+  mutable std::vector<Body> bodies_;
+  std::vector<double> inverse_mass_;  // 1/kg, per vertex; 0: forces do not move it
+  mutable PairFinder finder_;
+  mutable std::vector<ContactPair> pairs_, between_;
+  mutable std::vector<ActiveContact> active_;
+  mutable VertexArray searched_, forces_;
+  mutable double searched_margin_ = -1.0;
+  double margin_ = 0.0;
+};
+
+struct ExplicitWorldReport {
+  double min_volume = 1.0;  // m^3, as explicit_step reports it
+  WayLimit limit;           // a pair that came too near, or met, on straight ways
+  ContactPair limiting_pair;
+  bool is_too_stiff = false;  // a contact, for the step
+};
+
+class ExplicitWorldStep {
+ public:
+  ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces);
+
+  /// One step of the world's settings. `end` is to be used only if nothing is limited and nothing
+  /// too stiff: else the step is to be divided.
+  ExplicitWorldReport step(const World& world, const WorldState& start, WorldState& end);
+
+ private:
+  const ContactSurfaces& surfaces_;
+  WorldAcceleration acceleration_;
+  ExplicitScratch scratch_;
+  SoftState start_;
+};
+
+}  // namespace pneuma::sim

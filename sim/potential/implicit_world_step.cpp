@@ -1,0 +1,221 @@
+#include "sim/potential/implicit_world_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "sim/mesh/measure.h"
+#include "sim/soft/spring_force.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of the least mean edge: how far from the minimum a vertex may end.
+constexpr double world_tolerance_fraction = 1e-8;
+constexpr double world_rounding = 1e-13;
+
+/// sdirk2's, as in sim/soft/implicit_step.cpp.
+constexpr double sdirk_part = 1.0 - 0.5 * std::numbers::sqrt2;
+constexpr double sdirk_extrapolation = 1.0 + std::numbers::sqrt2;
+
+}  // namespace
+
+ImplicitWorldStep::ImplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
+    : surfaces_(surfaces),
+      energy_(world, surfaces),
+      minimiser_(surfaces, energy_),
+      finder_(surfaces),
+      extrapolated_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())},
+      middle_(surfaces.vertex_count()),
+      targets_(surfaces.vertex_count()) {
+  double least_edge = std::numeric_limits<double>::infinity();
+  for (const WorldEnergy::Body& body : energy_.bodies()) {
+    bases_.emplace_back(*body.mesh);
+    start_lengths_.emplace_back(body.mesh->rest_lengths.size());
+    own_.emplace_back(body.mesh->topology.vertex_count());
+    least_edge = std::min(least_edge, surfaces[body.soft].tree->mean_edge());
+  }
+  tolerance_ = world_tolerance_fraction * least_edge;
+}
+
+/// Of one body, until the next call for it.
+const VertexArray& ImplicitWorldStep::own_part(const VertexArray& all, std::size_t i) {
+  own_[i].rows() = all.rows().middleCols(energy_.bodies()[i].first_vertex, own_[i].size());
+  return own_[i];
+}
+
+ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState& start,
+                                            WorldState& end) {
+  report_ = {};
+  const double h = time_step(world.settings);
+  does_work_ = false;
+  for (int v = 0; v < start.velocities.size(); ++v) {
+    does_work_ |= !surfaces_.is_mobile(v) && !Vec3(start.velocities[v]).isZero(0.0);
+  }
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const WorldEnergy::Body& body = energy_.bodies()[i];
+    edge_lengths(body.mesh->topology, own_part(start.positions, i), start_lengths_[i]);
+  }
+  const double speed_energy = kinetic(world, start.velocities);
+  start_energy_ = potential(world, start.positions) + speed_energy;
+  report_.is_valid = std::isfinite(start_energy_);
+  if (!report_.is_valid) return report_;
+  start_energy_ += world_rounding * (magnitude_ + speed_energy);
+  const bool by_sdirk = world.settings.integrator == Integrator::sdirk2;
+  report_.by_euler = by_sdirk && !sdirk2(world, h, start, end);
+  if (!by_sdirk || report_.by_euler) implicit_euler(world, h, start, end);
+  if (!report_.arrived || !report_.is_valid) return report_;
+  keep_given(start, h, end);
+  report_.energy_limited = limit_energy(world, end);
+  return report_;
+}
+
+bool ImplicitWorldStep::implicit_euler(const World& world, double step, const WorldState& start,
+                                       WorldState& end) {
+  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
+  if (!minimise(world, step, start, start, start.positions, step)) return false;
+  end.positions.rows() = minimiser_.point().positions.rows();
+  end.velocities.rows() = (end.positions.rows() - start.positions.rows()) / step;
+  return true;
+}
+
+/// False when the step must be left to implicit_euler.
+bool ImplicitWorldStep::sdirk2(const World& world, double step, const WorldState& start,
+                               WorldState& end) {
+  const double part = sdirk_part * step;
+  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
+  if (!minimise(world, part, start, start, start.positions, part)) return false;
+  middle_.rows() = minimiser_.point().positions.rows();
+
+  const auto change = middle_.rows() - start.positions.rows();
+  extrapolated_.positions.rows() = start.positions.rows() + sdirk_extrapolation * change;
+  extrapolated_.velocities.rows() =
+      start.velocities.rows() + sdirk_extrapolation * (change / part - start.velocities.rows());
+  end.positions.rows() = middle_.rows();
+  end.velocities.rows() = change / part;
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const WorldEnergy::Body& body = energy_.bodies()[i];
+    std::vector<double>& lengths = bases_[i].lengths;
+    edge_lengths(body.mesh->topology, own_part(middle_, i), lengths);
+    for (std::size_t e = 0; e < lengths.size(); ++e) {
+      const double before = start_lengths_[i][e];
+      lengths[e] = before + sdirk_extrapolation * (lengths[e] - before);
+    }
+  }
+  if (!minimise(world, part, extrapolated_, end, middle_, step - part)) return false;
+  end.positions.rows() = minimiser_.point().positions.rows();
+  end.velocities.rows() = (end.positions.rows() - extrapolated_.positions.rows()) / part;
+  return does_work_ || potential(world, end.positions) <= start_energy_;
+}
+
+/// Of a step of `beta` from `base`, starting at `guess`, with friction and restitution as of `lag`.
+/// `way`: s, in which what keys move goes on from the guess.
+bool ImplicitWorldStep::minimise(const World& world, double beta, const WorldState& base,
+                                 const WorldState& lag, const VertexArray& guess, double way) {
+  targets_.rows() = guess.rows() + way * lag.velocities.rows();
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const WorldEnergy::Body& body = energy_.bodies()[i];
+    const int count = bases_[i].state.positions.size();
+    bases_[i].state.positions.rows() = base.positions.rows().middleCols(body.first_vertex, count);
+    bases_[i].state.velocities.rows() = base.velocities.rows().middleCols(body.first_vertex, count);
+  }
+  energy_.set_step(world, beta, bases_, targets_);
+  WorldPoint& point = minimiser_.point();
+  point.positions.rows() = guess.rows();
+  if (!minimiser_.begin()) {
+    report_.is_valid = false;
+    return false;
+  }
+  energy_.start_lagged(point.active, lag.velocities, base.positions, beta);
+  if (!minimiser_.begin()) {
+    report_.is_valid = false;
+    return false;
+  }
+  const double rounding = 4e-15 * guess.rows().cwiseAbs().maxCoeff();
+  const WorldMinimiserReport done = minimiser_.minimise(std::max(tolerance_, rounding));
+  report_.iterations += done.iterations;
+  report_.gradient_iterations = minimiser_.gradient_iterations();
+  report_.converged &= done.converged;
+  report_.arrived = done.arrived;
+  if (!done.arrived) {
+    report_.blocked = done.blocked;
+    report_.blocked_pair = done.blocked_pair;
+  }
+  return done.arrived;
+}
+
+/// What forces do not move keeps its velocity.
+void ImplicitWorldStep::keep_given(const WorldState& start, double step, WorldState& end) const {
+  for (int v = 0; v < end.positions.size(); ++v) {
+    if (surfaces_.is_mobile(v)) continue;
+    end.velocities[v] = start.velocities[v];
+    end.positions[v] = start.positions[v] + step * start.velocities[v];
+  }
+}
+
+double ImplicitWorldStep::kinetic(const World& world, const VertexArray& velocities) const {
+  double sum = 0.0;
+  for (const WorldEnergy::Body& body : energy_.bodies()) {
+    const int count = body.mesh->topology.vertex_count();
+    sum += 0.5 * world.soft[at(body.soft)].material.vertex_mass *
+           velocities.rows().middleCols(body.first_vertex, count).squaredNorm();
+  }
+  return sum;
+}
+
+/// Of springs, gas, gravity and contacts. Adds the sizes of the terms up in magnitude_.
+double ImplicitWorldStep::potential(const World& world, const VertexArray& positions) {
+  double sum = 0.0;
+  magnitude_ = 0.0;
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const WorldEnergy::Body& body = energy_.bodies()[i];
+    const SoftMaterial& material = world.soft[at(body.soft)].material;
+    const VertexArray& own = own_part(positions, i);
+    const double springs = spring_energy(*body.mesh, own, material.k);
+    const GasLaw law = gas_law(material);
+    const double enclosed = volume(body.mesh->topology, own);
+    if (law.strength > 0.0 && !(enclosed > 0.0)) return std::numeric_limits<double>::infinity();
+    const double gravity =
+        -material.vertex_mass * own.size() * world.settings.gravity.dot(mean(own));
+    sum += springs + gas_energy(law, enclosed) + gravity;
+    magnitude_ += springs + gas_energy_size(law, enclosed) + std::abs(gravity);
+  }
+  finder_.find(positions, positions, 0.0, pairs_);
+  const double contacts = contact_energy(surfaces_, positions, pairs_);
+  magnitude_ += contacts;
+  return sum + contacts;
+}
+
+/// Cuts the velocities to what is left of the energy: those relative to the bodies' centres, and
+/// only if that is not enough, all. Returns whether it was needed.
+bool ImplicitWorldStep::limit_energy(const World& world, WorldState& end) {
+  if (does_work_) return false;
+  const double left = std::max(0.0, start_energy_ - potential(world, end.positions));
+  const double moving = kinetic(world, end.velocities);
+  if (moving <= left) return false;
+  double of_centres = 0.0;
+  for (const WorldEnergy::Body& body : energy_.bodies()) {
+    const SoftBody& soft = world.soft[at(body.soft)];
+    if (soft.pins) continue;
+    const int count = body.mesh->topology.vertex_count();
+    const Vec3 common =
+        end.velocities.rows().middleCols(body.first_vertex, count).rowwise().mean().head<3>();
+    of_centres += 0.5 * soft.material.vertex_mass * count * common.squaredNorm();
+  }
+  const bool keeps_centres = of_centres <= left;
+  const double kept = keeps_centres ? of_centres : 0.0;
+  const double factor = moving > kept ? std::sqrt((left - kept) / (moving - kept)) : 0.0;
+  for (const WorldEnergy::Body& body : energy_.bodies()) {
+    const int count = body.mesh->topology.vertex_count();
+    auto own = end.velocities.rows().middleCols(body.first_vertex, count);
+    const bool has_centre = keeps_centres && !world.soft[at(body.soft)].pins;
+    const Eigen::Vector4d common = has_centre ? Eigen::Vector4d(own.rowwise().mean())
+                                              : Eigen::Vector4d(Eigen::Vector4d::Zero());
+    own = factor * (own.colwise() - common).eval();
+    own.colwise() += common;
+  }
+  return true;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,72 @@
+// The implicit integrators on the equation of a whole world, contact included: implicit_euler and
+// sdirk2 as in sim/soft/implicit_step.h, but every minimisation is of all bodies at once
+// (world_energy.h).
+//
+// Guarantees, for every step, up to rounding, if they hold at its start:
+//   no pair of features has crossed, of two bodies or of one, and no vertex is a reach below z = 0;
+//   V > 0 of every body with gas;
+//   kinetic + spring + gas + gravity + contact energy does not grow, unless keys move something.
+#pragma once
+
+#include <vector>
+
+#include "sim/potential/world_minimiser.h"
+
+namespace pneuma::sim {
+
+/// Positions and velocities of all surfaces' vertices.
+struct WorldState {
+  VertexArray positions;   // m
+  VertexArray velocities;  // m/s
+};
+
+struct ImplicitWorldReport {
+  bool is_valid = true;  // else nothing was done: the start has no energy
+  int iterations = 0;
+  int gradient_iterations = 0;
+  bool converged = true;
+  bool arrived = true;  // what keys move; else `blocked` has stopped it
+  bool by_euler = false;
+  bool energy_limited = false;
+  WayLimit blocked;
+  ContactPair blocked_pair;
+};
+
+class ImplicitWorldStep {
+ public:
+  /// Refers to the surfaces. Takes memory for all that follows.
+  ImplicitWorldStep(const World& world, const ContactSurfaces& surfaces);
+
+  /// One step of the world's settings from `start`. What forces do not move goes on straight with
+  /// its velocities. `end` means something only if the report is valid and everything arrived.
+  ImplicitWorldReport step(const World& world, const WorldState& start, WorldState& end);
+
+ private:
+  bool implicit_euler(const World& world, double step, const WorldState& start, WorldState& end);
+  bool sdirk2(const World& world, double step, const WorldState& start, WorldState& end);
+  bool minimise(const World& world, double beta, const WorldState& base, const WorldState& lag,
+                const VertexArray& guess, double step_from_start);
+  const VertexArray& own_part(const VertexArray& all, std::size_t i);
+  double potential(const World& world, const VertexArray& positions);
+  double kinetic(const World& world, const VertexArray& velocities) const;
+  bool limit_energy(const World& world, WorldState& end);
+  void keep_given(const WorldState& start, double step, WorldState& end) const;
+
+  const ContactSurfaces& surfaces_;
+  WorldEnergy energy_;
+  WorldMinimiser minimiser_;
+  PairFinder finder_;
+  std::vector<ContactPair> pairs_;
+  std::vector<EulerBase> bases_;
+  std::vector<std::vector<double>> start_lengths_;  // m, per body and edge
+  WorldState extrapolated_;
+  VertexArray middle_, targets_;
+  std::vector<VertexArray> own_;  // positions, per body
+  double tolerance_ = 0.0;        // m
+  double start_energy_ = 0.0;
+  double magnitude_ = 0.0;
+  bool does_work_ = false;
+  ImplicitWorldReport report_;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,55 @@
+// Friction and restitution of an implicit step as functions of positions.
+//
+// They take their normals, weights and pushes from where the step starts (Li et al., Incremental
+// Potential Contact, 2020, section 5.4, "lagged"), and velocities from how far positions have moved
+// since, u / h, along the normal and across it. Each is then the gradient of a convex function,
+//
+//   D(x) = sum of  (1 - e^2) lambda h v_0 G(u_n / h v_0)  +  mu lambda_n h v_0 H(|u_t| / h v_0),
+//
+// G and H as in barrier.h, which is least where nothing moves: these terms only take energy.
+#pragma once
+
+#include <vector>
+
+#include "sim/potential/contact_potential.h"
+
+namespace pneuma::sim {
+
+/// A symmetric matrix K that acts between weighted sums of vertices: c_i K c_j.
+struct WeightedBlock {
+  std::array<int, 4> vertices{};
+  int count = 4;
+  PairWeights weights{};
+  Mat3 block = Mat3::Zero();
+};
+
+class LaggedTerms {
+ public:
+  /// From the contacts at the positions from which a step of `step` (s) starts with `velocities`.
+  /// `base`: the positions from which their ways count.
+  void start(const std::vector<ActiveContact>& active, const VertexArray& velocities,
+             const VertexArray& base, double step, double regularisation_speed);
+
+  double energy(const VertexArray& positions) const;
+  void add_gradient(const VertexArray& positions, VertexArray& gradient) const;
+  /// Positive semidefinite blocks, one for each term.
+  void append_hessian(const VertexArray& positions, std::vector<WeightedBlock>& blocks) const;
+
+ private:
+  struct Term {
+    std::array<int, 4> vertices{};
+    int count = 4;
+    PairWeights weights{};
+    Vec3 normal = Vec3::Zero();
+    Vec3 base = Vec3::Zero();  // weighted sum of the base positions, m
+    double taken = 0.0;        // (1 - e^2) lambda, N
+    double braking = 0.0;      // mu lambda_n, N
+  };
+
+  Vec3 way(const Term& term, const VertexArray& positions) const;
+
+  std::vector<Term> terms_;
+  double length_ = 1.0;  // h v_0, m
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,60 @@
+// Newton's method on the incremental potential of a whole world (world_energy.h).
+//
+// Directions are conjugate gradients' (world_matrix.h), with the diagonal shifted where the second
+// derivative is not positive (as in sim/soft/minimise_energy.h). Each is cut to where no pair has
+// used up nine tenths of its distance (continuous_collision.h), then halved until E has fallen by a
+// fraction of what its slope promises: an accepted point never lies beyond a crossing. Where
+// vertices are moved by keys they go along with the direction, and only what they leave of it is
+// gone in the next iteration; until they have arrived E may grow, by their work.
+#pragma once
+
+#include <vector>
+
+#include "sim/potential/continuous_collision.h"
+#include "sim/potential/world_energy.h"
+
+namespace pneuma::sim {
+
+struct WorldMinimiserReport {
+  int iterations = 0;
+  bool converged = false;
+  bool arrived = true;  // what is moved by keys
+  WayLimit blocked;     // by what it is stopped, if it has not
+  ContactPair blocked_pair;
+};
+
+class WorldMinimiser {
+ public:
+  /// Refers to both, which must outlive it.
+  WorldMinimiser(const ContactSurfaces& surfaces, const WorldEnergy& energy);
+
+  /// Where it starts: positions to be filled in, at which nothing crosses. Where it ends:
+  /// evaluated.
+  WorldPoint& point() { return point_; }
+  const WorldPoint& point() const { return point_; }
+
+  /// Finds the contacts at the start; false when its energy means nothing.
+  bool begin();
+
+  /// Ends when the next iteration would move no vertex by more than `tolerance` (m), or when E no
+  /// longer falls by more than rounding.
+  WorldMinimiserReport minimise(double tolerance);
+
+  int gradient_iterations() const { return matrix_.iterations(); }
+
+ private:
+  bool is_arrived() const;
+  void find_direction(int iteration);
+  double search_line(bool arrived, WorldMinimiserReport& report);
+
+  const ContactSurfaces& surfaces_;
+  const WorldEnergy& energy_;
+  PairFinder finder_;
+  std::vector<ContactPair> pairs_;
+  WorldMatrix matrix_;
+  WorldPoint point_, trial_;
+  VertexArray gradient_, right_, direction_, given_, ahead_;
+  double shift_ = 0.0;
+};
+
+}  // namespace pneuma::sim

@@ -1,0 +1,247 @@
+#include "sim/step/potential_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/base/text.h"
+#include "sim/inspect/closed_surface.h"
+#include "sim/step/find_divergence.h"
+#include "sim/step/stage_runner.h"
+#include "sim/step/stages.h"
+
+namespace pneuma::sim {
+namespace {
+
+class PotentialStep {
+ public:
+  PotentialStep(World& world, StepWorkspace& workspace)
+      : world_(world), w_(workspace), m_(*workspace.potential), run_(workspace) {}
+
+  /// Half steps, if the whole one fails.
+  std::optional<Divergence> advance(int halvings) {
+    keep(m_.starts[at(halvings)]);
+    std::optional<Divergence> failure;
+    bool may_be_halved = false;
+    run_(Stage::integrate_soft, [&] { failure = try_step(halvings, may_be_halved); });
+    if (!failure) {
+      if (w_.options.after_part) w_.options.after_part(world_);
+      return std::nullopt;
+    }
+    take_back(m_.starts[at(halvings)]);
+    if (!may_be_halved || halvings == max_halvings()) return failure;
+    world_.settings.steps_per_second *= 2;
+    auto half = advance(halvings + 1);
+    if (!half) half = advance(halvings + 1);
+    world_.settings.steps_per_second /= 2;
+    if (half) take_back(m_.starts[at(halvings)]);
+    return half;
+  }
+
+  /// For whoever looks at them.
+  void report_contacts() {
+    w_.contacts.clear();
+    m_.finder.find(m_.end.positions, m_.end.positions, 0.0, m_.pairs);
+    find_active(m_.surfaces, m_.end.positions, m_.pairs, m_.active);
+    for (const ActiveContact& contact : m_.active) w_.contacts.push_back(seen(contact));
+  }
+
+ private:
+  int max_halvings() const {
+    return m_.implicit_step ? max_implicit_halvings : max_potential_halvings;
+  }
+
+  void keep(PotentialMemory::Start& start) {
+    if (start.state.positions.size() == 0) start.state = m_.start;
+    m_.surfaces.gather(world_, start.state.positions, start.state.velocities);
+    start.boxes.clear();
+    for (const RigidBox& box : world_.rigid) start.boxes.push_back(motion_of(box));
+  }
+
+  void take_back(const PotentialMemory::Start& start) {
+    scatter(start.state);
+    restore_rigid(world_, start.boxes);
+  }
+
+  void scatter(const WorldState& state) {
+    for (std::size_t b = 0; b < world_.soft.size(); ++b) {
+      const ContactSurface& surface = m_.surfaces[static_cast<int>(b)];
+      SoftBody& body = world_.soft[b];
+      body.positions.rows() =
+          state.positions.rows().middleCols(surface.first_vertex, surface.vertex_count);
+      body.velocities.rows() =
+          state.velocities.rows().middleCols(surface.first_vertex, surface.vertex_count);
+    }
+  }
+
+  /// Boxes move as they do, and their corners straight.
+  std::optional<Divergence> gather_start() {
+    m_.surfaces.gather(world_, m_.start.positions, m_.start.velocities);
+    place_boxes(m_.start.positions);
+    if (auto failure = integrate_rigid(world_, w_.motion_start.rigid)) return failure;
+    m_.end.positions.rows() = m_.start.positions.rows();
+    place_boxes(m_.end.positions);
+    if (world_.rigid.empty()) return std::nullopt;
+    const int first = m_.surfaces[static_cast<int>(world_.soft.size())].first_vertex;
+    const int count = m_.surfaces.vertex_count() - first;
+    m_.start.velocities.rows().rightCols(count) =
+        (m_.end.positions.rows().rightCols(count) - m_.start.positions.rows().rightCols(count)) /
+        time_step(world_.settings);
+    return std::nullopt;
+  }
+
+  void place_boxes(VertexArray& positions) const {
+    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
+      m_.surfaces.place_box(world_.rigid[at(i)], i, positions);
+    }
+  }
+
+  std::optional<Divergence> try_step(int halvings, bool& may_be_halved) {
+    if (auto failure = gather_start()) return failure;
+    auto failure = m_.implicit_step ? step_implicitly(halvings, may_be_halved)
+                                    : step_explicitly(halvings, may_be_halved);
+    if (failure) return failure;
+    scatter(m_.end);
+    for (const SoftBody& body : world_.soft) {
+      if (auto divergence = find_divergence(world_, body)) {
+        divergence->stage = Stage::integrate_soft;
+        return divergence;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Divergence> step_implicitly(int halvings, bool& may_be_halved) {
+    const ImplicitWorldReport report = m_.implicit_step->step(world_, m_.start, m_.end);
+    if (!report.is_valid) {
+      return failure(first_body(), "its energy has no value: it has lost its volume, or touches");
+    }
+    if (report.arrived) return std::nullopt;
+    may_be_halved = true;
+    return blocked(report.blocked, report.blocked_pair, "", halvings);
+  }
+
+  std::optional<Divergence> step_explicitly(int halvings, bool& may_be_halved) {
+    const ExplicitWorldReport report = m_.explicit_step->step(world_, m_.start, m_.end);
+    if (report.is_too_stiff || report.limit.is_limited) {
+      may_be_halved = true;
+      return blocked(report.limit, report.limiting_pair,
+                     report.is_too_stiff ? "a contact of it is too stiff for the step" : "",
+                     halvings);
+    }
+    if (report.min_volume > 0.0) return std::nullopt;
+    Divergence lost = failure(first_body(), "a volume is " + base::text(report.min_volume) +
+                                                " m^3 within the step, so that a body is flat or "
+                                                "inside out");
+    lost.inverted = true;
+    return lost;
+  }
+
+  std::string first_body() const { return world_.soft.empty() ? "" : world_.soft.front().name; }
+
+  Divergence failure(std::string body, std::string what) const {
+    return {Stage::integrate_soft, world_.steps + 1, std::move(body), std::move(what)};
+  }
+
+  /// Without words, which need memory, where the step can still be halved.
+  Divergence blocked(const WayLimit& limit, const ContactPair& pair, const std::string& why,
+                     int halvings) const {
+    if (halvings < max_halvings()) return failure("", "");
+    const std::string parts = std::to_string(1 << max_halvings());
+    if (!limit.is_limited) {
+      return failure(first_body(), why + ", even in " + parts +
+                                       " parts; a smaller "
+                                       "simulation.potential.stiffness or an implicit "
+                                       "integrator does");
+    }
+    const bool on_ground = limit.pair < 0;
+    const int surface = on_ground ? surface_of(limit.vertex) : pair.first;
+    const std::string other = on_ground ? "the ground" : body_name(world_, pair.second);
+    return failure(body_name(world_, surface),
+                   "it comes so near to " + other + ", at " + features(limit, pair) +
+                       ", that it would pass through it, even in a " + parts +
+                       "th of the step; a step of 1/" +
+                       std::to_string(2 * world_.settings.steps_per_second) +
+                       " s or an implicit integrator may do");
+  }
+
+  static std::string features(const WayLimit& limit, const ContactPair& pair) {
+    std::string text = "vertex ";
+    if (limit.pair < 0) return text += std::to_string(limit.vertex);
+    text = pair.is_edges ? "edges" : "a vertex and a triangle, of vertices";
+    for (const int v : pair.vertices) (text += ' ') += std::to_string(v);
+    return text;
+  }
+
+  int surface_of(int vertex) const {
+    int s = 0;
+    while (s + 1 < m_.surfaces.count() && m_.surfaces[s + 1].first_vertex <= vertex) ++s;
+    return s;
+  }
+
+  Contact seen(const ActiveContact& contact) const {
+    Contact result;
+    const int first_side = side_vertex(contact, true);
+    result.first = side(surface_of(first_side), first_side);
+    result.normal = contact.point.normal();
+    result.point = Vec3::Zero();
+    for (int i = 0; i < contact.count; ++i) {
+      const double weight = contact.point.weights[at(i)];
+      if (weight > 0.0) result.point += weight * m_.end.positions[contact.vertices[at(i)]];
+    }
+    if (contact.second >= 0) {
+      const int second_side = side_vertex(contact, false);
+      result.second = side(surface_of(second_side), second_side);
+    }
+    return result;
+  }
+
+  /// The nearest of the first or the second side.
+  static int side_vertex(const ActiveContact& contact, bool is_first) {
+    int found = 0;
+    double most = -1.0;
+    for (int i = 0; i < contact.count; ++i) {
+      const double weight = contact.point.weights[at(i)] * (is_first ? 1.0 : -1.0);
+      if (weight > most) {
+        most = weight;
+        found = contact.vertices[at(i)];
+      }
+    }
+    return found;
+  }
+
+  ContactSide side(int surface, int vertex) const {
+    const int soft = static_cast<int>(world_.soft.size());
+    if (surface >= soft) return {SideKind::rigid, surface - soft, {}};
+    return {
+        SideKind::soft, surface, {FeatureKind::vertex, vertex - m_.surfaces[surface].first_vertex}};
+  }
+
+  World& world_;
+  StepWorkspace& w_;
+  PotentialMemory& m_;
+  StageRunner run_;
+};
+
+}  // namespace
+
+PotentialMemory::PotentialMemory(const World& world)
+    : surfaces(world),
+      start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())},
+      end(start),
+      finder(surfaces) {
+  if (is_implicit(world.settings.integrator)) {
+    implicit_step.emplace(world, surfaces);
+  } else {
+    explicit_step.emplace(world, surfaces);
+  }
+}
+
+std::optional<Divergence> potential_step(World& world, StepWorkspace& workspace) {
+  PotentialStep step(world, workspace);
+  if (auto divergence = step.advance(0)) return divergence;
+  step.report_contacts();
+  return std::nullopt;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,50 @@
+// A step of the equation of a whole world in which contact is a potential (ERRATA row 73). Private
+// to sim/step.
+//
+// Soft bodies and what is static or moved are stepped together, by every integrator
+// (sim/potential/explicit_world_step.h, implicit_world_step.h). A step that would bring a pair
+// through each other, or too near for an explicit integrator to follow the barrier, is done in two
+// halves, and these again, and ends as a divergence where that does not help.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "sim/potential/explicit_world_step.h"
+#include "sim/potential/implicit_world_step.h"
+#include "sim/response/motion_start.h"
+#include "sim/step/stepper.h"
+
+namespace pneuma::sim {
+
+struct StepWorkspace;
+
+/// How often a step is halved at most.
+inline constexpr int max_potential_halvings = 10;
+/// Of implicit steps, whose trouble is seldom their length.
+inline constexpr int max_implicit_halvings = 4;
+
+struct PotentialMemory {
+  /// Throws std::invalid_argument if a box of the world moves freely.
+  explicit PotentialMemory(const World& world);
+
+  struct Start {
+    WorldState state;
+    std::vector<RigidStart> boxes;
+  };
+
+  ContactSurfaces surfaces;
+  std::optional<ExplicitWorldStep> explicit_step;
+  std::optional<ImplicitWorldStep> implicit_step;
+  std::array<Start, max_potential_halvings + 1> starts;  // of a part of the step and all around it
+  WorldState start, end;
+  PairFinder finder;
+  std::vector<ContactPair> pairs;
+  std::vector<ActiveContact> active;
+};
+
+/// Steps the world once. On divergence the world is as the step found it.
+std::optional<Divergence> potential_step(World& world, StepWorkspace& workspace);
+
+}  // namespace pneuma::sim
