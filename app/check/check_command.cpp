@@ -48,8 +48,11 @@ ExitCode check_model_file(const CheckOptions& options) {
   return ExitCode::done;
 }
 
-/// With swept contacts only boxes cross, and by little.
+/// With swept contacts only boxes cross, and by little; by the potential nothing does.
 std::string what_keeps_apart(const sim::Settings& settings) {
+  if (settings.contact == sim::ContactMethod::potential) {
+    return "contact by potential should have kept them apart: an error of the program";
+  }
   if (settings.contact == sim::ContactMethod::swept) {
     return "a greater simulation.steps_per_second keeps boxes further apart";
   }

@@ -28,6 +28,7 @@ Json energy_json(const sim::Energy& energy) {
           {"spring", number_json<Json>(energy.spring)},
           {"gas", number_json<Json>(energy.gas)},
           {"gravity", number_json<Json>(energy.gravity)},
+          {"contact", number_json<Json>(energy.contact)},
           {"total", number_json<Json>(energy.total())}};
 }
 

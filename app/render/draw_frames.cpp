@@ -133,7 +133,7 @@ class CrossedFrames {
     ++frames_;
     if (state.bodies_that_cross.empty()) return;
     if (count_++ > 0) return;
-    const bool is_swept = simulation.world().settings.contact == sim::ContactMethod::swept;
+    const bool is_swept = simulation.world().settings.contact != sim::ContactMethod::impulses;
     progress.say(
         fmt::format("{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
                     sim::time(simulation.world()),

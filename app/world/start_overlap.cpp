@@ -16,6 +16,7 @@
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/measure.h"
+#include "sim/potential/start_distance.h"
 
 namespace pneuma::app {
 namespace {
@@ -104,11 +105,39 @@ const scenes::BodyScene& in_scene(const scenes::Scene& scene, int body) {
   return scene.bodies.back();
 }
 
+/// What the contact potential cannot start from, beside that.
+std::optional<StartOverlap> find_potential_start(const sim::World& world) {
+  for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
+    if (pair.first != pair.second) continue;
+    return StartOverlap{pair.first,
+                        "starts through its own surface, where simulation.contact = \"potential\" "
+                        "would hold it; give it a shape that does not, or set "
+                        "simulation.contact = \"swept\""};
+  }
+  const auto touching = sim::find_touching_start(world);
+  if (!touching) return std::nullopt;
+  if (touching->first == touching->second) {
+    return StartOverlap{touching->first,
+                        "starts touching itself, where simulation.contact = \"potential\" needs a "
+                        "distance; set simulation.contact = \"swept\""};
+  }
+  const bool on_ground = touching->second < 0;
+  const std::string other =
+      on_ground ? "the ground" : fmt::format("body '{}'", name_of(world, touching->first));
+  return StartOverlap{on_ground ? touching->first : touching->second,
+                      fmt::format("starts {:.3g} m from {}; simulation.contact = \"potential\" "
+                                  "needs a part of {:.3g} m between them, so move it away",
+                                  touching->distance, other, touching->reach)};
+}
+
 }  // namespace
 
 void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
-  if (start.settings.contact != sim::ContactMethod::swept) return;
-  const auto overlap = find_start_overlap(start);
+  if (start.settings.contact == sim::ContactMethod::impulses) return;
+  auto overlap = find_start_overlap(start);
+  if (!overlap && start.settings.contact == sim::ContactMethod::potential) {
+    overlap = find_potential_start(start);
+  }
   if (!overlap) return;
   refuse_body(scene, in_scene(scene, overlap->body).position_place, name_of(start, overlap->body),
               overlap->reason);

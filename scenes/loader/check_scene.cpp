@@ -147,6 +147,7 @@ class Checks {
                   "colour_axis has no direction; make one of its numbers other than 0");
     }
     check_kinematic(body, header);
+    check_potential(body, header);
     check_integrator(body, header);
     check_gas(body, header);
     check_supply(body, header);
@@ -158,8 +159,24 @@ class Checks {
     return kind == BodyKind::moved ? "moved" : "rigid";
   }
 
+  void check_potential(const BodyScene& body, Origin header) {
+    const sim::ContactMethod& contact = scene_.settings.contact;
+    if (contact != sim::ContactMethod::potential) return;
+    if (body.kind == BodyKind::rigid) {
+      report_.add(reader_.origin({&body.kind, &contact}, header),
+                  "a rigid body moves freely, which contact = \"potential\" cannot step; make it "
+                  "static, moved or soft, or set simulation.contact = \"swept\"");
+    }
+    if (body.kind == BodyKind::soft && body.material.damping == sim::Damping::literal) {
+      report_.add(reader_.origin({&body.material.damping, &contact}, header),
+                  "damping = \"literal\" acts between steps, while contact = \"potential\" is a "
+                  "term of one differential equation; use damping = \"dashpot\", or "
+                  "simulation.contact = \"swept\"");
+    }
+  }
+
   void check_kinematic(const BodyScene& body, Origin header) {
-    if (scene_.settings.contact == sim::ContactMethod::swept) return;
+    if (scene_.settings.contact != sim::ContactMethod::impulses) return;
     if (!body.pinned.empty()) {
       report_.add(reader_.origin({&body.pinned, &scene_.settings.contact}, header),
                   "pinned vertices need swept contacts; set simulation.contact = \"swept\" and no "

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scenes/loader/nearest.h"
 #include "scenes/loader/sections.h"
 #include "sim/base/hash.h"
@@ -42,11 +44,16 @@ std::string section_text(const Section& section, const Section& defaults, bool c
   return text;
 }
 
-/// Swept contacts have no collision particles; what a scene says about them all the same is kept.
+/// Of another form of contact.
+bool applies_nowhere(const Section& section) {
+  return std::ranges::none_of(section.keys, &Key::applies);
+}
+
+/// Only impulses have collision particles; what a scene says about them all the same is kept.
 bool is_idle(const Scene& scene, const Section& section, const Section& defaults) {
   if (section.table != "simulation.particles") return false;
   if (sim::is_as_printed(scene.settings)) return false;
-  if (scene.settings.contact != sim::ContactMethod::swept) return false;
+  if (scene.settings.contact == sim::ContactMethod::impulses) return false;
   for (std::size_t i = 0; i < section.keys.size(); ++i) {
     if (value_text(section.keys[i].slot) != value_text(defaults.keys[i].slot)) return false;
   }
@@ -61,6 +68,7 @@ std::string scene_text(Scene scene, bool comments) {
   const bool as_printed = sim::is_as_printed(scene.settings);
   std::string text;
   for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (applies_nowhere(sections[i])) continue;
     if (comments && is_idle(scene, sections[i], defaults[i])) continue;
     if (!sections[i].table.empty()) text += fmt::format("\n[{}]\n", sections[i].table);
     text += section_text(sections[i], defaults[i], comments, as_printed);

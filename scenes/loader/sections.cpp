@@ -28,6 +28,7 @@ constexpr std::array soft_searches = {
 constexpr std::array contact_methods = {
     Named<sim::ContactMethod>{sim::ContactMethod::impulses, "impulses"},
     Named<sim::ContactMethod>{sim::ContactMethod::swept, "swept"},
+    Named<sim::ContactMethod>{sim::ContactMethod::potential, "potential"},
 };
 
 Section top_section(Scene& scene) {
@@ -52,15 +53,31 @@ Applicability contacts_by_impulses(const sim::Settings& settings) {
           &settings.contact};
 }
 
+/// The same of the other forms.
+Applicability contacts_as(sim::ContactMethod contact, std::string_view only_for,
+                          const sim::Settings& settings) {
+  return {only_for, !contacts_by_impulses(settings).applies && settings.contact == contact, false,
+          &settings.contact};
+}
+
+Applicability contacts_by_potential(const sim::Settings& settings) {
+  return contacts_as(sim::ContactMethod::potential, "contact = \"potential\"", settings);
+}
+
 std::string with_contact(std::string_view what, const sim::Settings& settings) {
-  return fmt::format("{} with contact = \"{}\"", what,
-                     contacts_by_impulses(settings).applies ? "impulses" : "swept");
+  const char* contact = contacts_by_impulses(settings).applies    ? "impulses"
+                        : contacts_by_potential(settings).applies ? "potential"
+                                                                  : "swept";
+  return fmt::format("{} with contact = \"{}\"", what, contact);
 }
 
 Section simulation_section(Scene& scene) {
   sim::Settings& settings = scene.settings;
   const Applicability impulses = contacts_by_impulses(settings);
-  const Applicability swept{"contact = \"swept\"", !impulses.applies, false, &settings.contact};
+  const Applicability swept =
+      contacts_as(sim::ContactMethod::swept, "contact = \"swept\"", settings);
+  const Applicability with_skin{"contact = \"swept\" or \"impulses\"",
+                                !contacts_by_potential(settings).applies, false, &settings.contact};
   return {
       .table = "simulation",
       .what = with_contact("a simulation", settings),
@@ -77,11 +94,12 @@ Section simulation_section(Scene& scene) {
                      "outside of every body with gas; that of air is 101325"}),
           of_method(selector(
               {"contact", word(settings.contact, contact_methods), any(), "",
-               "swept: nothing passes through a soft body; impulses: as in the paper, after the "
-               "motion"})),
-          of_method({"skin_thickness", &settings.skin_thickness, length(), "m",
-                     "features nearer than twice this are in contact; swept contacts need a few "
-                     "hundredths of an edge, and keep no more"}),
+               "swept: nothing passes through a soft body; potential: nor through itself, by a "
+               "term of the equation of motion; impulses: as in the paper, after the motion"})),
+          only(with_skin,
+               of_method({"skin_thickness", &settings.skin_thickness, length(), "m",
+                          "features nearer than twice this are in contact; swept contacts need a "
+                          "few hundredths of an edge, and keep no more"})),
           only(impulses,
                of_method({"soft_search", word(settings.soft_search, soft_searches), any(), "",
                           "how contacts of soft bodies are found: the paper's particles, or all "
@@ -100,6 +118,24 @@ Section simulation_section(Scene& scene) {
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};
+}
+
+Section potential_section(Scene& scene) {
+  sim::PotentialSettings& potential = scene.settings.potential;
+  const Applicability applies = contacts_by_potential(scene.settings);
+  return {.table = "simulation.potential",
+          .what = with_contact("a simulation", scene.settings),
+          .keys = {
+              only(applies, {"distance", &potential.distance, length(), "m",
+                             "from which on surfaces push each other, and at most a twentieth of "
+                             "an edge"}),
+              only(applies, {"stiffness", &potential.stiffness, above(0), "Pa",
+                             "of the push; without it from the bodies' gas, springs and weight"}),
+              only(applies, {"regularisation_speed", &potential.regularisation_speed,
+                             above_to(0, 1e6), "m/s",
+                             "at which friction and restitution act in full; what holds creeps "
+                             "more slowly"}),
+          }};
 }
 
 Section particles_section(Scene& scene) {
@@ -208,9 +244,9 @@ Section limits_section(Scene& scene) {
       }};
 }
 
-constexpr std::array<SectionMaker, 7> makers = {
-    top_section,    simulation_section, particles_section, ground_section,
-    camera_section, picture_section,    limits_section,
+constexpr std::array<SectionMaker, 8> makers = {
+    top_section,    simulation_section, potential_section, particles_section,
+    ground_section, camera_section,     picture_section,   limits_section,
 };
 
 }  // namespace

@@ -89,6 +89,52 @@ TEST(ContactKeys, OfSweptContactsAreRefusedBesideImpulses) {
   EXPECT_NE(refusal("[[body]]\n", {"simulation.sleep_speed=-1"}), "");
 }
 
+const std::vector<std::string> of_potential = {"simulation.potential.distance=0.03",
+                                               "simulation.potential.stiffness=500.0",
+                                               "simulation.potential.regularisation_speed=0.1"};
+
+TEST(ContactKeys, OfThePotentialAreRefusedBesideOtherForms) {
+  for (const std::string& setting : of_potential) {
+    EXPECT_EQ(refusal(scene_with(setting, "potential")), "");
+    for (const char* contact : {"swept", "impulses"}) {
+      const std::string message = refusal(scene_with(setting, contact));
+      EXPECT_TRUE(message.starts_with("x.toml:2:")) << message;
+      EXPECT_NE(message.find(" applies to contact = \"potential\" only"), std::string::npos)
+          << message;
+    }
+  }
+  const Scene scene = parse_scene(scene_with(of_potential[1], "potential"), "x.toml");
+  EXPECT_EQ(scene.settings.potential.stiffness, 500.0);
+  EXPECT_FALSE(parse_scene("[[body]]\n", "x.toml").settings.potential.stiffness);
+  for (const char* bad : {"simulation.potential.distance=0", "simulation.potential.stiffness=-1",
+                          "simulation.potential.regularisation_speed=0"}) {
+    EXPECT_NE(refusal(scene_with(bad, "potential")), "") << bad;
+  }
+}
+
+TEST(ContactKeys, OfOtherFormsAreRefusedBesideThePotential) {
+  std::vector<std::string> others = of_impulses;
+  others.push_back("simulation.sleep_speed=0.02");
+  others.push_back("simulation.skin_thickness=0.02");
+  for (const std::string& setting : others) {
+    const std::string message = refusal(scene_with(setting, "potential"));
+    EXPECT_TRUE(message.starts_with("x.toml:2:")) << message;
+    EXPECT_NE(message.find("this is a simulation with contact = \"potential\""), std::string::npos)
+        << message;
+  }
+}
+
+TEST(ContactKeys, WhatThePotentialCannotStepIsRefusedWithWhatToDo) {
+  const std::string start = "simulation.contact = \"potential\"\n[[body]]\n";
+  const std::string rigid = refusal(start + "kind = \"rigid\"\n");
+  EXPECT_TRUE(rigid.starts_with("x.toml:3:")) << rigid;
+  EXPECT_NE(rigid.find("make it static, moved or soft"), std::string::npos) << rigid;
+  const std::string literal = refusal(start + "damping = \"literal\"\n");
+  EXPECT_NE(literal.find("use damping = \"dashpot\""), std::string::npos) << literal;
+  EXPECT_EQ(refusal(start + "kind = \"static\"\n"), "");
+  EXPECT_EQ(refusal(start + "pinned = [[-9, -9, -9, 9, 9, 0]]\n"), "");
+}
+
 TEST(ContactKeys, AreNotPrintedWhereTheyDoNotApply) {
   const std::string swept = print_scene(parse_scene(scene_with("", "swept"), "x.toml"));
   for (const char* key : {"soft_search", "relaxation_time", "contact_iterations"}) {
@@ -97,6 +143,10 @@ TEST(ContactKeys, AreNotPrintedWhereTheyDoNotApply) {
   const std::string impulses = print_scene(parse_scene(scene_with("", "impulses"), "x.toml"));
   EXPECT_NE(swept.find("sleep_speed"), std::string::npos);
   EXPECT_EQ(impulses.find("sleep_speed"), std::string::npos);
+  const std::string potential = print_scene(parse_scene(scene_with("", "potential"), "x.toml"));
+  EXPECT_NE(potential.find("regularisation_speed"), std::string::npos);
+  EXPECT_EQ(potential.find("skin_thickness"), std::string::npos);
+  EXPECT_EQ(swept.find("regularisation_speed"), std::string::npos);
 }
 
 }  // namespace

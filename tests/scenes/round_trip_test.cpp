@@ -156,8 +156,11 @@ void make_consistent(Scene& scene) {
     for (BodyScene& body : scene.bodies) sim::use_paper_method(body.material);
   }
   for (BodyScene& body : scene.bodies) {
-    const bool is_swept = scene.settings.contact == sim::ContactMethod::swept;
-    if (body.kind != BodyKind::soft || !is_swept) body.pinned.clear();
+    const bool by_impulses = scene.settings.contact == sim::ContactMethod::impulses;
+    if (body.kind != BodyKind::soft || by_impulses) body.pinned.clear();
+    if (scene.settings.contact == sim::ContactMethod::potential) {
+      body.material.damping = sim::Damping::dashpot;
+    }
     if (body.kind != BodyKind::moved && body.pinned.empty()) body.motion = {};
     if (body.pinned.empty() || body.motion.empty()) body.still.clear();
     if (body.shape == Shape::torus) {
@@ -200,9 +203,12 @@ Scene any_scene() {
     BodyScene& body = scene.bodies[i];
     body.name = *rc::gen::arbitrary<bool>() ? default_name(i) : "x-" + std::to_string(i);
     set_at_random(body_section(body), true);
-    const bool is_swept =
-        scene.settings.contact == sim::ContactMethod::swept && !sim::is_as_printed(scene.settings);
-    if (body.kind != BodyKind::soft && !is_swept) body.kind = BodyKind::rigid;
+    const bool by_impulses = scene.settings.contact == sim::ContactMethod::impulses ||
+                             sim::is_as_printed(scene.settings);
+    const bool by_potential =
+        scene.settings.contact == sim::ContactMethod::potential && !by_impulses;
+    if (body.kind != BodyKind::soft && by_impulses) body.kind = BodyKind::rigid;
+    if (body.kind == BodyKind::rigid && by_potential) body.kind = BodyKind::soft;
     if (body.kind == BodyKind::rigid) body.shape = Shape::box;
     set_at_random(body_section(body), false);
   }

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "app/study/error/error_meter.h"
 #include "app/study/error/reference_equation.h"
 #include "app/study/error/solver.h"
+#include "sim/potential/explicit_world_step.h"
 #include "sim/soft/acceleration.h"
 
 namespace pneuma::app {
@@ -59,6 +61,48 @@ class FastEquation {
 
   std::vector<std::unique_ptr<Part>> parts_;  // apart, as equations refer to their scratch
   std::size_t values_ = 0;                    // of all positions
+};
+
+/// The same of a world in which contact is a potential. What is static stays where it is.
+class ContactEquation {
+ public:
+  explicit ContactEquation(const sim::World& world)
+      : world_(world),
+        surfaces_(world_),
+        equation_(world_, surfaces_),
+        positions_(surfaces_.vertex_count()),
+        velocities_(surfaces_.vertex_count()),
+        acceleration_(surfaces_.vertex_count()) {
+    double reach = 0.0;
+    for (const sim::ContactSurface& surface : surfaces_.all()) {
+      reach = std::max(reach, surface.reach);
+    }
+    equation_.set_margin(reach);
+    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
+      surfaces_.place_box(world_.rigid[sim::at(i)], i, positions_);
+    }
+    for (const sim::SoftBody& body : world_.soft) vertices_ += body.positions.size();
+  }
+
+  bool operator()(const double* state, double* derivative) {
+    using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
+    const std::ptrdiff_t values = std::ptrdiff_t{3} * vertices_;
+    std::copy(state + values, state + 2 * values, derivative);
+    positions_.rows().topLeftCorner(3, vertices_) = Columns(state, 3, vertices_);
+    velocities_.rows().topLeftCorner(3, vertices_) = Columns(state + values, 3, vertices_);
+    if (!(equation_(positions_, velocities_, acceleration_) > 0.0)) return false;
+    if (!std::isfinite(acceleration_.rows().sum())) return false;
+    Eigen::Map<Eigen::Matrix3Xd>(derivative + values, 3, vertices_) =
+        acceleration_.rows().topLeftCorner(3, vertices_);
+    return true;
+  }
+
+ private:
+  sim::World world_;
+  sim::ContactSurfaces surfaces_;
+  sim::WorldAcceleration equation_;
+  sim::VertexArray positions_, velocities_, acceleration_;
+  int vertices_ = 0;  // of soft bodies
 };
 
 /// Without springs a body has no frequency of its own, and a second is as good as any time.
@@ -117,6 +161,15 @@ class CvodeSolver final : public Solver {
 std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod method,
                                          double tolerance) {
   // std::function wants to be able to copy.
+  if (world.settings.contact == sim::ContactMethod::potential) {
+    const auto equation = std::make_shared<ContactEquation>(world);
+    const auto evaluate = [equation](const double* state, double* derivative) {
+      return (*equation)(state, derivative);
+    };
+    return std::make_unique<CvodeSolver>(
+        world, Cvode(method, evaluate, flat_state(world.soft),
+                     {0.0, absolute_tolerances(world, tolerance, frequency)}));
+  }
   const auto equation = std::make_shared<FastEquation>(world.soft, world.settings.gravity);
   const auto evaluate = [equation](const double* state, double* derivative) {
     return (*equation)(state, derivative);

@@ -60,7 +60,10 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
       };
     }
   }
-  if (flight.contacts) return methods;  // contacts are none of CVODE's business
+  // Contacts that are impulses are none of CVODE's business.
+  if (flight.contacts && flight.world.settings.contact != sim::ContactMethod::potential) {
+    return methods;
+  }
   for (const CvodeMethod kind : {CvodeMethod::adams, CvodeMethod::bdf}) {
     Method& method = methods.emplace_back();
     for (const double tolerance : options.tolerances) {

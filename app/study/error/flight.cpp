@@ -77,7 +77,8 @@ bool touches(sim::World world, double seconds) {
   world.settings.steps_per_second =
       std::max(world.settings.steps_per_second, looking_steps_per_second);
   sim::Stepper stepper(world);
-  if (!stepper.plan().runs(sim::Stage::find_contacts)) return false;
+  const bool by_potential = world.settings.contact == sim::ContactMethod::potential;
+  if (!by_potential && !stepper.plan().runs(sim::Stage::find_contacts)) return false;
   const auto steps = std::llround(seconds * world.settings.steps_per_second);
   for (std::int64_t i = 0; i < steps; ++i) {
     throw_if_interrupted();
@@ -102,9 +103,14 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
     flight.world.rigid.clear();
   }
   check(scene, flight.world);
+  const bool has_contacts = !options.free_flight && touches(flight.world, flight.seconds);
+  // Its search for contacts is no part of a free flight.
+  if (!has_contacts && flight.world.settings.contact == sim::ContactMethod::potential) {
+    flight.world.settings.contact = sim::ContactMethod::swept;
+  }
   if (options.free_flight) {
     flight.description = "free flight, as asked for: without ground, boxes and contacts";
-  } else if (touches(flight.world, flight.seconds)) {
+  } else if (has_contacts) {
     flight.contacts = true;
     flight.description = "with contacts";
   } else {

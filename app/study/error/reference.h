@@ -18,7 +18,8 @@ struct Reference {
 
 /// In free flight: CVODE at tolerance 1e-12 on the equation written down again, as far as a run at
 /// 1e-13 agrees with it within 1e-9. With contacts, whose motion is not smooth: our own rk4 at
-/// twice `finest_steps_per_second`, as far as one at that rate agrees with it within 1e-3. Throws
+/// twice `finest_steps_per_second`, as far as one at that rate agrees with it within 1e-3. With
+/// contact as a potential: CVODE at 1e-11, and at 1e-10 within 1e-5. Throws
 /// DivergenceError when not even one sample is known.
 Reference make_reference(const Flight& flight, int finest_steps_per_second);
 

@@ -34,7 +34,8 @@ class Solver {
 /// motion.
 std::unique_ptr<Solver> make_stepper_solver(sim::World world, bool contacts);
 
-/// CVODE on the simulation's own right-hand side, so that only the method differs. Its tolerance is
+/// CVODE on the simulation's own right-hand side, of the whole world with its contacts where these
+/// are a potential, so that only the method differs. Its tolerance is
 /// relative to the rest radius of each body and, for velocities, to that times the frequency of a
 /// vertex on a spring, sqrt(k / m): neither the body's place nor its fall loosens it.
 std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod method,

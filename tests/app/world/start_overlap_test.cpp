@@ -47,6 +47,22 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
 }
 
+TEST(StartOverlap, ThePotentialNeedsADistanceButNotFromTheGround) {
+  const std::string potential = "simulation.contact = \"potential\"\n";
+  const std::string ball = "[[body]]\nposition = [0, 0, 3]\n";
+  const std::string box = "[[body]]\nshape = \"box\"\nname = \"box\"\nposition = ";
+  EXPECT_EQ(refusal_of(potential + ball), "");  // it touches z = 0
+  EXPECT_NE(refusal_of(potential + "[[body]]\nposition = [0, 0, 2.9]\n"), "");
+  EXPECT_EQ(refusal_of(potential + box +
+                       "[0, 0, 1]\n[[body]]\nshape = \"box\"\nposition = [2.05, 0, 1]\n"),
+            "");
+  const std::string touching = refusal_of(potential + box +
+                                          "[0, 0, 1]\n[[body]]\nname = \"other\"\nshape = \"box\"\n"
+                                          "position = [2, 0, 1]\n");
+  EXPECT_NE(touching.find("body 'other': starts 0 m from body 'box'"), std::string::npos)
+      << touching;
+}
+
 TEST(StartOverlap, NamesAWayThatParts) {
   const std::string ball = "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = ";
   const std::string message = refusal_of(ball + "[5, 0, 4]\n");
