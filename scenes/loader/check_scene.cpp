@@ -260,6 +260,11 @@ class Checks {
   }
 
   void check_joints() {
+    if (!scene_.springs.empty() && scene_.settings.contact == sim::ContactMethod::potential) {
+      report_.add(reader_.origin({&scene_.settings.contact}, whole_file),
+                  "springs between bodies are not part of the equation that contact = "
+                  "\"potential\" solves; leave them out, or set simulation.contact = \"swept\"");
+    }
     const Origin at = reader_.origin({&scene_.settings.method}, whole_file);
     if (!sim::is_as_printed(scene_.settings)) return;
     if (!scene_.valves.empty()) refuse_beside_paper(at, "valves");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/mesh/measure.h"
+#include "sim/soft/bending.h"
 #include "sim/soft/spring_force.h"
 
 namespace pneuma::sim {
@@ -164,7 +165,7 @@ double ImplicitWorldStep::kinetic(const World& world, const VertexArray& velocit
   return sum;
 }
 
-/// Of springs, gas, gravity and contacts. Adds the sizes of the terms up in magnitude_.
+/// Of springs, hinges, gas, gravity and contacts. Adds the sizes of the terms up in magnitude_.
 double ImplicitWorldStep::potential(const World& world, const VertexArray& positions) {
   double sum = 0.0;
   magnitude_ = 0.0;
@@ -172,7 +173,8 @@ double ImplicitWorldStep::potential(const World& world, const VertexArray& posit
     const WorldEnergy::Body& body = energy_.bodies()[i];
     const SoftMaterial& material = world.soft[at(body.soft)].material;
     const VertexArray& own = own_part(positions, i);
-    const double springs = spring_energy(*body.mesh, own, material.k);
+    const double springs = spring_energy(*body.mesh, own, material.k) +
+                           bending_energy(*body.mesh, own, material.bending);
     const GasLaw law = gas_law(material);
     const double enclosed = volume(body.mesh->topology, own);
     if (law.strength > 0.0 && !(enclosed > 0.0)) return std::numeric_limits<double>::infinity();

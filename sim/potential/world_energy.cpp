@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/soft/bending.h"
+
 namespace pneuma::sim {
 
 WorldEnergy::WorldEnergy(const World& world, const ContactSurfaces& surfaces)
@@ -84,6 +86,19 @@ void WorldEnergy::gradient(const WorldPoint& point, VertexArray& gradient) const
   }
 }
 
+void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, ContactHessian form,
+                             WorldMatrix& matrix) {
+  if (!body.mesh->hinges || body.energy.bending == 0.0) return;
+  const auto& all = body.mesh->hinges->corners;
+  for (std::size_t e = 0; e < all.size(); ++e) {
+    const HingeHessian block =
+        hinge_hessian(*body.mesh, own.positions, body.energy.bending, static_cast<int>(e));
+    HingeTable::Corners corners = all[e];
+    for (int& v : corners) v += body.first_vertex;
+    matrix.add_whole(corners, form == ContactHessian::positive ? positive_part(block) : block);
+  }
+}
+
 void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMatrix& matrix) const {
   matrix.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -100,6 +115,7 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMat
       matrix.add(first + edges[e][1], of_edge.own);
       matrix.add_between(first + edges[e][0], first + edges[e][1], of_edge.between);
     }
+    add_hinges(body, own, form, matrix);
     if (body.energy.gas.strength > 0.0) {
       scratch_[i].rows() =
           std::sqrt(pressure_slope(body.energy.gas, own.volume)) * own.volume_gradient.rows();

@@ -72,6 +72,9 @@ class WorldEnergy {
   double gas_scale() const;
 
  private:
+  static void add_hinges(const Body& body, const EnergyPoint& own, ContactHessian form,
+                         WorldMatrix& matrix);
+
   const ContactSurfaces& surfaces_;
   std::vector<Body> bodies_;
   LaggedTerms lagged_;

@@ -102,6 +102,9 @@ TEST(JointKeys, OfJointsSayWhatIsAllowed) {
   expect_in(refusal("simulation.method = \"paper\"\n" + two_bodies +
                     "[[spring]]\nfrom = \"a\"\nto = \"b\"\n"),
             {"springs between bodies"});
+  expect_in(refusal("simulation.contact = \"potential\"\n" + two_bodies +
+                    "[[spring]]\nfrom = \"a\"\nto = \"b\"\n"),
+            {"x.toml:1:22", "springs between bodies", "\"swept\""});
   expect_in(refusal(two_bodies, {"spring.1.k=2"}), {"there is no spring number '1'"});
   expect_in(refusal("[[spring]]\nfrom = \"a\"\nto = \"b\"\n"), {"at least one [[body]]"});
   // What a body has too belongs to the body.
