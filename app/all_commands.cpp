@@ -7,6 +7,7 @@
 #include "app/host/version.h"
 #include "app/runs/runs_commands.h"
 #include "app/study/study_command.h"
+#include "app/sweep/sweep_command.h"
 #include "app/terminal/common_options.h"
 
 namespace pneuma::app {
@@ -22,6 +23,7 @@ void add_all_commands(CLI::App& cli, Action& action, std::span<const std::string
   add_compare_command(cli, action);
   add_bench_command(cli, action);
   add_study_command(cli, action, command_line);
+  add_sweep_command(cli, action, command_line);
   add_check_command(cli, action);
   add_list_command(cli, action);
   add_doctor_command(cli, action);

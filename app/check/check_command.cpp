@@ -10,6 +10,7 @@
 
 #include "app/check/check_model.h"
 #include "app/check/check_report.h"
+#include "app/check/judge_run.h"
 #include "app/check/keys_json.h"
 #include "app/host/errors.h"
 #include "app/picture/place_camera.h"
@@ -48,32 +49,12 @@ ExitCode check_model_file(const CheckOptions& options) {
   return ExitCode::done;
 }
 
-/// With swept contacts only boxes cross, and by little; by the potential nothing does.
-std::string what_keeps_apart(const sim::Settings& settings) {
-  if (settings.contact == sim::ContactMethod::potential) {
-    return "contact by potential should have kept them apart: an error of the program";
-  }
-  if (settings.contact == sim::ContactMethod::swept) {
-    return "a greater simulation.steps_per_second keeps boxes further apart";
-  }
-  const char* method = sim::is_as_printed(settings) ? "simulation.method=corrected --set " : "";
-  return fmt::format(
-      "--set {}simulation.contact=swept keeps bodies apart, boxes to within millimetres", method);
-}
-
-/// Says it when bodies passed through each other, how far at most, and what helps.
+/// Says it when bodies passed through each other.
 ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
-  const CrossingStatistics& crossings = run.crossings;
-  const StartOverlapStatistics& start = run.start_overlap;
+  const RunVerdict verdict = judge_run(scene, run);
   std::fflush(stdout);
-  if (start.pairs > 0) fmt::print(stderr, "{}: {}\n", scene.name, start_overlap_text(start));
-  if (crossings.frames == 0) return start.left > 0 ? ExitCode::check_failed : ExitCode::done;
-  fmt::print(stderr,
-             "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s; "
-             "penetration at most {:.2g} m; {}\n",
-             scene.name, crossings.frames, run.frames, crossings.first_bodies, crossings.edges.time,
-             run.penetration.value, what_keeps_apart(scene.settings));
-  return ExitCode::check_failed;
+  fmt::print(stderr, "{}", verdict.words);
+  return verdict.code;
 }
 
 /// Of a camera that the scene leaves to the program nothing is known before a run.

@@ -163,9 +163,14 @@ std::string gnuplot_script(const Diagram& diagram, const std::string& name) {
 
 DiagramFiles write_diagram(const StudyFolder& folder, const std::string& name,
                            const Diagram& diagram) {
+  return write_script(folder, name, gnuplot_script(diagram, name));
+}
+
+DiagramFiles write_script(const StudyFolder& folder, const std::string& name,
+                          const std::string& text) {
   DiagramFiles files;
   const std::string script = name + ".gp";
-  files.script = folder.write(script, gnuplot_script(diagram, name));
+  files.script = folder.write(script, text);
   const std::vector<std::string> arguments = {"gnuplot", script};
   files.command =
       "cd " + shell_line(std::vector{folder.path().string()}) + " && " + shell_line(arguments);

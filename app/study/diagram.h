@@ -58,5 +58,8 @@ struct DiagramFiles {
 /// base::IoError, also when gnuplot fails, and Interrupted.
 DiagramFiles write_diagram(const StudyFolder& folder, const std::string& name,
                            const Diagram& diagram);
+/// The same of a script that writes NAME.svg and NAME.png.
+DiagramFiles write_script(const StudyFolder& folder, const std::string& name,
+                          const std::string& text);
 
 }  // namespace pneuma::app

@@ -1,0 +1,42 @@
+#include "app/check/judge_run.h"
+
+#include <fmt/format.h>
+
+#include "app/check/check_report.h"
+
+namespace pneuma::app {
+namespace {
+
+/// With swept contacts only boxes cross, and by little; by the potential nothing does.
+std::string what_keeps_apart(const sim::Settings& settings) {
+  if (settings.contact == sim::ContactMethod::potential) {
+    return "contact by potential should have kept them apart: an error of the program";
+  }
+  if (settings.contact == sim::ContactMethod::swept) {
+    return "a greater simulation.steps_per_second keeps boxes further apart";
+  }
+  const char* method = sim::is_as_printed(settings) ? "simulation.method=corrected --set " : "";
+  return fmt::format(
+      "--set {}simulation.contact=swept keeps bodies apart, boxes to within millimetres", method);
+}
+
+}  // namespace
+
+RunVerdict judge_run(const scenes::Scene& scene, const RunStatistics& run) {
+  const CrossingStatistics& crossings = run.crossings;
+  const StartOverlapStatistics& start = run.start_overlap;
+  RunVerdict verdict;
+  if (start.pairs > 0) {
+    verdict.words = fmt::format("{}: {}\n", scene.name, start_overlap_text(start));
+  }
+  if (start.left > 0 || crossings.frames > 0) verdict.code = ExitCode::check_failed;
+  if (crossings.frames == 0) return verdict;
+  verdict.words += fmt::format(
+      "{}: bodies pass through each other in {} of {} frames, most of all {} at {:.2f} s; "
+      "penetration at most {:.2g} m; {}\n",
+      scene.name, crossings.frames, run.frames, crossings.first_bodies, crossings.edges.time,
+      run.penetration.value, what_keeps_apart(scene.settings));
+  return verdict;
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,260 @@
+// `pneuma sweep`: its table is the same bytes however the runs were distributed and interrupted.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "app/sweep/sweep_plots.h"
+#include "app/sweep/workflow.h"
+#include "tests/app/sweep/sweep_folder.h"
+
+namespace pneuma::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class SweepTest : public SweepFolder {
+ protected:
+  std::string csv(const std::string& name = "out") const {
+    return read_text(out(name) / "six.csv");
+  }
+  json table(const std::string& name = "out") const {
+    return json::parse(read_text(out(name) / "six.json"));
+  }
+};
+
+TEST_F(SweepTest, ARowIsWhatTheCommandSaysOfTheRun) {
+  const ProgramResult result = sweep("--cores 2");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const json runs = table()["runs"];
+  ASSERT_EQ(runs.size(), 6u);
+  for (const json& run : runs) {
+    const ProgramResult checked = run_pneuma(
+        fmt::format("check '{}' --run --json --set body.k={} --set body.n={} 2>/dev/null",
+                    (folder_ / "fall.toml").string(), run["parameters"]["body.k"].dump(),
+                    run["parameters"]["body.n"].dump()));
+    ASSERT_EQ(checked.exit_code, run["exit_code"].get<int>());
+    const json said = json::parse(checked.output)["run"];
+    EXPECT_EQ(run["values"]["energy"], said["energy_J"]["end"]["total"]);
+    EXPECT_EQ(run["values"]["volume"], said["volumes_m3"][0]["end"]);
+    EXPECT_EQ(run["values"]["state_hash"], said["state_hash"]);
+  }
+  EXPECT_EQ(csv().substr(0, csv().find('\n')),
+            "run,scene,body.k,body.n,verdict,exit_code,energy,volume,state_hash,words");
+}
+
+TEST_F(SweepTest, CoresChunksAndTheirOrderChangeNoByte) {
+  ASSERT_EQ(sweep("--cores 1").exit_code, 0);
+  ASSERT_EQ(sweep("--cores 3", "three").exit_code, 0);
+  EXPECT_EQ(csv("three"), csv());
+  for (const char* jobs : {"4-5", "0-0", "1-3"}) {
+    const ProgramResult result = sweep(fmt::format("--jobs {}", jobs), "parts");
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+  }
+  ASSERT_EQ(sweep("--gather", "parts").exit_code, 0);
+  EXPECT_EQ(csv("parts"), csv());
+  EXPECT_EQ(read_text(out("parts") / "six.json"), read_text(out() / "six.json"));
+}
+
+TEST_F(SweepTest, AResumedSweepRunsOnlyWhatIsMissing) {
+  ASSERT_EQ(sweep("--cores 1").exit_code, 0);
+  const std::string whole = csv(), journal = read_text(out() / "six.journal");
+  const ProgramResult refused = sweep("--cores 1");
+  EXPECT_EQ(refused.exit_code, 6);
+  EXPECT_NE(refused.output.find("continue it with --resume"), std::string::npos) << refused.output;
+
+  // As a kill leaves it: the fourth line torn, no table.
+  std::istringstream lines(journal);
+  std::string kept, line;
+  for (int i = 0; i < 4 && std::getline(lines, line); ++i) kept += line + '\n';
+  write_text(out() / "six.journal", kept + "{\"run\":3,\"exi");
+  fs::remove(out() / "six.csv");
+  ASSERT_EQ(sweep("--cores 2 --resume").exit_code, 0);
+  EXPECT_EQ(csv(), whole);
+  const std::string resumed = read_text(out() / "six.journal");
+  EXPECT_TRUE(resumed.starts_with(kept)) << "a run that was done is done again";
+  EXPECT_EQ(std::ranges::count(resumed, '\n'), 7);
+}
+
+TEST_F(SweepTest, AKilledSweepLosesNothing) {
+  write_text(file(), std::string(six_runs) +
+                         "[[parameter]]\nkey = \"body.rho_g\"\nrange = [0, 0.1]\ncount = 40\n");
+  ASSERT_EQ(sweep("--cores 2", "whole").exit_code, 0);
+  for (int kills = 0; kills < 3; ++kills) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      execl(PNEUMA_PROGRAM, "pneuma", "sweep", file().c_str(), "--quiet", "--resume", "--cores",
+            "2", "--out", out().c_str(), static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    // Until it has some more rows.
+    const auto rows = [&] {
+      const std::string text =
+          fs::exists(out() / "six.journal") ? read_text(out() / "six.journal") : "";
+      return std::ranges::count(text, '\n');
+    };
+    const auto before = rows();
+    for (int waits = 0; rows() < before + 5 && waits < 3000; ++waits) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  }
+  ASSERT_EQ(sweep("--cores 2 --resume").exit_code, 0);
+  EXPECT_EQ(csv(), csv("whole"));
+}
+
+TEST_F(SweepTest, AFailedRunIsARowWithItsCodeAndWords) {
+  write_text(file(), R"(scenes = ["fall.toml"]
+measure = ["energy", "seconds"]
+[[parameter]]
+key = "body.k"
+values = [50, -1, 1e9]
+)");
+  const ProgramResult result = sweep("--cores 2");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const json runs = table()["runs"];
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_EQ(runs[0]["verdict"], "done");
+  EXPECT_EQ(runs[0]["words"], "");
+  EXPECT_EQ(runs[1]["exit_code"], 3);
+  EXPECT_NE(runs[1]["words"].get<std::string>().find("--set body.k=-1"), std::string::npos);
+  EXPECT_TRUE(runs[1]["values"]["energy"].is_null());
+  EXPECT_EQ(runs[2]["exit_code"], 5);
+  EXPECT_NE(runs[2]["words"].get<std::string>().find("ball"), std::string::npos);
+  EXPECT_LT(runs[2]["values"]["seconds"].get<double>(), 0.2);
+  EXPECT_NE(result.output.find("3 runs, 1 done, 1 invalid, 1 diverged"), std::string::npos)
+      << result.output;
+}
+
+TEST_F(SweepTest, GatherNamesWhatIsMissingTwiceOrOfAnotherSweep) {
+  ASSERT_EQ(sweep("--jobs 0-1").exit_code, 0);
+  ASSERT_EQ(sweep("--jobs 4-5").exit_code, 0);
+  const ProgramResult missing = sweep("--gather");
+  EXPECT_EQ(missing.exit_code, 6);
+  EXPECT_NE(missing.output.find("2 of 6 runs are missing"), std::string::npos) << missing.output;
+  EXPECT_NE(missing.output.find("--jobs 2-3"), std::string::npos) << missing.output;
+  ASSERT_EQ(sweep("--jobs 1-3").exit_code, 0);
+  const ProgramResult twice = sweep("--gather");
+  EXPECT_EQ(twice.exit_code, 6);
+  EXPECT_NE(twice.output.find("run 1 is in another chunk too"), std::string::npos) << twice.output;
+  write_text(file(), std::string(six_runs) + "# another\n");
+  EXPECT_NE(sweep("--gather").output.find("its rows are of another sweep file"), std::string::npos);
+  EXPECT_NE(sweep("--jobs 4-5").output.find("its rows are of another sweep file"),
+            std::string::npos);
+  EXPECT_EQ(sweep("--jobs 5-6").exit_code, 2);
+  EXPECT_EQ(sweep("--jobs five").exit_code, 2);
+}
+
+TEST_F(SweepTest, AFullDiskIsNamedAndTheSweepGoesOn) {
+  ASSERT_EQ(sweep("--cores 1", "whole").exit_code, 0);
+  // Files of at most 1 KiB: a few rows.
+  const ProgramResult full = run_command(
+      fmt::format("bash -c \"ulimit -f 1; '{}' sweep '{}' --quiet --cores 1 --out '{}'\" 2>&1",
+                  PNEUMA_PROGRAM, file().string(), out().string()));
+  EXPECT_EQ(full.exit_code, 6) << full.output;
+  EXPECT_NE(full.output.find("free some space"), std::string::npos) << full.output;
+  ASSERT_EQ(sweep("--resume --cores 1").exit_code, 0);
+  EXPECT_EQ(csv(), csv("whole"));
+}
+
+TEST_F(SweepTest, PicturesOfTheLastFrameComeOnOnePage) {
+  write_text(file(), "frames = \"last\"\nsize = \"32x24\"\n" + std::string(six_runs));
+  const ProgramResult result = sweep("--cores 2");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  for (int run = 0; run < 6; ++run) {
+    EXPECT_TRUE(fs::exists(out() / fmt::format("pictures/run_{}/fall_00006.png", run))) << run;
+  }
+  EXPECT_TRUE(fs::exists(out() / "six_sheet.png"));
+}
+
+TEST_F(SweepTest, AFilmInPartsHasTheSameBytes) {
+  write_text(file(), R"(scenes = ["fall.toml"]
+frames = "all"
+size = "32x24"
+[[parameter]]
+key = "body.k"
+values = [50, 1e9]
+)");
+  ASSERT_EQ(sweep("--cores 1", "whole").exit_code, 0);
+  for (const char* part : {"--jobs 0-1 --no-pictures", "--frames 0:4-6", "--frames 0:0-3",
+                           "--frames 1:0-6", "--gather"}) {
+    const ProgramResult result = sweep(part);
+    ASSERT_EQ(result.exit_code, 0) << part << ": " << result.output;
+  }
+  EXPECT_EQ(csv(), csv("whole"));
+  for (int frame = 0; frame <= 6; ++frame) {
+    const std::string name = fmt::format("pictures/run_0/fall_{:05}.png", frame);
+    ASSERT_TRUE(fs::exists(out() / name)) << name;
+    EXPECT_EQ(read_text(out() / name), read_text(out("whole") / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(out("whole") / "pictures/run_1"))
+      << "a run that diverges has no pictures";
+  EXPECT_NE(read_text(out() / "pictures/run_1/0-6/run.json").find("no_pictures"),
+            std::string::npos);
+  EXPECT_EQ(sweep("--frames 0:3-1").exit_code, 2);
+  EXPECT_EQ(sweep("--frames 2:0-1").exit_code, 2);
+}
+
+TEST(SweepChunks, HoldEveryRunOnceAndNoMoreThanTheirSeconds) {
+  const std::vector<double> seconds = {5, 5, 30, 70, 1, 1, 1, 50, 10};
+  const std::vector<RunRange> chunks = make_chunks(seconds, 60.0);
+  std::int64_t next = 0;
+  for (const RunRange& chunk : chunks) {
+    EXPECT_EQ(chunk.first, next);
+    double sum = 0.0;
+    for (auto i = chunk.first; i <= chunk.last; ++i) sum += seconds[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(sum <= 60.0 || chunk.first == chunk.last) << chunk.first;
+    next = chunk.last + 1;
+  }
+  EXPECT_EQ(next, 9);
+  EXPECT_EQ(chunks.size(), 4u);
+}
+
+TEST_F(SweepTest, WritesAWorkflowOfAllRuns) {
+  const ProgramResult result = run_pneuma(fmt::format(
+      "sweep '{}' --snakemake '{}' --chunk-seconds 0.1 2>&1", file().string(), out().string()));
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const std::string text = read_text(out() / "Snakefile");
+  EXPECT_NE(text.find("\"0-"), std::string::npos) << text;
+  EXPECT_NE(text.find("-5\",\n]"), std::string::npos) << text;
+  EXPECT_NE(text.find(file().string()), std::string::npos) << text;
+}
+
+// The workflow in one Snakemake, which takes seconds to start.
+TEST_F(SweepTest, LongASnakemakeRunGivesTheSameBytes) {
+  if (run_command("snakemake --version >/dev/null 2>&1").exit_code != 0) {
+    GTEST_SKIP() << "snakemake is not installed: scripts/test-slurm installs it";
+  }
+  ASSERT_EQ(sweep("--cores 1").exit_code, 0);
+  ASSERT_EQ(run_pneuma(fmt::format("sweep '{}' --snakemake '{}' --chunk-seconds 0.1 2>&1",
+                                   file().string(), out("flow").string()))
+                .exit_code,
+            0);
+  const ProgramResult ran =
+      run_command(fmt::format("cd '{}' && snakemake --cores 2 2>&1", out("flow").string()));
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_EQ(csv("flow"), csv());
+}
+
+TEST(HeatMap, CellsReachHalfWayToTheNextAndLeaveNoGap) {
+  HeatMap map{"title", "value", {.label = "x"}, {.label = "y"}, false, {}};
+  for (const double x : {1.0, 3.0}) {
+    for (const double y : {0.0, 1.0, 3.0}) map.cells.push_back({.x = x, .y = y, .value = x * y});
+  }
+  const std::string script = heat_map_script(map, "name");
+  for (const char* cell : {"\n1 0 0 2 -0.5 0.5 0\n", "\n1 1 0 2 0.5 2 1\n", "\n3 3 2 4 2 4 9\n"}) {
+    EXPECT_NE(script.find(cell), std::string::npos) << script;
+  }
+  EXPECT_THROW(heat_map_script({}, "name"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pneuma::app
