@@ -1,5 +1,7 @@
 #include "app/world/data_folders.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
@@ -29,6 +31,24 @@ std::vector<fs::path> xdg_data_folders() {
   return folders;
 }
 
+/// The file that this code was loaded from: the program, or the Python module.
+fs::path own_file() {
+  static const char inside = 0;
+  Dl_info info = {};
+  std::error_code ignored;
+  if (dladdr(&inside, &info) != 0 && info.dli_fname != nullptr) {
+    const fs::path file = info.dli_fname;
+    if (file.extension() == ".so") return fs::canonical(file, ignored);
+  }
+  return fs::read_symlink("/proc/self/exe", ignored);
+}
+
+fs::path installed_share(const fs::path& executable) {
+  const bool is_module = executable.extension() == ".so";
+  return executable.parent_path() /
+         (is_module ? PNEUMA_DATA_FROM_MODULE : PNEUMA_DATA_FROM_PROGRAM);
+}
+
 /// The source tree of the build that the program lies in, if it lies in one: both may have been
 /// moved together.
 fs::path source_tree_around(const fs::path& executable) {
@@ -53,8 +73,7 @@ void add_folder(std::vector<fs::path>& folders, const fs::path& folder) {
 
 std::vector<fs::path> data_folders(std::string_view name, const fs::path& executable) {
   std::vector<fs::path> folders;
-  const fs::path share = executable.parent_path() / PNEUMA_DATA_FROM_PROGRAM;
-  add_folder(folders, (share / name).lexically_normal());
+  add_folder(folders, (installed_share(executable) / name).lexically_normal());
   const fs::path around = source_tree_around(executable);
   if (!around.empty()) add_folder(folders, around / name);
   for (const fs::path& folder : xdg_data_folders()) add_folder(folders, folder / "pneuma" / name);
@@ -62,9 +81,6 @@ std::vector<fs::path> data_folders(std::string_view name, const fs::path& execut
   return folders;
 }
 
-std::vector<fs::path> data_folders(std::string_view name) {
-  std::error_code ignored;
-  return data_folders(name, fs::read_symlink("/proc/self/exe", ignored));
-}
+std::vector<fs::path> data_folders(std::string_view name) { return data_folders(name, own_file()); }
 
 }  // namespace pneuma::app

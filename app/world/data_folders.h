@@ -12,7 +12,7 @@ namespace pneuma::app {
 /// lies where it was built; pneuma in the XDG data folders; the source tree it was built from.
 std::vector<std::filesystem::path> data_folders(std::string_view name);
 
-/// The same for a program that lies at `executable`.
+/// The same for a program, or a Python module (NAME.so), that lies at `executable`.
 std::vector<std::filesystem::path> data_folders(std::string_view name,
                                                 const std::filesystem::path& executable);
 

@@ -52,7 +52,7 @@ struct OnlyHere {
 constexpr OnlyHere only_here[] = {
     {"GL/osmesa.h", "render/context/osmesa.cpp"}, {"EGL", "render/context/egl.cpp"},
     {"GL/glew.h", "render/context/gl.h"},         {"stb/stb_image_write.h", "render/image/png.cpp"},
-    {"assimp", "assets/import_model.cpp"},
+    {"assimp", "assets/import_model.cpp"},        {"pybind11", "app/python/module.cpp"},
 };
 
 const Rule& rule_of(std::string_view folder) {

@@ -1,0 +1,349 @@
+// The Python module: names, arrays and exceptions; what they do is in scripted_world.h.
+//
+// Arrays of the state (positions, velocities) are copies, because the stepper exchanges the memory
+// of a body with its own from step to step: a view would show another step than the one it was
+// taken in. Arrays of what never changes (triangles) are read-only views that keep their mesh
+// alive.
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "app/host/clock.h"
+#include "app/host/errors.h"
+#include "app/host/version.h"
+#include "app/python/scripted_world.h"
+#include "app/record/contact_tally.h"
+#include "app/record/world_json.h"
+#include "app/world/scene_catalogue.h"
+#include "assets/model.h"
+#include "render/context/context.h"
+#include "scenes/loader/load_scene.h"
+#include "scenes/loader/print_scene.h"
+#include "sim/base/file.h"
+#include "sim/inspect/checkpoint.h"
+#include "sim/inspect/crossings.h"
+#include "sim/mesh/measure.h"
+
+namespace py = pybind11;
+using namespace pneuma;
+
+namespace {
+
+/// A world that one thread at a time may use.
+struct PyWorld {
+  PyWorld(const std::string& scene, const std::vector<std::string>& overrides, int threads)
+      : scripted(scene, overrides, threads) {}
+
+  app::ScriptedWorld scripted;
+  std::mutex in_use;
+};
+using WorldPointer = std::shared_ptr<PyWorld>;
+
+/// Of a state that another thread is about to change nothing can be read.
+std::unique_lock<std::mutex> use(PyWorld& world) {
+  std::unique_lock lock(world.in_use, std::try_to_lock);
+  if (!lock) throw std::runtime_error("another thread steps or draws this world");
+  return lock;
+}
+
+/// A body stays reachable as long as somebody holds it: it holds its world.
+struct PySoftBody {
+  WorldPointer world;
+  std::size_t index;
+
+  const sim::SoftBody& body() const { return world->scripted.world().soft[index]; }
+};
+struct PyRigidBox {
+  WorldPointer world;
+  std::size_t index;
+
+  const sim::RigidBox& box() const { return world->scripted.world().rigid[index]; }
+};
+
+std::vector<std::string> as_overrides(const py::object& given) {
+  std::vector<std::string> overrides;
+  if (given.is_none()) return overrides;
+  if (!py::isinstance<py::dict>(given)) return given.cast<std::vector<std::string>>();
+  for (const auto& [key, value] : given.cast<py::dict>()) {
+    std::string text = py::str(value);
+    if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
+    overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), text));
+  }
+  return overrides;
+}
+
+/// As rows x y z.
+py::array_t<double> copied(const sim::VertexArray& values) {
+  py::array_t<double> rows({py::ssize_t{values.size()}, py::ssize_t{3}});
+  auto to = rows.mutable_unchecked<2>();
+  for (int v = 0; v < values.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) to(v, axis) = values[v][axis];
+  }
+  return rows;
+}
+
+py::array_t<double> copied(const sim::Vec3& vector) {
+  return py::array_t<double>(3, vector.data());
+}
+
+py::array_t<int> triangles_of(const PySoftBody& soft) {
+  using Mesh = std::shared_ptr<const sim::SoftMesh>;
+  const auto* mesh = new Mesh(soft.body().mesh);
+  const py::capsule owner(mesh, [](void* held) { delete static_cast<Mesh*>(held); });
+  const std::vector<sim::Triangle>& triangles = (*mesh)->topology.triangles();
+  static_assert(sizeof(sim::Triangle) == 3 * sizeof(int));
+  py::array_t<int> view({static_cast<py::ssize_t>(triangles.size()), py::ssize_t{3}},
+                        triangles.empty() ? nullptr : triangles[0].data(), owner);
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
+/// Steps without Python's lock, and looks about ten times a second whether Ctrl-C was pressed.
+void step(PyWorld& world, std::int64_t count) {
+  constexpr double seconds_between_looks = 0.1;
+  if (count < 0) throw py::value_error(fmt::format("{} steps: steps go forward only", count));
+  const auto lock = use(world);
+  while (count > 0) {
+    {
+      const py::gil_scoped_release released;
+      const auto start = app::Clock::now();
+      for (; count > 0 && app::seconds_since(start) < seconds_between_looks; --count) {
+        world.scripted.step();
+      }
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+py::array_t<std::uint8_t> draw(PyWorld& world, std::optional<int> width, std::optional<int> height,
+                               bool wireframe, bool contacts) {
+  const auto lock = use(world);
+  auto image = std::make_unique<render::Image>();
+  {
+    const py::gil_scoped_release released;
+    *image = world.scripted.draw({width, height}, {.wireframe = wireframe, .contacts = contacts});
+  }
+  const std::array<py::ssize_t, 3> shape = {image->height, image->width, 3};
+  auto* pixels = image.get();
+  const py::capsule owner(image.release(),
+                          [](void* held) { delete static_cast<render::Image*>(held); });
+  return py::array_t<std::uint8_t>(shape, pixels->pixels.data(), owner);
+}
+
+py::dict energies(PyWorld& world) {
+  const auto lock = use(world);
+  const sim::Energy energy = sim::energy(world.scripted.world());
+  py::dict result;
+  result["kinetic"] = energy.kinetic;
+  result["spring"] = energy.spring;
+  result["gas"] = energy.gas;
+  result["gravity"] = energy.gravity;
+  result["total"] = energy.total();
+  return result;
+}
+
+std::string side_name(const sim::World& world, const sim::ContactSide& side) {
+  const auto body = static_cast<std::size_t>(side.body);
+  if (side.kind == sim::SideKind::soft) return world.soft[body].name;
+  return side.kind == sim::SideKind::rigid ? world.rigid[body].name : "the ground";
+}
+
+/// A dict of arrays, one row for each contact of the last step.
+py::dict contacts(PyWorld& held) {
+  const auto lock = use(held);
+  const auto found = held.scripted.contacts();
+  const auto count = static_cast<py::ssize_t>(found.size());
+  py::array_t<double> points({count, py::ssize_t{3}}), normals({count, py::ssize_t{3}}),
+      depths(count);
+  py::list kinds, bodies;
+  for (py::ssize_t c = 0; c < count; ++c) {
+    const sim::Contact& contact = found[static_cast<std::size_t>(c)];
+    for (int axis = 0; axis < 3; ++axis) {
+      points.mutable_at(c, axis) = contact.point[axis];
+      normals.mutable_at(c, axis) = contact.normal[axis];
+    }
+    depths.mutable_at(c) = contact.depth;
+    const sim::World& world = held.scripted.world();
+    kinds.append(py::str(std::string(sim::to_string(app::kind_of(contact)))));
+    bodies.append(
+        py::make_tuple(side_name(world, contact.first), side_name(world, contact.second)));
+  }
+  py::dict result;
+  result["kind"] = kinds;
+  result["bodies"] = bodies;
+  result["point"] = points;
+  result["normal"] = normals;
+  result["depth"] = depths;
+  return result;
+}
+
+/// What a member of the module reads of a world, under its lock.
+template <class Read>
+auto reads(const Read& read) {
+  return [read](PyWorld& world) {
+    const auto lock = use(world);
+    return read(world.scripted);
+  };
+}
+
+template <class Held, class Read>
+auto reads_of(const Read& read) {
+  return [read](const Held& held) {
+    const auto lock = use(*held.world);
+    return read(held);
+  };
+}
+
+/// What all exceptions of the module derive from; never thrown itself.
+struct AnyError : std::exception {};
+
+void define_errors(py::module_& module) {
+  const py::exception<AnyError> error(module, "Error", PyExc_RuntimeError);
+  py::register_exception<scenes::SceneError>(module, "SceneError", error);
+  py::register_exception<assets::ModelError>(module, "ModelError", error);
+  py::register_exception<app::UsageError>(module, "UsageError", error);
+  py::register_exception<app::DivergenceError>(module, "DivergenceError", error);
+  py::register_exception<render::GlError>(module, "GlError", error);
+  py::register_exception<base::IoError>(module, "IoError", error);
+}
+
+void define_bodies(py::module_& module) {
+  using app::ScriptedWorld;
+  py::class_<PySoftBody>(module, "SoftBody", "A soft body of a world, in its present state.")
+      .def_property_readonly("name", [](const PySoftBody& soft) { return soft.body().name; })
+      .def_property_readonly("positions", reads_of<PySoftBody>([](const PySoftBody& soft) {
+                               return copied(soft.body().positions);
+                             }),
+                             "Vertices x 3, m: a copy of the present state")
+      .def_property_readonly("velocities", reads_of<PySoftBody>([](const PySoftBody& soft) {
+                               return copied(soft.body().velocities);
+                             }),
+                             "Vertices x 3, m/s: a copy of the present state")
+      .def_property_readonly("triangles", triangles_of,
+                             "Triangles x 3 indices of vertices, outward: a view, read-only")
+      .def_property_readonly("volume", reads_of<PySoftBody>([](const PySoftBody& soft) {
+                               return sim::volume(soft.body().mesh->topology,
+                                                  soft.body().positions);
+                             }),
+                             "m^3");
+  py::class_<PyRigidBox>(module, "RigidBox", "A rigid box of a world, in its present state.")
+      .def_property_readonly("name", [](const PyRigidBox& rigid) { return rigid.box().name; })
+      .def_property_readonly(
+          "size", [](const PyRigidBox& rigid) { return copied(rigid.box().size); },
+          "Full lengths along its own axes, m")
+      .def_property_readonly("position", reads_of<PyRigidBox>([](const PyRigidBox& rigid) {
+                               return copied(rigid.box().position);
+                             }),
+                             "Of its centre, m: a copy")
+      .def_property_readonly("velocity", reads_of<PyRigidBox>([](const PyRigidBox& rigid) {
+                               return copied(rigid.box().velocity);
+                             }),
+                             "m/s: a copy")
+      .def_property_readonly("angular_velocity", reads_of<PyRigidBox>([](const PyRigidBox& rigid) {
+                               return copied(rigid.box().angular_velocity);
+                             }),
+                             "rad/s: a copy")
+      .def_property_readonly("orientation", reads_of<PyRigidBox>([](const PyRigidBox& rigid) {
+                               const Eigen::Quaterniond& q = rigid.box().orientation;
+                               const std::array<double, 4> wxyz = {q.w(), q.x(), q.y(), q.z()};
+                               return py::array_t<double>(4, wxyz.data());
+                             }),
+                             "Unit quaternion w x y z, body to world: a copy");
+}
+
+template <class Held, class Bodies>
+std::vector<Held> held(const WorldPointer& world, const Bodies& bodies) {
+  std::vector<Held> all;
+  for (std::size_t i = 0; i < bodies.size(); ++i) all.push_back({world, i});
+  return all;
+}
+
+py::bytes save(PyWorld& world) {
+  const auto lock = use(world);
+  const auto state = sim::save_state(world.scripted.world());
+  return {reinterpret_cast<const char*>(state.data()), state.size()};
+}
+
+void define_world(py::module_& module) {
+  using app::ScriptedWorld;
+  py::class_<PyWorld, WorldPointer>(module, "World", "The world of a scene; pneuma.load makes it.")
+      .def("step", step, py::arg("count") = 1, "Advance by so many steps.")
+      .def(
+          "draw", draw, py::arg("width") = py::none(), py::arg("height") = py::none(),
+          py::arg("wireframe") = false, py::arg("contacts") = false,
+          "A picture of the present state: height x width x 3, uint8, as `pneuma render` makes it.")
+      .def("state", save, "The state as bytes: equal states, equal bytes.")
+      .def_property_readonly(
+          "time", reads([](const ScriptedWorld& world) { return sim::time(world.world()); }), "s")
+      .def_property_readonly("steps",
+                             reads([](const ScriptedWorld& world) { return world.world().steps; }),
+                             "Done so far")
+      .def_property_readonly(
+          "steps_per_second",
+          [](const PyWorld& world) { return world.scripted.world().settings.steps_per_second; })
+      .def_property_readonly(
+          "scene_toml",
+          [](const PyWorld& world) { return scenes::print_scene(world.scripted.scene()); },
+          "The effective scene")
+      .def_property_readonly("warnings",
+                             reads([](const ScriptedWorld& world) { return world.warnings(); }))
+      .def_property_readonly(
+          "soft",
+          [](const WorldPointer& world) {
+            return held<PySoftBody>(world, world->scripted.world().soft);
+          },
+          "The soft bodies, in the order of the scene")
+      .def_property_readonly(
+          "rigid",
+          [](const WorldPointer& world) {
+            return held<PyRigidBox>(world, world->scripted.world().rigid);
+          },
+          "The rigid boxes, in the order of the scene")
+      .def_property_readonly("energies", energies, "J: kinetic, spring, gas, gravity, total")
+      .def_property_readonly("contacts", contacts,
+                             "Of the last step: lists kind and bodies, arrays point, normal, depth")
+      .def_property_readonly("penetration", reads([](const ScriptedWorld& world) {
+                               return sim::max_penetration(world.world());
+                             }),
+                             "The deepest of any body in another or in the ground, m")
+      .def_property_readonly("crossings", reads([](const ScriptedWorld& world) {
+                               return sim::crossings(world.world()).between_bodies;
+                             }),
+                             "Edges that pass through another body's surface")
+      .def_property_readonly("state_hash", reads([](const ScriptedWorld& world) {
+                               return app::hex(sim::state_hash(world.world()));
+                             }),
+                             "As in run.json and `pneuma check --run --json`");
+}
+
+}  // namespace
+
+PYBIND11_MODULE(pneuma, module) {
+  module.doc() = "Soft bodies held up by gas pressure: load a scene, step it, read it, draw it.";
+  module.attr("__version__") = app::version().program;
+  define_errors(module);
+  define_bodies(module);
+  define_world(module);
+  module.def(
+      "load",
+      [](const std::string& scene, const py::object& overrides, int threads) {
+        return std::make_shared<PyWorld>(scene, as_overrides(overrides), threads);
+      },
+      py::arg("scene"), py::arg("set") = py::none(), py::arg("threads") = 1,
+      "The world of a scene: a file, the name of one, or a model. `set`: a dict, or a list of "
+      "\"PATH=VALUE\" as for `pneuma --set`.");
+  module.def(
+      "scenes",
+      [] {
+        std::vector<std::string> names;
+        for (const auto& info : app::scene_catalogue()) names.push_back(info.name);
+        return names;
+      },
+      "The names of the scenes that `pneuma list` shows.");
+}

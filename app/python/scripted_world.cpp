@@ -1,0 +1,63 @@
+#include "app/python/scripted_world.h"
+
+#include <fmt/format.h>
+
+#include "app/host/errors.h"
+#include "app/picture/place_camera.h"
+#include "app/world/build_world.h"
+#include "app/world/open_scene.h"
+#include "app/world/scene_warnings.h"
+#include "app/world/simulation.h"
+#include "app/world/start_overlap.h"
+
+namespace pneuma::app {
+namespace {
+
+constexpr int smallest_side = 16;
+
+sim::World checked_world(const scenes::Scene& scene) {
+  sim::World world = build_world(scene);
+  refuse_start_overlap(scene, world);
+  return world;
+}
+
+int picture_side(const char* name, const std::optional<int>& given, int of_scene) {
+  const int side = given.value_or(of_scene);
+  if (side >= smallest_side && side <= scenes::greatest_picture_side) return side;
+  throw UsageError(fmt::format("{} = {}: a picture has {} to {} pixels along a side", name, side,
+                               smallest_side, scenes::greatest_picture_side));
+}
+
+}  // namespace
+
+ScriptedWorld::ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides,
+                             int threads)
+    : scene_(open_scene(scene, overrides)),
+      threads_(threads),
+      world_(checked_world(scene_)),
+      stepper_(world_, {.threads = threads, .plan = {}}) {}
+
+void ScriptedWorld::step() {
+  if (const auto divergence = stepper_.step(world_)) {
+    throw divergence_error(scene_.name, *divergence, world_);
+  }
+}
+
+render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
+  render::RenderOptions options;
+  options.width = picture_side("width", size.width, scene_.picture.width);
+  options.height = picture_side("height", size.height, scene_.picture.height);
+  options.samples = scene_.picture.samples;
+  if (!builder_) {
+    const sim::World start = build_world(scene_);
+    builder_.emplace(scene_, start, place_camera(scene_, start, threads_).camera);
+  }
+  if (!drawing_) drawing_.emplace();
+  return drawing_->draw(options, builder_->build(world_, contacts(), show));
+}
+
+std::vector<std::string> ScriptedWorld::warnings() const {
+  return scene_warnings(scene_, step_advices(world_), {});
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,52 @@
+// A scene's world for a program that steps it, reads it and draws it as it likes: what the Python
+// module wraps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/build_frame.h"
+#include "app/python/drawing_thread.h"
+#include "scenes/loader/scene.h"
+#include "sim/step/stepper.h"
+#include "sim/world/world.h"
+
+namespace pneuma::app {
+
+/// Pixels of a picture; what is not given is the scene's.
+struct PictureSize {
+  std::optional<int> width;   // 16..16384
+  std::optional<int> height;  // 16..16384
+};
+
+class ScriptedWorld {
+ public:
+  /// As `pneuma check SCENE --set ...` loads it, with the same errors.
+  ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides, int threads);
+
+  /// One step. Throws DivergenceError; the world is then in its last valid state.
+  void step();
+
+  /// The picture that `pneuma render` would make of this state, on any thread. An automatic camera
+  /// has the whole of the scene in view: at the first picture the scene is run once ahead. Throws
+  /// UsageError for a size out of range, and render::GlError.
+  render::Image draw(const PictureSize& size, Show show);
+
+  const scenes::Scene& scene() const { return scene_; }
+  const sim::World& world() const { return world_; }
+  std::span<const sim::Contact> contacts() const { return stepper_.contacts(); }
+  /// What the program would warn of before a run.
+  std::vector<std::string> warnings() const;
+
+ private:
+  scenes::Scene scene_;
+  int threads_;
+  sim::World world_;
+  sim::Stepper stepper_;
+  std::optional<FrameBuilder> builder_;
+  std::optional<DrawingThread> drawing_;
+};
+
+}  // namespace pneuma::app
