@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "sim/boxes/box_islands.h"
 #include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
 #include "sim/response/fall_asleep.h"
-#include "sim/step/box_islands.h"
 #include "sim/step/swept_solver.h"
 
 namespace pneuma::sim {

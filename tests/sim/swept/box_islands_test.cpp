@@ -1,4 +1,4 @@
-// Boxes in substeps (sim/step/box_islands.h): what they keep, and that they stand.
+// Boxes in substeps (sim/boxes/box_islands.h): what they keep, and that they stand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/rotation.h"
-#include "sim/swept/substep_solver.h"
+#include "sim/boxes/substep_solver.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {

@@ -1,4 +1,4 @@
-#include "sim/swept/substep_contact.h"
+#include "sim/boxes/substep_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "sim/step/move_box_island.h"
+#include "sim/boxes/move_box_island.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "sim/boxes/slow_boxes.h"
 #include "sim/collision/separating_axis.h"
 #include "sim/inspect/inspect.h"
-#include "sim/response/slow_boxes.h"
 #include "sim/step/stages.h"
 
 namespace pneuma::sim {

@@ -1,4 +1,4 @@
-#include "sim/swept/substep_solver.h"
+#include "sim/boxes/substep_solver.h"
 
 #include <algorithm>
 #include <cmath>

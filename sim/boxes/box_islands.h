@@ -1,5 +1,5 @@
 // Boxes that in a step only boxes, the ground and what is moved can touch: they are moved in
-// substeps, island by island, and not by swept contacts. Private to sim/step.
+// substeps, island by island, and not by swept contacts. For sim/step alone.
 //
 // An island is boxes that come near each other. What a soft body comes near, what is fast for its
 // size, bounces well, lies deep in another or has another's mass many times belongs to swept

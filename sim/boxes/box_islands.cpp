@@ -1,9 +1,9 @@
-#include "sim/step/box_islands.h"
+#include "sim/boxes/box_islands.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "sim/step/move_box_island.h"
+#include "sim/boxes/move_box_island.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "sim/boxes/substep_contact.h"
 #include "sim/collision/oriented_box.h"
 #include "sim/response/motion_start.h"
-#include "sim/swept/substep_contact.h"
 
 namespace pneuma::sim {
 

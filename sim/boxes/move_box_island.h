@@ -1,12 +1,12 @@
-// Moves an island of boxes through a step in substeps. Private to sim/step.
+// Moves an island of boxes through a step in substeps. For sim/step alone.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "sim/step/box_islands.h"
-#include "sim/swept/substep_solver.h"
+#include "sim/boxes/box_islands.h"
+#include "sim/boxes/substep_solver.h"
 
 namespace pneuma::sim {
 

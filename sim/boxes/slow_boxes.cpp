@@ -1,4 +1,4 @@
-#include "sim/response/slow_boxes.h"
+#include "sim/boxes/slow_boxes.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
