@@ -24,7 +24,7 @@ struct VolumeRange {
   double start = 0.0;  // m^3
   double least = std::numeric_limits<double>::infinity();
   double greatest = 0.0;
-  double end = 0.0;  // m^3
+  double end = 0.0;              // m^3
   double shape_deviation = 0.0;  // at the end (app/record/shape_deviation.h)
 };
 

@@ -5,8 +5,8 @@
 // body's energy for itself, and the springs act while the positions stand still: under sdirk2 for
 // half a step before and half a step after it by Heun's method (Strang splitting, of second order),
 // under implicit_euler for a step before it by Euler's (of first order: dashpots then know what
-// hangs at rest to be at rest). This part is explicit: it is stable for steps below 2 sqrt(m / k), m
-// being the reduced mass of the ends.
+// hangs at rest to be at rest). This part is explicit: it is stable for steps below 2 sqrt(m / k),
+// m being the reduced mass of the ends.
 #pragma once
 
 #include <memory>

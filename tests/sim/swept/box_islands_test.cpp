@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <random>
 
+#include "sim/boxes/substep_solver.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/rotation.h"
-#include "sim/boxes/substep_solver.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
