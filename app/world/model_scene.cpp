@@ -36,8 +36,9 @@ constexpr double drag = 0.05;
 constexpr int max_held_vertices = 5'000;
 /// Of the diagonal, by which gas may bend a shape that tensions hold.
 constexpr double max_deviation = 0.03;
-/// Below, springs along the edges hold what there is of faces; above, hinges take too long.
-constexpr int min_bending_vertices = 50, max_bending_vertices = 20'000;
+/// Below, springs along the edges hold what there is of faces. Above, thin walls may fold until
+/// triangles lose their height, where hinges need shorter steps than small motions tell.
+constexpr int min_bending_vertices = 50, max_bending_vertices = 1'500;
 
 /// Finer meshes come to rest no later, but take longer: s.
 constexpr int long_run_vertices = 3'000;
