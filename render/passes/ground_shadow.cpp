@@ -17,7 +17,8 @@ constexpr std::size_t texels = static_cast<std::size_t>(size) * size;
 // What is seen of the sky changes slowly over the ground: one point for so many texels a side.
 constexpr int texels_per_point = 4;
 constexpr int points = size / texels_per_point;
-constexpr int block = 8;  // points on a side that are lit together
+constexpr int contact_size = size / 2;  // texels on a side of what is blurred widely
+constexpr int block = 8;                // points on a side that are lit together
 static_assert(points % block == 0 && block * block <= Receivers::most);
 
 /// Depth of the ground z = 0 over the map's coordinates: dot(result, (u, v, 1)). In those
@@ -102,14 +103,14 @@ void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const 
   // Nine weights spread over two and a half steps to each side, to the eye.
   const float wide_step = 0.4f * map.edge() * inner;
   const float narrow_step = std::min(0.5f * wide_step, 1.0f);
-  blur(cover_, narrow_step);
-  blur(soft_cover_, narrow_step);
+  blur(cover_, narrow_step, size);
+  blur(soft_cover_, narrow_step, size);
   narrow_ = cover_;
-  blur(cover_, wide_step);
-  blur(soft_cover_, wide_step);
+  blur(cover_, wide_step, size);
+  blur(soft_cover_, wide_step, size);
   measure_openness(bodies);
-  if (bodies.empty()) {
-    contact_.assign(texels, 0.0f);  // surfaces take no light of each other
+  if (bodies.empty()) {  // surfaces take no light of each other
+    contact_.assign(std::size_t{contact_size} * contact_size, 0.0f);
   } else {
     measure_contact(surface);
   }
@@ -163,24 +164,24 @@ void GroundShadow::measure_cover(const ShadowMap& map, const ShadowDepths& shado
   }
 }
 
-void GroundShadow::blur(Picture& picture, float step) {
+void GroundShadow::blur(Picture& picture, float step, int side) {
   make_kernel(step, kernel_);
   const int radius = static_cast<int>(kernel_.size() / 2);
   // Beyond the edges there is nothing: the map's margin is free of casters.
   std::ranges::fill(scratch_, 0.0f);
   for (int d = -radius; d <= radius; ++d) {
     const float weight = kernel_[static_cast<std::size_t>(d + radius)];
-    for (int y = std::max(0, -d); y < std::min(size, size - d); ++y) {
-      add_weighted(weight, picture.data() + (y + d) * size, scratch_.data() + y * size, size);
+    for (int y = std::max(0, -d); y < std::min(side, side - d); ++y) {
+      add_weighted(weight, picture.data() + (y + d) * side, scratch_.data() + y * side, side);
     }
   }
   std::ranges::fill(picture, 0.0f);
-  for (int y = 0; y < size; ++y) {
+  for (int y = 0; y < side; ++y) {
     for (int d = -radius; d <= radius; ++d) {
       const int begin = std::max(0, -d);
-      const int end = std::min(size, size - d);
+      const int end = std::min(side, side - d);
       add_weighted(kernel_[static_cast<std::size_t>(d + radius)],
-                   scratch_.data() + y * size + begin + d, picture.data() + y * size + begin,
+                   scratch_.data() + y * side + begin + d, picture.data() + y * side + begin,
                    end - begin);
     }
   }
@@ -209,10 +210,10 @@ void GroundShadow::measure_openness(std::span<const BodyElements> bodies) {
 
 void GroundShadow::measure_contact(const DrawnSurface& surface) {
   constexpr float reach = 7.0f;  // texels
-  constexpr float step = 2.6f;   // so that the blur reaches about as far
-  const GroundPicture picture = {world_to_picture_, size, reach * texel_};
+  constexpr float step = 1.3f;   // so that the blur reaches about as far
+  const GroundPicture picture = {world_to_picture_, contact_size, reach * texel_};
   if (measure_nearness(surface.vertices(), surface.triangles(), picture, contact_)) {
-    blur(contact_, step);
+    blur(contact_, step, contact_size);
   }
 }
 
@@ -247,7 +248,9 @@ void GroundShadow::add_up() {
       const float blocked =
           std::clamp(narrow_[i] + (cover_[i] - narrow_[i]) * softness, 0.0f, 1.0f);
       // Three hundredths of the sky are not seen to be missing.
-      const float open = std::min(1.0f, openness_at(x, y) + 0.03f) * (1.0f - 0.9f * contact_[i]);
+      const float open =
+          std::min(1.0f, openness_at(x, y) + 0.03f) *
+          (1.0f - 0.9f * contact_[static_cast<std::size_t>(y / 2 * contact_size + x / 2)]);
       const Light3 left = sky_part * open + (1.0f - sky_part) * (1.0f - blocked);
       left_[0][i] = left[green];
       bytes_[i] = {tone_[static_cast<std::size_t>(1023.0f * left[0])],

@@ -57,7 +57,8 @@ class GroundShadow {
   using Picture = std::vector<float>;  // one channel, row by row
 
   void measure_cover(const ShadowMap& map, const ShadowDepths& depths);
-  void blur(Picture& picture, float step);
+  /// `side`: texels on a side of the picture.
+  void blur(Picture& picture, float step, int side);
   void measure_openness(std::span<const BodyElements> bodies);
   void measure_contact(const DrawnSurface& surface);
   float openness_at(int x, int y) const;
@@ -78,8 +79,8 @@ class GroundShadow {
                         // ground, 1 for one well above it
   Picture narrow_;
   Picture scratch_;
-  Picture openness_;           // fraction of the sky that is seen, at some of the texels
-  Picture contact_;            // how near surfaces come to the ground around a texel, 0..1
+  Picture openness_;  // fraction of the sky that is seen, at some of the texels
+  Picture contact_;   // how near surfaces come to the ground, 0..1; for two by two texels each
   std::vector<Picture> left_;  // of the ground's light; each half as many texels a side
   std::array<std::uint8_t, 1024> tone_;
   Receivers receivers_;
