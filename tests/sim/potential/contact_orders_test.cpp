@@ -36,8 +36,8 @@ double order_at(Integrator integrator, int steps_per_second, const VertexArray& 
 }
 
 TEST(ContactOrders, AreThoseOfTheIntegrators) {
-  const VertexArray exact = end_of(Integrator::rk4, 32'000);
-  ASSERT_GT((exact.rows() - end_of(Integrator::rk4, 8'000).rows()).norm(), 0.0);
+  const VertexArray exact = end_of(Integrator::rk4, 16'000);
+  ASSERT_GT((exact.rows() - end_of(Integrator::rk4, 4'000).rows()).norm(), 0.0);
   World free = smooth_balls(Integrator::rk4, 2000);
   free.soft.resize(1);
   ASSERT_FALSE(run(free, seconds));
