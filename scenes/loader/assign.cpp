@@ -51,18 +51,18 @@ class Assignment {
   }
 
   void operator()(std::vector<sim::KeyFrame>* member) const {
-    *member = timed_rows("an array of rows [time, x, y, z]",
-                         [this](const Value& row) { return key_frame(row); });
+    set_rows(*member, "an array of rows [time, x, y, z]",
+             [this](const Value& row) { return key_frame(row); });
   }
 
   void operator()(std::vector<TimedValue>* member) const {
-    *member = timed_rows("an array of rows [time, value]",
-                         [this](const Value& row) { return timed_value(row); });
+    set_rows(*member, "an array of rows [time, value]",
+             [this](const Value& row) { return timed_value(row); });
   }
 
   void operator()(std::vector<CameraKey>* member) const {
-    *member = timed_rows("an array of rows [time, eye x, y, z, target x, y, z]",
-                         [this](const Value& row) { return camera_key(row); });
+    set_rows(*member, "an array of rows [time, eye x, y, z, target x, y, z]",
+             [this](const Value& row) { return camera_key(row); });
   }
 
   void operator()(std::vector<Region>* member) const {
@@ -175,16 +175,16 @@ class Assignment {
   }
 
   /// Rows of rising times.
-  template <class Read>
-  auto timed_rows(std::string_view expected, const Read& read) const {
+  template <class Row, class Read>
+  void set_rows(std::vector<Row>& member, std::string_view expected, const Read& read) const {
     const auto* rows = std::get_if<Array>(&value_.data);
     if (rows == nullptr || rows->empty()) refuse_type(value_, key_.name, expected);
-    std::vector<decltype(read(value_))> keys;
+    std::vector<Row> keys;
     for (const Value& row : *rows) {
       keys.push_back(read(row));
       check_times(row, keys);
     }
-    return keys;
+    member = std::move(keys);
   }
 
   void check_start(const Value& time, double seconds) const {

@@ -12,8 +12,9 @@ namespace {
 /// Of the shortest side, around a box's way: contacts may push it aside, besides half its way.
 constexpr double around_of_side = 0.05;
 constexpr double around_of_way = 0.5;
-/// Of the thinnest member of an island: what goes further in a step might pass through it.
-constexpr double longest_way_of_side = 0.5;
+/// Of the thinnest member of an island: in an impact of what goes further in a step, contacts as
+/// springs give way by more than a picture may show.
+constexpr double longest_way_of_side = 0.02;
 /// Of the lightest member's mass: under heavier ones contacts as springs would give way.
 constexpr double heaviest_of_lightest = 8.0;
 /// What bounces better keeps its energy better in swept contacts.

@@ -56,8 +56,9 @@ class SolverSide {
       box_->angular_velocity += to_vec3(turning_ * impulse);
       return;
     }
-    for (int i = 0; i < vertex_count_; ++i) {
-      store_vec4d(load_vec4d(velocities_[at(i)]) + change, velocities_[at(i)]);
+    for (double* const velocity : velocities_) {
+      if (velocity == nullptr) break;
+      store_vec4d(load_vec4d(velocity) + change, velocity);
     }
   }
 
@@ -80,7 +81,7 @@ class SolverSide {
   SoftBody* soft_ = nullptr;
   RigidBox* box_ = nullptr;
   std::array<int, 3> vertices_{};        // of the soft feature
-  std::array<double*, 3> velocities_{};  // theirs
+  std::array<double*, 3> velocities_{};  // theirs; null where there is none
   int vertex_count_ = 0;
   double inverse_mass_ = 0.0;
   // Of a box only, with r from its centre to the point. Kept because a contact waits for the one

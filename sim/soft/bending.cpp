@@ -1,5 +1,6 @@
 #include "sim/soft/bending.h"
 
+#include <array>
 #include <cmath>
 
 #include "sim/mesh/rotation.h"
@@ -57,8 +58,9 @@ AngleGradient angle_gradient(const Bent& bent) {
 }
 
 Vec12 stacked(const AngleGradient& gradient) {
+  const std::array rows = {gradient.a, gradient.b, gradient.c, gradient.d};
   Vec12 result;
-  result << to_vec3(gradient.a), to_vec3(gradient.b), to_vec3(gradient.c), to_vec3(gradient.d);
+  for (int i = 0; i < 12; ++i) result[i] = rows[at(i / 3)][i % 3];
   return result;
 }
 
