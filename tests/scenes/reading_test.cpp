@@ -100,6 +100,7 @@ Scene every_member() {
       .contact = sim::ContactMethod::impulses,
       .skin_thickness = 0.25,
       .soft_search = sim::SoftSearch::exact,
+      .potential = {},
       .particles = {.per_vertex = 0.5, .attraction = 3.0, .max_sweeps = 11, .settled_below = 7},
       .relaxation_time = 0.125,
       .contact_iterations = 4,

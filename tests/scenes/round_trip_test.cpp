@@ -101,6 +101,14 @@ struct SetAtRandom {
       member->push_back({time, any_number(key.range)});
     }
   }
+  void operator()(std::vector<CameraKey>* member) const {
+    double time = 0.0;
+    for (int rows = *rc::gen::inRange(0, 3); rows > 0; --rows, time += 0.5) {
+      const Vec3 eye = any_vector(key.range);
+      const double target = eye.x() + (eye.x() > 0.0 ? -1.0 : 1.0);
+      member->push_back({time, eye.x(), eye.y(), eye.z(), target, eye.y(), eye.z()});
+    }
+  }
   void operator()(std::optional<sim::ContactMaterial>* member) const {
     if (*rc::gen::arbitrary<bool>()) member->reset();
   }
@@ -146,6 +154,8 @@ void make_consistent(Scene& scene) {
                   .picture_side = *rc::gen::inRange(1000, 9000),
                   .model_file_mib = 0.25 * *rc::gen::inRange(1, 100),
                   .scene_file_mib = 0.25 * *rc::gen::inRange(1, 100)};
+  const bool follows = scene.camera.path.empty() && *rc::gen::arbitrary<bool>();
+  scene.camera.follow = follows ? scene.bodies.front().name : "";
   scene.picture.frames_per_second = *rc::gen::element(1, 2, 10, 60);
   scene.settings.steps_per_second = scene.picture.frames_per_second * *rc::gen::inRange(1, 100);
   scene.duration =
@@ -197,6 +207,7 @@ Scene any_scene() {
   }
   for (const bool selectors : {true, false}) {
     for (const Section& section : fixed_sections(scene)) set_at_random(section, selectors);
+    if (!scene.camera.path.empty()) scene.camera.eye = scene.camera.target = std::nullopt;
   }
   scene.bodies.resize(*rc::gen::inRange<std::size_t>(1, 4));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
