@@ -4,8 +4,10 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <filesystem>
 #include <memory>
 
+#include "app/host/errors.h"
 #include "app/render/render_request.h"
 #include "app/render/render_scene.h"
 #include "app/render/turntable.h"
@@ -45,6 +47,10 @@ RenderRequest read(const RenderArguments& typed) {
   // What the scene can say itself becomes part of the scene, and so of the run's record.
   if (!typed.size.empty()) append_size(typed.size, request.overrides);
   if (typed.no_caption) request.overrides.emplace_back("picture.caption=false");
+  const std::string& reference = request.reference.folder;
+  if (!reference.empty() && !std::filesystem::is_directory(reference)) {
+    throw UsageError(fmt::format("--reference: there is no folder '{}'", reference));
+  }
   return request;
 }
 
@@ -103,7 +109,6 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       ->add_option("--reference", request.reference.folder,
                    "A folder with the same pictures: exit code 7 if one is further from it than "
                    "--threshold")
-      ->check(CLI::ExistingDirectory)
       ->type_name("DIR");
   command
       ->add_option("--threshold", request.reference.threshold,

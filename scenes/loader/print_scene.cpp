@@ -95,10 +95,10 @@ std::string scene_text(Scene scene, bool comments) {
 std::string key_reference(const Key& key) {
   const std::string range = key.range.text(key.name);
   const std::string value = value_text(key.slot);
-  std::string text = fmt::format("  {:<20}{}", key.name, key.meaning);
+  std::string text = fmt::format("  {:<22}{}", key.name, key.meaning);
   if (!key.only_for.empty()) text += fmt::format(" ({} only)", key.only_for);
   if (key.of_method) text += " (set by method = \"paper\")";
-  text += fmt::format("\n  {:<20}  {}", "", type_text(key.slot));
+  text += fmt::format("\n  {:<22}  {}", "", type_text(key.slot));
   if (!range.empty()) text += fmt::format(", {}", range);
   if (!key.unit.empty()) text += fmt::format(" {}", key.unit);
   return text + (value.empty() ? "; not set by default\n" : fmt::format("; default {}\n", value));

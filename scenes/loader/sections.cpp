@@ -277,8 +277,8 @@ Section spring_section(SpringScene& spring) {
           {"to", &spring.to, any(), "", "another one", check_line},
           only(without_region,
                {"from_point", &spring.from_point, place(), "m",
-                "in world coordinates: the nearest vertex is the end; by default that nearest to "
-                "the other end"}),
+                "in world coordinates: the nearest vertex is the end, else that nearest to the "
+                "other end"}),
           only(without_other,
                {"to_point", &spring.to_point, place(), "m", "likewise of the other body"}),
           selector({"from_region", &spring.from_region, place(), "m",
@@ -288,7 +288,7 @@ Section spring_section(SpringScene& spring) {
           {"k", &spring.k, at_least(0), "N/m", "spring constant"},
           {"damping", &spring.damping, at_least(0), "N s/m", "of the dashpot along it"},
           {"rest_length", &spring.rest_length, at_least(0), "m",
-           "by default the distance of its ends at the start"},
+           "instead of the distance of its ends at the start"},
       }};
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "sim/collision/separating_axis.h"
@@ -10,15 +9,6 @@
 namespace pneuma::sim {
 
 namespace {
-
-/// Of half the shortest side: by so much the deepest of a contact's points must be deeper than the
-/// others that are kept.
-constexpr double clearly_deeper = 0.01;
-/// Of half the shortest side: boxes that lie nearly flat on each other need more than the one point
-/// that edges have, before they meet.
-constexpr double preference_of_manifolds = 0.02;
-/// Of a contact for a solver.
-constexpr int kept_points = 4;
 
 /// The incident face while it is being clipped: a convex polygon, in the reference face's
 /// coordinates. A square clipped by four lines has at most eight corners; what rounding might
@@ -102,9 +92,8 @@ int support_corner(const OrientedBox& box, const Vec3& direction) {
 
 /// Cuts the incident face off at the reference face's sides; what remains no higher than `reach`
 /// over the reference face touches. All points are kept: a choice of the deepest four would change
-/// from step to step. `of_passing`: boxes that pass each other by their sides touch from this
-/// depth on.
-void add_face_points(BoxContact& contact, const FacePair& faces, double reach, double of_passing) {
+/// from step to step.
+void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
   Polygon polygon;
   for (const Vec3& corner : incident_face(faces.incident, faces.outward)) {
     polygon.add(faces.to_face(corner));
@@ -121,9 +110,9 @@ void add_face_points(BoxContact& contact, const FacePair& faces, double reach, d
     if (corner.z() > reach) continue;
     contact.all[at(contact.count++)] = {faces.to_world(corner), -corner.z()};
   }
-  if (contact.count > 0 || contact.depth < of_passing) return;
-  // The incident box passes the face by its side, and its deepest corner stands for it: of boxes
-  // that overlap only when this face was preferred to edges that overlap a little less.
+  if (contact.count > 0 || contact.depth < 0.0) return;
+  // Of boxes that overlap only when this face was preferred to edges that overlap a little less:
+  // the incident box passes the face by its side, and its deepest corner stands for it.
   const int corner = support_corner(faces.incident, -faces.outward);
   contact.all[at(contact.count++)] = {faces.incident.corner(corner), contact.depth};
 }
@@ -160,10 +149,8 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
 }
 
 std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& second,
-                                double reach_of_boxes, double reach_of_points,
-                                double depth_of_passing = 0.0,
-                                double preference = preference_of_faces) {
-  const auto overlap = find_min_overlap(first, second, reach_of_boxes, preference);
+                                double reach_of_boxes, double reach_of_points) {
+  const auto overlap = find_min_overlap(first, second, reach_of_boxes);
   if (!overlap) return {};
   BoxContact contact;
   contact.normal = overlap->normal;
@@ -172,43 +159,13 @@ std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& sec
     add_edge_point(contact, first, second, *overlap);
   } else if (overlap->kind == AxisKind::first_face) {
     add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal},
-                    reach_of_points, depth_of_passing);
+                    reach_of_points);
   } else {
     add_face_points(contact, {second, first, overlap->second_axis, overlap->normal},
-                    reach_of_points, depth_of_passing);
+                    reach_of_points);
   }
   if (contact.count == 0) return {};  // they are apart, and pass each other by their sides
   return contact;
-}
-
-/// Four points that span most of the area of all, and the deepest if it is clearly so. Which they
-/// are must not change with small depths from step to step.
-void keep_four(BoxContact& contact, double clearly) {
-  if (contact.count <= kept_points) return;
-  const auto all = std::span(contact.all).first(at(contact.count));
-  const auto take = [&](int place, const auto& score) {
-    const auto best = std::ranges::max_element(all.subspan(at(place)), {}, score);
-    std::swap(all[at(place)], *best);
-    return all[at(place)].point;
-  };
-  Vec3 middle = Vec3::Zero();
-  for (const BoxContactPoint& point : all) middle += point.point / contact.count;
-  const auto from = [](const Vec3& point) {
-    return [point](const BoxContactPoint& p) { return (p.point - point).squaredNorm(); };
-  };
-  const Vec3 a = take(0, from(middle));
-  const Vec3 b = take(1, from(a));
-  const Vec3 across = contact.normal.cross(b - a);
-  take(2, [&](const BoxContactPoint& p) { return across.dot(p.point - a); });
-  take(3, [&](const BoxContactPoint& p) { return -across.dot(p.point - a); });
-  const auto deepest = std::ranges::max_element(all, {}, &BoxContactPoint::depth);
-  const auto of_four = all.first(at(kept_points));
-  const double deepest_of_four =
-      std::ranges::max_element(of_four, {}, &BoxContactPoint::depth)->depth;
-  if (deepest->depth > deepest_of_four + clearly) {
-    std::swap(*std::ranges::min_element(of_four, {}, from(deepest->point)), *deepest);
-  }
-  contact.count = kept_points;
 }
 
 }  // namespace
@@ -220,32 +177,6 @@ std::optional<BoxContact> find_box_contact(const OrientedBox& first, const Orien
 std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
                                                   const OrientedBox& second) {
   return touch(first, second, reach, std::numeric_limits<double>::infinity());
-}
-
-std::optional<BoxContact> find_box_manifold(double reach, const OrientedBox& first,
-                                            const OrientedBox& second) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  auto contact = touch(first, second, reach, any, -any, preference_of_manifolds);
-  if (contact)
-    keep_four(*contact, clearly_deeper * std::min(first.half.minCoeff(), second.half.minCoeff()));
-  return contact;
-}
-
-std::optional<BoxContact> find_ground_manifold(double reach, const OrientedBox& box) {
-  const double height = box.half.dot(box.axes.row(2).cwiseAbs());
-  if (box.centre.z() - height > reach) return {};
-  BoxContact contact;
-  contact.normal = Vec3::UnitZ();
-  contact.depth = height - box.centre.z();
-  for (const Vec3& corner : corners(box)) {
-    if (corner.z() <= reach) contact.all[at(contact.count++)] = {corner, -corner.z()};
-  }
-  const auto all = std::span(contact.all).first(at(contact.count));
-  if (contact.count > kept_points) {  // a thin box lies with all its corners near the ground
-    std::ranges::sort(all, std::ranges::greater(), &BoxContactPoint::depth);
-    contact.count = kept_points;
-  }
-  return contact;
 }
 
 }  // namespace pneuma::sim

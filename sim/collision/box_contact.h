@@ -36,11 +36,4 @@ std::optional<BoxContact> find_box_contact(const OrientedBox& first, const Orien
 std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
                                                   const OrientedBox& second);
 
-/// At most four points, as few as a solver needs; of boxes that are up to `reach` apart and pass
-/// each other by their sides the corner that comes first.
-std::optional<BoxContact> find_box_manifold(double reach, const OrientedBox& first,
-                                            const OrientedBox& second);
-/// Likewise the lowest corners of a box over the ground, up to `reach` above it.
-std::optional<BoxContact> find_ground_manifold(double reach, const OrientedBox& box);
-
 }  // namespace pneuma::sim

@@ -124,12 +124,12 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 // Of the nine cross products few separate, and few beat the faces. Those that do neither are seen
 // at a glance, without a division; only what may decide is looked at for itself.
 std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second,
-                                           double reach, double preference) {
+                                           double reach) {
   const RelativePose pose(first, second);
   const Vec4d along_first = pose.along_first(), along_second = pose.along_second();
   if (any_below(-reach, along_first) || any_below(-reach, along_second)) return {};
 
-  const double slack = preference * std::min(first.half.minCoeff(), second.half.minCoeff());
+  const double slack = 0.001 * std::min(first.half.minCoeff(), second.half.minCoeff());
   const auto clearly_less_than = [slack](double overlap) {
     return (overlap < 0.0 ? 1.05 : 0.95) * overlap - slack;
   };

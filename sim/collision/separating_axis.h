@@ -18,15 +18,11 @@ struct MinOverlap {
   double overlap = 0.0;        // m; moving it by more than this separates them; < 0: they are apart
 };
 
-/// Of the shortest half length: by so much a pair of edges must be better than a face.
-inline constexpr double preference_of_faces = 0.001;
-
 /// None when an axis separates the boxes by more than `reach` (m); boxes that touch overlap by 0.
 /// Of axes that are nearly as good a face of the first box is preferred to one of the second, and
 /// either to a pair of edges, so that rounding does not decide between them: of boxes that overlap
-/// `overlap` is at most (smallest + preference * shortest half length) / 0.95 (ERRATA row 51).
+/// `overlap` is at most (smallest + 0.001 * shortest half length) / 0.95 (ERRATA row 51).
 std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second,
-                                           double reach = 0.0,
-                                           double preference = preference_of_faces);
+                                           double reach = 0.0);
 
 }  // namespace pneuma::sim

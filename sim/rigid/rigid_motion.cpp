@@ -5,16 +5,10 @@
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
+namespace {
 
 bool is_cube(const RigidBox& box) {
   return box.size.x() == box.size.y() && box.size.y() == box.size.z();
-}
-
-Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rotation) {
-  const double angle = rotation.norm();
-  if (angle == 0.0) return orientation;
-  return (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * orientation)
-      .normalized();
 }
 
 /// Torque-free rotation: the angular momentum L stays, omega = I^-1 L follows the orientation. The
@@ -41,6 +35,15 @@ void rotate_freely(RigidBox& box, double step) {
   turn(1, 0.5 * step);
   turn(0, 0.5 * step);
   box.angular_velocity = world_inverse_inertia(box) * angular_momentum;
+}
+
+}  // namespace
+
+Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rotation) {
+  const double angle = rotation.norm();
+  if (angle == 0.0) return orientation;
+  return (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * orientation)
+      .normalized();
 }
 
 void move_freely(RigidBox& box, const Vec3& gravity, double step) {

@@ -21,15 +21,8 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rot
 /// fraction rho_g of both velocities per 1/60 s (ERRATA row 35).
 void move_freely(RigidBox& box, const Vec3& gravity, double step);
 
-/// Whether its sides are equally long: then its angular velocity stays, as its momentum does.
-bool is_cube(const RigidBox& box);
-
-/// The orientation after so many seconds without forces, and the angular velocity then.
-void rotate_freely(RigidBox& box, double step);
-
-/// As move_freely, as printed: first v += a t, then p += v t; omega stays, of any box; the global
-/// damping takes rho_g of both velocities in every step, whatever its length (3.1.3, ERRATA row
-/// 68).
+/// The same as printed: first v += a t, then p += v t; omega stays, of any box; the global damping
+/// takes rho_g of both velocities in every step, whatever its length (3.1.3, ERRATA row 68).
 void move_as_printed(RigidBox& box, const Vec3& gravity, double step);
 
 }  // namespace pneuma::sim

@@ -70,7 +70,6 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   }
   is_obstacle_.resize(surfaces_.size());
   is_still_.resize(surfaces_.size());
-  is_apart_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
@@ -91,10 +90,9 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
   is_searched_.assign(surfaces_.size(), 0);
   std::fill_n(is_followed_.begin(), soft_count_, std::uint8_t{0});
   std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
+  find_what_is_still(world);
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
-    const std::size_t body = at(soft_count_ + i);
-    is_followed_[body] = is_apart_[body] == 0 ? 1 : 0;
-    if (is_still_[body] != 0 || is_apart_[body] != 0) continue;
+    if (is_still_[at(soft_count_ + i)] != 0) continue;
     const RigidStart& box = start.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
   }
@@ -113,8 +111,7 @@ void SweptBodies::set_end(const World& world) {
     if (is_followed_[i] != 0 && is_still_[i] == 0) surfaces_[i].end = world.soft[i].positions;
   }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
-    const std::size_t body = at(soft_count_ + i);
-    if (is_still_[body] != 0 || is_apart_[body] != 0) continue;
+    if (is_still_[at(soft_count_ + i)] != 0) continue;
     const RigidBox& box = world.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].end);
   }
@@ -133,8 +130,7 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
   for (VertexArray& changes : changes_) changes.rows().setZero();
   box_changes_.clear();
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const int body = soft_count_ + static_cast<int>(i);
-    if (is_asleep(world, body) || is_apart(body)) {
+    if (is_asleep(world, soft_count_ + static_cast<int>(i))) {
       box_changes_.emplace_back();
       continue;
     }
@@ -158,26 +154,6 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
   surfaces_[at(soft)].start = start.soft[at(soft)].positions;
   surfaces_[at(soft)].end = world.soft[at(soft)].positions;
   refit_way(soft);
-}
-
-/// As it was moved.
-Bounds SweptBodies::bounds_of_apart(const World& world, const MotionStart& start, int body) const {
-  const RigidBox& box = world.rigid[at(this->box(body))];
-  const RigidStart& from = start.rigid[at(this->box(body))];
-  const auto extent = [&](const Eigen::Quaterniond& orientation) -> Vec3 {
-    return orientation.toRotationMatrix().cwiseAbs() * (0.5 * box.size);
-  };
-  const Vec3 before = extent(from.orientation), after = extent(box.orientation);
-  const Vec3 around = Vec3::Constant((1.0 + skins_around) * skin(body));
-  return {(from.position - before).cwiseMin(box.position - after) - around,
-          (from.position + before).cwiseMax(box.position + after) + around};
-}
-
-bool SweptBodies::are_all_apart(const World& world) const {
-  for (int i = 0; i < count(); ++i) {
-    if (!is_apart(i) && !is_fixed(world, i)) return false;
-  }
-  return true;
 }
 
 /// In another search of the step only of what has left its allowance, so that what happens to one
@@ -226,8 +202,6 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
       ways_.push_back(bounds_of_still(world, i));
-    } else if (is_apart(i)) {
-      ways_.push_back(bounds_of_apart(world, start, i));
     } else {
       ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : bounds_of_way(world, start, i));
     }
@@ -236,16 +210,10 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   sweep_and_prune_.find(spheres_, pairs);
   // Boxes are looked at as boxes, over a distance of their own.
   std::erase_if(pairs, [&](const BodyPair& pair) {
-    const bool is_fixed_first = is_apart(pair.first) || is_fixed(world, pair.first);
-    const bool is_fixed_second = is_apart(pair.second) || is_fixed(world, pair.second);
-    if (is_fixed_first && is_fixed_second && (is_apart(pair.first) || is_apart(pair.second))) {
-      return true;
-    }
     return !is_rigid(pair.first) && !overlap(ways_[at(pair.first)], ways_[at(pair.second)]);
   });
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
-      if (is_apart(body)) continue;
       if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);
     }
   }
@@ -258,7 +226,7 @@ bool SweptBodies::is_within_allowance(int body) const {
 
 bool SweptBodies::search_is_valid() const {
   for (int i = 0; i < count(); ++i) {
-    if (is_followed_[at(i)] == 0 || is_apart(i)) continue;
+    if (is_followed_[at(i)] == 0) continue;
     if (!is_within_allowance(i)) return false;
   }
   return true;
@@ -417,8 +385,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
     if (auto failed = move_again(world, start, group, integrate_soft)) return failed;
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const int body = soft_count_ + static_cast<int>(i);
-    if (is_asleep(world, body) || is_apart(body)) continue;
+    if (is_asleep(world, soft_count_ + static_cast<int>(i))) continue;
     RigidStart kicked = start.rigid[i];
     kicked.velocity += to_vec3(box_changes_[i].velocity);
     kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);

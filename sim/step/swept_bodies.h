@@ -40,19 +40,6 @@ class SweptBodies {
   double skin(int body) const { return skins_[at(body)]; }
   double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
 
-  /// Before all else of a step.
-  void find_what_is_still(const World& world);
-  /// m, of a soft body's way through the step, with what it keeps around it.
-  Bounds bounds_of_soft(const World& world, const MotionStart& start, int soft) {
-    return is_still_[at(soft)] != 0 ? bounds_of_still(world, soft)
-                                    : bounds_of_way(world, start, soft);
-  }
-  /// A box that something else has moved through the step (box_islands.h).
-  void set_apart(int body, bool is_apart) { is_apart_[at(body)] = is_apart ? 1 : 0; }
-  bool is_apart(int body) const { return is_apart_[at(body)] != 0; }
-  /// Whether no body is left for swept contacts.
-  bool are_all_apart(const World& world) const;
-
   /// Where the surfaces are at the start of a step, and at its end; of a soft body from when
   /// another body's way may come near its own.
   void set_start(const World& world, const MotionStart& start);
@@ -114,7 +101,7 @@ class SweptBodies {
   Bounds refit_way(int body);
   void refit_anew(int body);
   Bounds root_bounds(int body) const;
-  Bounds bounds_of_apart(const World& world, const MotionStart& start, int body) const;
+  void find_what_is_still(const World& world);
   Bounds bounds_of_still(const World& world, int body);
   void fit_still(const World& world, int body);
   SweptSide pinned_side(const SoftBody& body, const SurfacePoint& point);
@@ -139,7 +126,6 @@ class SweptBodies {
   std::vector<std::uint8_t> is_lone_;      // per body
   std::vector<std::uint8_t> is_obstacle_;  // per body: it never moves
   std::vector<std::uint8_t> is_still_;     // per body: an obstacle, or asleep
-  std::vector<std::uint8_t> is_apart_;     // per body
   std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step

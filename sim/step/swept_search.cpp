@@ -40,7 +40,7 @@ void SweptSearch::find_candidates() {
   m_.candidates.clear();
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
-    if (note_apart(pair) || !may_touch(pair)) continue;
+    if (!may_touch(pair)) continue;
     const std::size_t before = m_.candidates.size();
     if (!offer_near_boxes(pair)) offer_near_features(pair);
     if (m_.candidates.size() == before) continue;
@@ -49,16 +49,6 @@ void SweptSearch::find_candidates() {
     if (is_asleep(world_, pair.second)) m_.touched_asleep.push_back(pair.second);
   }
   if (world_.settings.ground) find_near_ground();
-}
-
-/// Whether one of them has been moved without the other, which it is near.
-bool SweptSearch::note_apart(const BodyPair& bodies) {
-  for (const int body : {bodies.first, bodies.second}) {
-    if (!bodies_.is_apart(body)) continue;
-    m_.touched_apart.push_back(body);
-    return true;
-  }
-  return false;
 }
 
 /// Of two bodies that no impulse moves one must sleep and the other come near it.
@@ -79,7 +69,7 @@ void SweptSearch::offer_near_features(const BodyPair& bodies) {
 
 void SweptSearch::find_near_ground() {
   for (int i = 0; i < bodies_.count(); ++i) {
-    if (bodies_.is_lone(i) || bodies_.is_apart(i) || is_fixed(world_, i)) continue;
+    if (bodies_.is_lone(i) || is_fixed(world_, i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
     const SoftBody* body = bodies_.is_rigid(i) ? nullptr : &world_.soft[at(i)];

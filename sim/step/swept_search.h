@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/boxes/box_islands.h"
 #include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
 #include "sim/response/fall_asleep.h"
@@ -47,18 +46,15 @@ struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
         solver(bodies.count(), static_cast<int>(world.soft.size())),
-        box_islands(world),
         starts(max_halvings + 1),
         fall_asleep(world) {}
 
   SweptBodies bodies;
   SweptSolver solver;
-  BoxIslands box_islands;
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
   std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
-  std::vector<int> touched_apart;   // boxes of an island apart that another body may touch
   std::vector<NearFeatures> found;  // of two bodies
   std::vector<SweptContact> contacts;
   std::vector<SweptImpulse> impulses;        // of the contacts, one each
@@ -129,7 +125,6 @@ class SweptSearch {
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
-  bool note_apart(const BodyPair& bodies);
   bool offer_near_boxes(const BodyPair& bodies);
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;

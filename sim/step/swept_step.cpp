@@ -81,9 +81,6 @@ class SweptStep {
 
   std::optional<Divergence> try_step() {
     if (auto failed = move_freely()) return failed;
-    run_(Stage::resolve_contacts, [&] { move_box_islands(); });
-    if (is_to_be_done_again()) return again();
-    if (has_boxes_ && bodies_.are_all_apart(world_)) return finish_boxes();
     run_(Stage::find_contacts, [&] {
       bodies_.set_start(world_, start());
       bodies_.set_end(world_);
@@ -92,7 +89,7 @@ class SweptStep {
       if (shift_near_boxes(world_, m_, search_, fraction_)) search_.follow_ends();
       search_.start();
     });
-    if (is_to_be_done_again()) return again();
+    if (!m_.touched_asleep.empty()) return touched_asleep();
     std::size_t first_new = 0;  // contact that was not yet solved for
     for (int round = 0; round < max_rounds; ++round) {
       bool collides = false;
@@ -110,7 +107,7 @@ class SweptStep {
       }
       first_new = m_.contacts.size();
       run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
-      if (is_to_be_done_again()) return again();
+      if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
         std::optional<Divergence> divergence;
@@ -121,32 +118,8 @@ class SweptStep {
     return blocked();
   }
 
-  /// What sleeps must wake before the step can be done, and what was moved apart must not be.
-  bool is_to_be_done_again() const {
-    return !m_.touched_asleep.empty() || !m_.touched_apart.empty();
-  }
-  Divergence again() const { return {Stage::find_contacts, world_.steps + 1, {}, {}}; }
-
-  void move_box_islands() {
-    bodies_.find_what_is_still(world_);
-    if (!has_boxes_) return;
-    m_.box_islands.move(world_, start(), bodies_);
-    m_.touched_asleep = m_.box_islands.touched_asleep();
-    if (!m_.touched_asleep.empty()) return;
-    const BoxIslandsMoved& moved = m_.box_islands.moved();
-    m_.work += moved.work;
-    m_.driven_work += moved.driven_work;
-  }
-
-  /// There is nothing else.
-  std::optional<Divergence> finish_boxes() {
-    m_.candidates.clear();
-    m_.contacts.clear();
-    m_.impulses.clear();
-    remember();
-    report();
-    return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
-  }
+  /// What sleeps must wake before the step can be done.
+  Divergence touched_asleep() const { return {Stage::find_contacts, world_.steps + 1, {}, {}}; }
 
   std::optional<Divergence> move_freely() {
     std::optional<Divergence> of_soft, of_rigid;
@@ -327,10 +300,6 @@ class SweptStep {
           {first, second, box.orientation.conjugate() * (contact.first.point - box.position),
            impulse.given()});
     }
-    const auto& of_islands = m_.box_islands.moved().impulses;
-    if (!has_boxes_) return;
-    world_.warm_start_impulses.insert(world_.warm_start_impulses.end(), of_islands.begin(),
-                                      of_islands.end());
   }
 
   /// The contacts that pressed, for those who ask the stepper.
@@ -350,9 +319,6 @@ class SweptStep {
                              .point = contact.first.point,
                              .normal = contact.normal});
     }
-    if (!has_boxes_) return;
-    const auto& of_islands = m_.box_islands.moved().contacts;
-    w_.contacts.insert(w_.contacts.end(), of_islands.begin(), of_islands.end());
   }
 
   /// Those that nothing else can touch.
@@ -394,14 +360,12 @@ class SweptStep {
   StageRunner run_;
   double fraction_ = 1.0;  // of a whole step
   bool was_halved_ = false;
-  bool has_boxes_ = !world_.rigid.empty();
 };
 
-/// Returns whether there was anything.
-bool take_in_what_was_touched(World& world, SweptMemory& memory) {
+/// Returns whether there were any.
+bool wake_what_was_touched(World& world, SweptMemory& memory) {
   for (const int body : memory.touched_asleep) wake(world, body);
-  for (const int body : memory.touched_apart) memory.box_islands.exclude(body);
-  return !memory.touched_asleep.empty() || !memory.touched_apart.empty();
+  return !memory.touched_asleep.empty();
 }
 
 void put_to_sleep(World& world, const MotionStart& start, StepWorkspace& workspace) {
@@ -413,8 +377,6 @@ void put_to_sleep(World& world, const MotionStart& start, StepWorkspace& workspa
       m.islands.push_back(candidate.bodies);
     }
   }
-  const auto& of_boxes = m.box_islands.moved().near_pairs;
-  m.islands.insert(m.islands.end(), of_boxes.begin(), of_boxes.end());
   m.work -= m.fall_asleep.put_to_sleep(world, m.islands, workspace.contacts);
 }
 
@@ -429,13 +391,11 @@ std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
   m.rest = world.rest;
   wake_moving(world);
   if (is_at_rest(world)) return std::nullopt;
-  m.box_islands.begin_step();
   while (true) {
     m.touched_asleep.clear();
-    m.touched_apart.clear();
     SweptStep step(world, workspace);
     const auto divergence = step.advance(0);
-    if (take_in_what_was_touched(world, m)) continue;
+    if (wake_what_was_touched(world, m)) continue;
     if (divergence) {
       world.rest = m.rest;
     } else {

@@ -275,7 +275,8 @@ TEST(RoundTrip, EveryKeyIsPrintedAndChangesTheFingerprint) {
     for (std::size_t k = 0; k < fixed_sections(counted)[s].keys.size(); ++k) {
       Scene scene = default_scene();
       const Section section = fixed_sections(scene)[s];
-      const bool is_zero = section.keys[k].name == "ambient_pressure";  // as jitter, below
+      const std::string_view name = section.keys[k].name;
+      const bool is_zero = name == "ambient_pressure" || name == "orbit";  // as jitter, below
       if (section.keys[k].applies && !is_zero && change(section.keys[k])) note(scene);
     }
   }

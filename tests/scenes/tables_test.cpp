@@ -38,7 +38,7 @@ TEST(Tables, EveryTableIsNearestToItself) {
 TEST(Tables, AHeaderLikeNoneGetsAllThereAre) {
   for (const char* name : {"wavelengths", "x", "", "s", "wa"}) {
     const std::string hint = table_suggestion(name);
-    EXPECT_TRUE(hint.starts_with("; tables: [simulation], [simulation.particles], ")) << hint;
+    EXPECT_TRUE(hint.starts_with("; tables: [simulation], [simulation.potential], ")) << hint;
     EXPECT_NE(hint.find(", [[body]]"), std::string::npos) << hint;
   }
 }

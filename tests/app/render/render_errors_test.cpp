@@ -30,9 +30,10 @@ TEST(Usage, IsTwo) {
 }
 
 TEST(Usage, NamesTheCommandsAndTheNearest) {
-  expect_failure(run_pneuma("frobnicate one_sphere 2>&1"), 2,
-                 {"pneuma: there is no command 'frobnicate'",
-                  "allowed: render, export, plot, compare, bench, study, check, list, doctor"});
+  expect_failure(
+      run_pneuma("frobnicate one_sphere 2>&1"), 2,
+      {"pneuma: there is no command 'frobnicate'",
+       "allowed: render, export, plot, compare, bench, study, sweep, check, list, doctor"});
   expect_failure(run_pneuma("rendre one_sphere 2>&1"), 2,
                  {"no command 'rendre'; did you mean 'render'?"});
 }

@@ -98,9 +98,10 @@ TEST_F(RenderTest, MakesACleanAndAnOverlaySequenceInOneRun) {
   EXPECT_NE(clean["fall_00020.png"], marked["fall_00020.png"]);
   EXPECT_EQ(record()["run"]["overlay"], (json{"wireframe", "contacts"}));
   EXPECT_EQ(record()["frames"][3]["overlay_png_bytes"], both.at("fall_overlay_00013.png").size());
-  // A lost overlay is missed, as a lost frame is.
+  // A lost overlay is drawn again, as a lost frame is.
   fs::remove(out() / "fall_overlay_00013.png");
-  EXPECT_EQ(render("--overlay " + overlay + " --frames 10-20 --resume").exit_code, 6);
+  EXPECT_EQ(render("--overlay " + overlay + " --frames 10-20 --resume").exit_code, 0);
+  EXPECT_EQ(pictures().at("fall_overlay_00013.png"), both.at("fall_overlay_00013.png"));
   EXPECT_EQ(render("--frames 1 --overwrite").exit_code, 0);
   EXPECT_EQ(pictures().size(), 1u);
 }
