@@ -111,7 +111,8 @@ SweepRows gather_chunks(const Sweep& sweep, const std::string& fingerprint,
   std::ranges::sort(paths);
   SweepRows rows;
   for (const fs::path& path : paths) {
-    for (const auto& json : read_chunk(path, fingerprint)["rows"]) {
+    const nlohmann::ordered_json chunk = read_chunk(path, fingerprint);
+    for (const auto& json : chunk["rows"]) {
       SweepRow row = row_of(json);
       const std::int64_t number = row.run;
       if (!rows.emplace(number, std::move(row)).second) {

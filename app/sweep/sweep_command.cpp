@@ -200,7 +200,8 @@ void add_sweep_command(CLI::App& app, Action& action, std::span<const std::strin
   command->add_flag("--keys", typed->keys, "Print the reference of all keys of sweep files");
   add_quiet_option(*command, typed->quiet);
   add_examples(*command,
-               {"pneuma sweep gas_and_springs", "pneuma sweep study.toml --out results --resume",
+               {"pneuma sweep gas_and_springs", "pneuma sweep gas_and_springs --snakemake flow",
+                "pneuma sweep study.toml --out results --resume",
                 "pneuma sweep stability_map --snakemake map",
                 "pneuma sweep stability_map --jobs 0-99 --out map",
                 "pneuma sweep stability_map --gather --out map", "pneuma sweep --keys"});

@@ -30,7 +30,7 @@ position = [0.0, 0.0, 1.05]
 [[body]]
 name = "box"
 kind = "rigid"
-position = [3.0, 0.0, 0.6]
+position = [3.0, 0.0, 1.05]
 """
 
 
@@ -76,7 +76,7 @@ class Module(unittest.TestCase):
         return json.loads(said.stdout)["run"]
 
     def test_a_run_ends_in_the_commands_state(self):
-        for override in ("body.k=80", "simulation.integrator=rk4", "simulation.contact=impulse"):
+        for override in ("body.k=80", "simulation.integrator=rk4", "simulation.contact=impulses"):
             run = self.checked_run("--set", override)
             world = pneuma.load(str(self.scene), set=[override])
             world.step(run["steps"])

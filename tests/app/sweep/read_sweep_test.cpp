@@ -135,7 +135,7 @@ TEST_F(ReadSweep, SaysWhereASlipIsAndWhatIsAllowed) {
        "[1]\n[[parameter]]\nkey = "
        "\"body.k\"\nvalues = [2]\n",
        "5:1: 'body.k' is varied already"},
-      {"scenes = [\"fall.toml\"\n", "2:"},
+      {"scenes = [\"fall.toml\"\n", "1:23: Error while parsing array"},
   };
   for (const Slip& slip : slips) {
     const std::string error = error_of(slip.text);
