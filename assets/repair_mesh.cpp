@@ -210,7 +210,8 @@ std::vector<std::string> turn_longest_edges(NumberedMesh& mesh, double min_heigh
     const auto d =
         std::ranges::find_if(triangles[at(other)], [&](int v) { return v != a && v != b; });
     const int opposite = *d;
-    if (at_edge.contains(key(c, opposite))) continue;
+    // Two triangles of the same corners have no other edge to turn to.
+    if (opposite == c || at_edge.contains(key(c, opposite))) continue;
     places.push_back(triangle_place(mesh, static_cast<int>(t)));
     triangles[t] = {a, opposite, c};
     triangles[at(other)] = {opposite, b, c};
