@@ -7,7 +7,7 @@
 
 #include "app/picture/build_frame.h"
 #include "app/render/log/resume.h"
-#include "app/render/reference.h"
+#include "app/render/reference_pictures.h"
 #include "app/terminal/frame_range.h"
 #include "app/terminal/grid_size.h"
 #include "app/world/model_scene.h"
@@ -28,7 +28,7 @@ struct RenderRequest {
   std::optional<GridSize> sheet;
   std::string video;  // file; empty: none
   int turntable = 0;  // pictures of the last frame alone, from all around; 0: those of the run
-  Reference reference;
+  ReferencePictures reference;
   std::optional<render::Backend> backend;
   int threads = 1;
   bool quiet = false;

@@ -21,7 +21,6 @@
 namespace pneuma::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using render::Vec3f;
 
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");

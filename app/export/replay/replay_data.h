@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/export/replay/recording.h"
+#include "app/record/ordered_json.h"
 
 namespace pneuma::app {
 
@@ -13,7 +13,7 @@ namespace pneuma::app {
 /// holds deflated: u8, u16, u32, f32 (little-endian) or `differences` (quantise.h) of u16 rows.
 /// `header["lattice"]` says how far from the simulation's a position may be.
 struct ReplayData {
-  nlohmann::ordered_json header;
+  Json header;
   std::vector<std::uint8_t> bytes;
 };
 

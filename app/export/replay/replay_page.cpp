@@ -15,8 +15,6 @@
 namespace pneuma::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string html_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

@@ -4,13 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
-namespace pneuma::app {
+#include "app/record/ordered_json.h"
 
-using Json = nlohmann::ordered_json;
+namespace pneuma::app {
 
 /// What a journal says, up to the first line that is torn or not JSON.
 struct JournalContents {

@@ -82,16 +82,17 @@ std::string trials_csv(const StabilityStudy& study) {
 }
 
 nlohmann::json stability_json(const StabilityStudy& study) {
-  using Json = nlohmann::json;
-  Json points = Json::array(), limits = Json::array();
+  nlohmann::json points = nlohmann::json::array(), limits = nlohmann::json::array();
   for (const StabilityPoint& point : study.points) {
     points.push_back(
         {{"integrator", integrator_name(point.integrator)},
          {"varied", point.varied},
          {"value", point.value},
-         {"stable_step_s", point.stable_rate ? Json(*point.stable_step()) : Json()},
+         {"stable_step_s",
+          point.stable_rate ? nlohmann::json(*point.stable_step()) : nlohmann::json()},
          {"unlimited", point.unlimited()},
-         {"predicted_step_s", point.predicted_step ? Json(*point.predicted_step) : Json()}});
+         {"predicted_step_s",
+          point.predicted_step ? nlohmann::json(*point.predicted_step) : nlohmann::json()}});
   }
   for (const StiffnessLimit& limit : study.limits) {
     limits.push_back({{"integrator", integrator_name(limit.integrator)},

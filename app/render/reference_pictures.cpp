@@ -1,4 +1,4 @@
-#include "app/render/reference.h"
+#include "app/render/reference_pictures.h"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ double mean_difference(const std::string& ours, const std::string& theirs) {
 }  // namespace
 
 ExitCode compare_with_reference(const RunFolder& run, std::int64_t first, std::int64_t last,
-                                const Reference& reference) {
+                                const ReferencePictures& reference) {
   std::int64_t beyond = 0;
   std::int64_t worst = first;
   double most = -1.0;

@@ -9,7 +9,7 @@
 
 namespace pneuma::app {
 
-struct Reference {
+struct ReferencePictures {
   std::string folder;      // with pictures of the same names; empty: none
   double threshold = 0.0;  // mean difference over all channels of a picture, 0..255
 };
@@ -18,6 +18,6 @@ struct Reference {
 /// furthest. Returns check_failed if there are any. Throws base::IoError for a picture that is
 /// missing or of another size.
 ExitCode compare_with_reference(const RunFolder& run, std::int64_t first, std::int64_t last,
-                                const Reference& reference);
+                                const ReferencePictures& reference);
 
 }  // namespace pneuma::app
