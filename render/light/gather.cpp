@@ -9,6 +9,9 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float far_away = 3.0f;  // radii of the body from its centre to the receivers
+// Radii of a group. Its bodies take up to (r / d)^2 of the hemisphere, and by where in the group
+// they are less or more by the order of that squared.
+constexpr float far_from_group = 4.0f;
 
 /// The part of the hemisphere that a disc of the area A takes, at a distance d:
 /// A cos(r) cos(e) / (pi d^2 + A), with the angles at receiver and element (GPU Gems 2, 14.3). A
@@ -42,6 +45,8 @@ void add_element(const Element& element, Receivers& to) {
 struct Ball {
   Vec3f centre;
   float radius;
+
+  float distance_to(const Vec3f& point) const { return (point - centre).norm() - radius; }
 };
 
 Ball around(const Receivers& receivers) {
@@ -50,6 +55,14 @@ Ball around(const Receivers& receivers) {
     box.grow({receivers.x[i], receivers.y[i], receivers.z[i]});
   }
   return {box.centre(), 0.5f * (box.max - box.min).norm()};
+}
+
+void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) {
+  if (ball.distance_to(body.whole.centre) > far_away * body.radius) {
+    add_element<true>(body.whole, receivers);
+    return;
+  }
+  for (const Element& element : body.elements) add_element<false>(element, receivers);
 }
 
 }  // namespace
@@ -73,13 +86,23 @@ void Receivers::add(const Vec3f& position, const Vec3f& normal) {
 
 void gather(std::span<const BodyElements> bodies, Receivers& receivers) {
   const Ball ball = around(receivers);
-  for (const BodyElements& body : bodies) {
-    const float distance = (body.whole.centre - ball.centre).norm() - ball.radius;
-    if (distance > far_away * body.radius) {
-      add_element<true>(body.whole, receivers);
+  for (const BodyElements& body : bodies) add_body(body, ball, receivers);
+}
+
+void gather(const BodyTree& tree, Receivers& receivers) {
+  const std::span<const BodyTree::Group> groups = tree.groups();
+  if (groups.empty()) return gather(tree.bodies(), receivers);
+  const Ball ball = around(receivers);
+  for (std::size_t i = 0; i < groups.size();) {
+    const BodyTree::Group& group = groups[i];
+    if (group.is_one()) {
+      add_body(tree.bodies()[group.body], ball, receivers);
+    } else if (ball.distance_to(group.whole.centre) > far_from_group * group.radius) {
+      add_element<true>(group.whole, receivers);
+      i = group.after;
       continue;
     }
-    for (const Element& element : body.elements) add_element<false>(element, receivers);
+    ++i;
   }
 }
 

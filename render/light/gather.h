@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/light/body_tree.h"
 #include "render/light/elements.h"
 
 namespace pneuma::render {
@@ -29,6 +30,8 @@ struct Receivers {
 
 /// Adds what the bodies take and send. A body that is far away for its size counts as a ball.
 void gather(std::span<const BodyElements> bodies, Receivers& receivers);
+/// Likewise, and so does a group of bodies.
+void gather(const BodyTree& bodies, Receivers& receivers);
 
 /// Fractions that add up where several elements lie behind each other never exceed one: nearly x
 /// where it is small, 1 from far beyond.

@@ -12,9 +12,10 @@ void IndirectLighting::take_bodies(const std::vector<Mesh>& meshes, const Vec3f&
     const Shape& shape = shape_of(mesh.shape);
     std::vector<Vec3f> own;
     for (const Colour& colour : mesh.colours) own.push_back(to_linear(colour));
-    bodies_.push_back(
+    bodies_.add(
         elements_of(mesh, own.empty() ? shape.albedo : own, shape.patches, to_light, is_lit));
   }
+  bodies_.build();
 }
 
 void IndirectLighting::light(const DrawnSurface& surface, const FloorLeft& floor_left,

@@ -20,7 +20,7 @@ class IndirectLighting {
  public:
   /// Makes the elements of a frame's bodies.
   void take_bodies(const std::vector<Mesh>& meshes, const Vec3f& to_light, const IsLit& is_lit);
-  std::span<const BodyElements> bodies() const { return bodies_; }
+  const BodyTree& bodies() const { return bodies_; }
 
   /// One light for each lit vertex of the same frame. `floor_left` is empty without a ground.
   void light(const DrawnSurface& surface, const FloorLeft& floor_left,
@@ -38,7 +38,7 @@ class IndirectLighting {
                    const FloorLeft& floor_left, std::vector<IndirectLight>& light);
 
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
-  std::vector<BodyElements> bodies_;
+  BodyTree bodies_;
   Receivers receivers_;
 };
 

@@ -91,7 +91,7 @@ GroundShadow::GroundShadow()
 }
 
 void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
-                        std::span<const BodyElements> bodies, const DrawnSurface& surface) {
+                        const BodyTree& bodies, const DrawnSurface& surface) {
   picture_to_map_.setIdentity();
   picture_to_map_(0, 0) = picture_to_map_(1, 1) = static_cast<float>(size) / inner;
   picture_to_map_(0, 3) = picture_to_map_(1, 3) = -static_cast<float>(margin) / inner;
@@ -109,7 +109,7 @@ void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const 
   blur(cover_, wide_step, size);
   blur(soft_cover_, wide_step, size);
   measure_openness(bodies);
-  if (bodies.empty()) {  // surfaces take no light of each other
+  if (bodies.bodies().empty()) {  // surfaces take no light of each other
     contact_.assign(std::size_t{contact_size} * contact_size, 0.0f);
   } else {
     measure_contact(surface);
@@ -187,7 +187,7 @@ void GroundShadow::blur(Picture& picture, float step, int side) {
   }
 }
 
-void GroundShadow::measure_openness(std::span<const BodyElements> bodies) {
+void GroundShadow::measure_openness(const BodyTree& bodies) {
   const auto coordinate = [](int point) {
     return (static_cast<float>(point) + 0.5f) / static_cast<float>(points);
   };

@@ -36,7 +36,7 @@ class GroundShadow {
 
   /// After `map` has been drawn and its depths read.
   void draw(const ShadowMap& map, const ShadowDepths& depths, const Vec3f& to_light,
-            std::span<const BodyElements> bodies, const DrawnSurface& surface);
+            const BodyTree& bodies, const DrawnSurface& surface);
 
   /// The texture: what is left of the ground's colour, in sRGB.
   void bind(GLuint unit) const;
@@ -59,7 +59,7 @@ class GroundShadow {
   void measure_cover(const ShadowMap& map, const ShadowDepths& depths);
   /// `side`: texels on a side of the picture.
   void blur(Picture& picture, float step, int side);
-  void measure_openness(std::span<const BodyElements> bodies);
+  void measure_openness(const BodyTree& bodies);
   void measure_contact(const DrawnSurface& surface);
   float openness_at(int x, int y) const;
   void add_up();

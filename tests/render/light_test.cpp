@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "render/context/context.h"
 #include "render/light/contact_shade.h"
@@ -86,6 +87,42 @@ TEST(Gather, TakesNothingOfAConvexBodyFromItself) {
     EXPECT_LT(receivers.above[0] + receivers.below[0], 0.02f);
   }
 }
+
+/// A crowd of balls around an empty middle.
+BodyTree crowd(int balls) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> place(-60.0f, 60.0f);
+  BodyTree tree;
+  while (tree.bodies().size() < static_cast<std::size_t>(balls)) {
+    const Vec3f centre(place(random), place(random), place(random));
+    if (centre.norm() > 3.0f) tree.add(ball_elements(centre));
+  }
+  tree.build();
+  return tree;
+}
+
+TEST(Gather, OfACrowdInGroupsIsThatOfAllItsBodies) {
+  const BodyTree tree = crowd(400);
+  ASSERT_FALSE(tree.groups().empty());
+  const auto taken = [&](const auto& bodies) {
+    Receivers receivers;
+    receivers.begin(3);
+    for (int axis = 0; axis < 3; ++axis) receivers.add(Vec3f::Unit(axis), Vec3f::Unit(axis));
+    gather(bodies, receivers);
+    return receivers;
+  };
+  const Receivers grouped = taken(tree), one_by_one = taken(tree.bodies());
+  // Groups are off by the square of a quarter of their part of the light, at most, and on average
+  // by far less.
+  for (int i = 0; i < 3; ++i) {
+    const float all = one_by_one.above[i] + one_by_one.below[i];
+    EXPECT_GT(all, 0.03f);
+    EXPECT_NEAR(grouped.above[i] + grouped.below[i], all, 0.02f * all);
+    EXPECT_NEAR(grouped.green[i], one_by_one.green[i], 0.02f * one_by_one.green[i]);
+  }
+}
+
+TEST(Gather, OfFewBodiesHasNoGroups) { EXPECT_TRUE(crowd(20).groups().empty()); }
 
 TEST(LeftAt, IsAFractionHoweverMuchIsTaken) {
   Receivers receivers;
