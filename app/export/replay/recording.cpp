@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "app/picture/overlay.h"
+#include "render/geometry/rounding.h"
 
 namespace pneuma::app {
 
@@ -24,6 +25,10 @@ void Recorder::add(const Simulation& simulation) {
   RecordedFrame frame;
   for (const render::Mesh& mesh : drawn.meshes) {
     frame.positions.insert(frame.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    if (mesh.room.empty()) continue;
+    const std::vector<float> shares =
+        render::bulge_shares(mesh.shape->triangles, mesh.positions, mesh.normals, mesh.room);
+    frame.shares.insert(frame.shares.end(), shares.begin(), shares.end());
   }
   render::Frame overlay;
   add_particles(world, contacts, overlay);

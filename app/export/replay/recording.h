@@ -14,6 +14,7 @@ namespace pneuma::app {
 
 struct RecordedFrame {
   std::vector<render::Vec3f> positions;  // m, of the vertices of all meshes, one after the other
+  std::vector<float> shares;  // of its bulge, 0..1, at each vertex of the meshes drawn rounded
   std::vector<render::Point> particles;  // as `--show particles` draws them
   std::vector<render::Point> contacts;   // as `--show contacts` does
   std::vector<render::Line> normals;     // of the contacts

@@ -86,6 +86,16 @@ void add_positions(const Recording& recording, const Lattice& lattice, Streams& 
   streams.add_differences("positions", values, 3 * recording.frames.front().positions.size());
 }
 
+/// In 255ths, rounded down: what does not cross is not drawn crossing.
+void add_shares(const Recording& recording, Streams& streams) {
+  std::vector<std::uint8_t> values;
+  for (const RecordedFrame& frame : recording.frames) {
+    for (const float share : frame.shares)
+      values.push_back(static_cast<std::uint8_t>(255.0f * share));
+  }
+  streams.add("shares", values);
+}
+
 /// Colours and sizes of discs, of which there are few.
 class Looks {
  public:
@@ -163,7 +173,8 @@ Json meshes_json(const Recording& recording, Streams& streams) {
     meshes.push_back({{"shape", known->second},
                       {"vertices", mesh.positions.size()},
                       {"roughness", mesh.roughness},
-                      {"smooth", !mesh.normals.empty()}});
+                      {"smooth", !mesh.normals.empty()},
+                      {"rounded", !mesh.room.empty()}});
   }
   return meshes;
 }
@@ -222,6 +233,7 @@ Json scenery_json(const Recording& recording) {
           {"light", vector_json<Json>(first.light.direction)},
           {"softness", first.light.softness},
           {"shadows", first.light.shadows},
+          {"between_bodies", first.light.between_bodies},
           {"grid_spacing", ground ? Json(ground->grid_spacing) : Json()}};
 }
 
@@ -258,6 +270,7 @@ ReplayData replay_data(const Recording& recording, std::size_t allowed_bytes) {
             {"shaders", shaders_json()},
             {"meshes", meshes_json(recording, streams)}};
   add_positions(recording, lattice, streams);
+  add_shares(recording, streams);
   add_points("particles", recording, &RecordedFrame::particles, lattice, looks, streams);
   add_points("contacts", recording, &RecordedFrame::contacts, lattice, looks, streams);
   add_normals(recording, streams);

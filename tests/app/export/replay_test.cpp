@@ -7,9 +7,11 @@
 #include "app/export/replay/replay_data.h"
 #include "app/export/sink/bytes.h"
 #include "app/host/errors.h"
+#include "app/picture/build_frame.h"
 #include "app/world/build_world.h"
 #include "app/world/scene_catalogue.h"
 #include "app/world/simulation.h"
+#include "render/geometry/rounding.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/mesh/measure.h"
 #include "tests/app/export/read_replay.h"
@@ -122,6 +124,36 @@ TEST_F(ReplayTest, HasTheContactsAndParticlesOfEachFrame) {
   EXPECT_GT(at, 0u) << "nothing touches: the scene tests nothing";
   EXPECT_GT(particles, 0u);
   EXPECT_GE(replay.series<std::uint8_t>("particles_looks").size(), particles);  // and white discs
+}
+
+TEST_F(ReplayTest, SaysHowFarBodiesAreDrawnRounded) {
+  ASSERT_EQ(run_export("").exit_code, 0);
+  const ReadReplay replay(page());
+  const auto shares = replay.series<std::uint8_t>("shares");
+  const scenes::Scene loaded = scenes::load_scene(scene());
+  Simulation simulation(loaded, build_world(loaded), 1);
+  const FrameBuilder builder(loaded, simulation.world(), {});
+  std::size_t at = 0;
+  std::size_t held = 0;
+  for (int frame = 0; frame < replay.header["frames"].get<int>(); ++frame) {
+    for (const render::Mesh& mesh : builder.build(simulation.world()).meshes) {
+      if (mesh.room.empty()) continue;  // the box
+      const std::vector<float> share =
+          render::bulge_shares(mesh.shape->triangles, mesh.positions, mesh.normals, mesh.room);
+      for (const float expected : share) {
+        const float read = static_cast<float>(shares.at(at++)) / 255.0f;
+        EXPECT_LE(read, expected);
+        EXPECT_GT(read, expected - 1.0f / 255.0f);
+        if (expected < 1.0f) ++held;
+      }
+    }
+    simulation.advance_frame();
+  }
+  EXPECT_EQ(at, shares.size());
+  EXPECT_GT(held, 0u) << "nothing is near: the scene tests nothing";
+
+  ASSERT_EQ(run_export("--overwrite --frames 2 --set picture.rounded=false").exit_code, 0);
+  EXPECT_TRUE(ReadReplay(page()).series<std::uint8_t>("shares").empty());
 }
 
 TEST_F(ReplayTest, NeedsNothingButItself) {

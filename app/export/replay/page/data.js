@@ -28,6 +28,7 @@ class Recording {
     this.vertexCount = header.meshes.reduce((sum, mesh) => sum + mesh.vertices, 0);
     this.quantised = this.stream("positions");
     this.positions = new Float32Array(3 * this.vertexCount);
+    this.shares = this.stream("shares");
     this.particles = this.readMarks("particles");
     this.contacts = this.readMarks("contacts");
     this.normals = this.stream("contacts_normals");
@@ -52,15 +53,15 @@ class Recording {
     return { begins, places: this.stream(name + "_places"), looks: this.stream(name + "_looks") };
   }
 
-  // All meshes as one: smooth and flat triangles, edges, and the vertices' colours with
-  // their roughness.
+  // Each mesh with its triangles, by its own vertices' numbers; of all meshes as one the triangles of smooth ones, the
+  // edges, and the vertices' colours with their roughness.
   joinMeshes() {
-    const smooth = [], flat = [], edges = [];
+    const smooth = [], edges = [];
     this.materials = new Float32Array(4 * this.vertexCount);
     let first = 0;
-    for (const mesh of this.header.meshes) {
-      const triangles = mesh.smooth ? smooth : flat;
-      for (const v of this.stream(mesh.shape + "_triangles")) triangles.push(first + v);
+    this.meshes = this.header.meshes.map((mesh) => {
+      const triangles = this.stream(mesh.shape + "_triangles");
+      if (mesh.smooth) for (const v of triangles) smooth.push(first + v);
       for (const v of this.stream(mesh.shape + "_edges")) edges.push(first + v);
       const colours = Float32Array.from(this.stream(mesh.shape + "_colours"), toLinear);
       for (let v = 0; v < mesh.vertices; ++v) {
@@ -68,9 +69,9 @@ class Recording {
         this.materials[4 * (first + v) + 3] = mesh.roughness;
       }
       first += mesh.vertices;
-    }
+      return { ...mesh, first: first - mesh.vertices, triangles };
+    });
     this.smooth = Uint32Array.from(smooth);
-    this.flat = Uint32Array.from(flat);
     this.edges = Uint32Array.from(edges);
   }
 
@@ -89,6 +90,12 @@ class Recording {
   positionsAt(frame) {
     const count = 3 * this.vertexCount;
     return this.place(this.quantised, frame * count, (frame + 1) * count, this.positions);
+  }
+
+  // Of the bulge, at the vertices of all meshes that are drawn rounded, in 255ths.
+  sharesAt(frame) {
+    const count = this.shares.length / this.frameCount;
+    return this.shares.subarray(frame * count, (frame + 1) * count);
   }
 
   // Discs of a frame: [{position, colour, diameter}].

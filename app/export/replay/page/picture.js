@@ -23,109 +23,98 @@ class Picture {
     this.gl = gl;
     this.canvas = canvas;
     this.recording = recording;
-    this.scenery = recording.header.scenery;
-    const { shaders } = recording.header;
-    this.toLight = normalize(scale(this.scenery.light, -1));
-    this.shadows = new Shadows(gl, this.scenery, shaders);
-    this.backdrop = new Program(gl, { vertex: fullScreenVertex, fragment: backdropFragment }, shaders.look);
+    const { scenery, shaders } = recording.header;
+    this.scenery = scenery;
+    this.hasGround = scenery.grid_spacing !== null;
+    this.toLight = normalize(scale(scenery.light, -1));
+    this.surface = new Surface(recording);
+    if (scenery.shadows) {
+      this.map = new ShadowMap(gl, scenery);
+      if (scenery.between_bodies) this.between = new BetweenBodies(gl, recording, this.surface, shaders);
+      // Light along the ground or from below throws no shadow on it.
+      if (this.hasGround && this.toLight[2] > 0.05) this.groundShadow = new GroundShadow(gl, shaders);
+    }
+    this.backdrop = new FullScreen(gl, backdropFragment, shaders.look);
     this.ground = new Program(gl, shaders.ground, shaders.look + shaders.nearness);
     this.groundDepth = new Program(gl, groundDepth);
-    const shadowed = this.scenery.shadows ? ["SHADOWED"] : [];
-    this.smooth = new Program(gl, shaders.surface, shaders.look, ["SMOOTH", ...shadowed]);
-    this.flat = new Program(gl, shaders.surface, shaders.look, shadowed);
+    this.surfaces = new Program(gl, shaders.surface, shaders.look,
+      scenery.shadows ? ["SMOOTH", "SHADOWED"] : ["SMOOTH"]);
     this.discs = new Program(gl, shaders.disc);
     this.lines = new Program(gl, shaders.line);
-    this.nothing = gl.createVertexArray();
     this.groundVertices = new Vertices(gl, [2]);
     this.discVertices = new Vertices(gl, [3, 3, 1], 1);
     this.lineVertices = new Vertices(gl, [3, 3, 3, 1], 1);
-    this.makeMeshes();
+    this.makeBuffers();
   }
 
-  makeMeshes() {
+  // As render/passes/surface_buffers.cpp.
+  makeBuffers() {
     const gl = this.gl;
-    const { materials, smooth, flat, vertexCount } = this.recording;
-    this.normals = new Float32Array(3 * vertexCount);
-    this.meshes = gl.createVertexArray();
-    gl.bindVertexArray(this.meshes);
-    const attribute = (location, data, size = 3) => {
-      const buffer = gl.createBuffer();
+    this.vertices = gl.createVertexArray();
+    gl.bindVertexArray(this.vertices);
+    const attribute = (location, size, buffer, stride = 0, offset = 0) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      if (data) gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
       gl.enableVertexAttribArray(location);
-      gl.vertexAttribPointer(location, size, gl.FLOAT, false, 0, 0);
+      gl.vertexAttribPointer(location, size, gl.FLOAT, false, stride, offset);
       return buffer;
     };
-    this.positionBuffer = attribute(0);
-    this.normalBuffer = attribute(1);
-    attribute(2, materials, 4);
-    // Light between bodies is left out: nothing comes from them, and all of sky and ground is seen.
-    gl.vertexAttrib3f(3, 0, 0, 0);
-    gl.vertexAttrib2f(4, 1, 1);
-    const indices = new Uint32Array(smooth.length + flat.length);
-    indices.set(smooth);
-    indices.set(flat, smooth.length);
+    this.positionBuffer = attribute(0, 3, gl.createBuffer());
+    this.normalBuffer = attribute(1, 3, gl.createBuffer());
+    attribute(2, 4, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, this.surface.materials, gl.STATIC_DRAW);
+    if (this.between) {
+      attribute(3, 3, this.between.pointLight, 20, 0);
+      attribute(4, 2, this.between.pointLight, 20, 12);
+    } else {  // nothing comes from other bodies, and all of sky and ground is seen
+      gl.vertexAttrib3f(3, 0, 0, 0);
+      gl.vertexAttrib2f(4, 1, 1);
+    }
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.surface.triangles, gl.STATIC_DRAW);
     gl.bindVertexArray(null);
   }
 
-  // Each vertex's from the areas of the triangles around it.
-  findNormals(positions) {
-    const { normals, recording: { smooth } } = this;
-    normals.fill(0);
-    for (let t = 0; t < smooth.length; t += 3) {
-      const [a, b, c] = [3 * smooth[t], 3 * smooth[t + 1], 3 * smooth[t + 2]];
-      const ux = positions[b] - positions[a], vx = positions[c] - positions[a];
-      const uy = positions[b + 1] - positions[a + 1], vy = positions[c + 1] - positions[a + 1];
-      const uz = positions[b + 2] - positions[a + 2], vz = positions[c + 2] - positions[a + 2];
-      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      for (const v of [a, b, c]) {
-        normals[v] += x;
-        normals[v + 1] += y;
-        normals[v + 2] += z;
-      }
-    }
-    for (let v = 0; v < normals.length; v += 3) {
-      const length = Math.hypot(normals[v], normals[v + 1], normals[v + 2]) || 1;
-      for (let axis = 0; axis < 3; ++axis) normals[v + axis] /= length;
-    }
-  }
-
-  load(frame) {
-    const gl = this.gl;
-    const positions = this.recording.positionsAt(frame);
-    this.findNormals(positions);
-    this.casters = boxAround(positions);
+  // All of a frame that does not depend on the camera.
+  load(frame, rounded) {
+    const { gl, recording, surface, map, between, groundShadow } = this;
+    const positions = recording.positionsAt(frame);
+    surface.place(positions, rounded ? recording.sharesAt(frame) : null, this.hasGround);
+    this.casters = boxAround(surface.positions);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.positionBuffer);
-    gl.bufferData(gl.ARRAY_BUFFER, positions, gl.STREAM_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, surface.positions, gl.STREAM_DRAW);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.normalBuffer);
-    gl.bufferData(gl.ARRAY_BUFFER, this.normals, gl.STREAM_DRAW);
-    this.loaded = frame;
+    gl.bufferData(gl.ARRAY_BUFFER, surface.normals, gl.STREAM_DRAW);
+    if (!map) return;
+    map.draw(() => this.drawTriangles(), this.casters);
+    between?.takeBodies(positions, map);
+    groundShadow?.draw(map, between, () => this.drawAll());
+    between?.lightSurface(groundShadow);
   }
 
-  drawMeshes(begin, count) {
-    const gl = this.gl;
-    gl.bindVertexArray(this.meshes);
-    if (count > 0) gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 4 * begin);
+  drawTriangles() {
+    this.gl.bindVertexArray(this.vertices);
+    this.gl.drawElements(this.gl.TRIANGLES, this.surface.triangles.length, this.gl.UNSIGNED_INT, 0);
+  }
+
+  // The triangles, and also their corners.
+  drawAll() {
+    this.drawTriangles();
+    this.gl.drawArrays(this.gl.POINTS, 0, this.surface.positions.length / 3);
   }
 
   draw(frame, camera, show) {
-    const { gl, canvas, scenery, recording } = this;
-    if (this.loaded !== frame) this.load(frame);
+    const { gl, canvas, recording } = this;
+    // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
+    const rounded = !show.wireframe && !show.particles && !show.contacts;
+    if (this.loaded !== frame || this.rounded !== rounded) this.load(frame, rounded);
+    Object.assign(this, { loaded: frame, rounded });
     const view = camera.view(canvas.width, canvas.height, this.casters);
-    const groundSeen = scenery.grid_spacing !== null && view.eye[2] > 0;
-    const groundShadow = scenery.shadows && scenery.grid_spacing !== null && this.toLight[2] > 0.05;
-    if (scenery.shadows) {
-      const all = recording.smooth.length + recording.flat.length;
-      this.shadows.drawMap(() => this.drawMeshes(0, all), this.casters);
-      if (groundShadow) this.shadows.drawGroundShadow();
-    }
+    const groundSeen = this.hasGround && view.eye[2] > 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    this.drawBackdrop(view);
+    this.backdrop.draw({ picture_height: view.height });
     if (groundSeen) this.drawGround(view);
-    if (groundSeen && groundShadow) this.shadows.darkenGround(view);
+    if (groundSeen) this.groundShadow?.darken(view);
     this.drawSurfaces(view, groundSeen);
     if (show.wireframe) this.drawLines(view, this.edgesOf(), 0.7);
     if (show.contacts) this.drawLines(view, recording.normalsAt(frame).map((line) => ({ ...line, width: 1.5 })), 1);
@@ -133,15 +122,6 @@ class Picture {
     if (show.particles) points.push(...recording.marksAt(recording.particles, frame));
     if (show.contacts) points.push(...recording.marksAt(recording.contacts, frame));
     if (points.length > 0) this.drawDiscs(view, points);
-  }
-
-  drawBackdrop(view) {
-    const gl = this.gl;
-    gl.disable(gl.BLEND);
-    gl.disable(gl.DEPTH_TEST);
-    this.backdrop.use({ picture_height: view.height });
-    gl.bindVertexArray(this.nothing);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
   groundPlaces(view) {
@@ -158,7 +138,7 @@ class Picture {
   }
 
   drawSurfaces(view, groundSeen) {
-    const { gl, shadows, recording: { smooth, flat } } = this;
+    const { gl, map } = this;
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LESS);
@@ -171,17 +151,14 @@ class Picture {
       gl.colorMask(true, true, true, true);
     }
     const values = { view_projection: view.viewProjection, eye: view.eye, to_light: this.toLight };
-    if (this.scenery.shadows) {
-      bindTexture(gl, 0, shadows.depth, shadows.comparing);
-      Object.assign(values, { map: 0, world_to_map: shadows.worldToMap,
-        edge: Math.min(0.5 * shadows.edge, 2.2 / shadowSize) });
+    if (map) {
+      bindTexture(gl, 0, map.depth, map.comparing);
+      Object.assign(values, { map: 0, world_to_map: map.worldToMap, edge: Math.min(0.5 * map.edge, 2.2 / shadowSize) });
     }
     gl.enable(gl.CULL_FACE);
     gl.cullFace(gl.BACK);
-    this.smooth.use(values);
-    this.drawMeshes(0, smooth.length);
-    this.flat.use(values);
-    this.drawMeshes(smooth.length, flat.length);
+    this.surfaces.use(values);
+    this.drawTriangles();
     gl.disable(gl.CULL_FACE);
   }
 

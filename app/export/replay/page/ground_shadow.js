@@ -1,0 +1,216 @@
+// The shadow on the ground, and how near bodies come to it. As render/passes/ground_shadow.cpp and
+// render/light/contact_shade.cpp, but that shaders make the pictures.
+
+const groundSize = 192;  // texels on a side of the shadow's picture
+const groundMargin = 24;
+const groundInner = groundSize - 2 * groundMargin;  // the shadow map's
+const groundLevels = Math.floor(Math.log2(groundSize)) + 1;  // each of half as many texels a side
+const opennessSize = groundSize / 4;
+const contactSize = groundSize / 2;
+
+// Red: how much of the light is blocked. Green: that times how soft the shadow is to be.
+const coverFragment = `uniform sampler2D depths;
+uniform vec3 ground;
+uniform float softness;
+out vec4 cover;
+void main() {
+  ivec2 texel = ivec2(gl_FragCoord.xy) - ${groundMargin};
+  cover = vec4(0.0, 0.0, 0.0, 1.0);
+  if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(${groundInner})))) return;
+  ivec2 from = texel * ${shadowSize} / ${groundInner};
+  ivec2 to = (texel + 1) * ${shadowSize} / ${groundInner};
+  float nearest = 1.0;
+  float sum = 0.0;
+  for (int y = from.y; y < to.y; ++y) {
+    for (int x = from.x; x < to.x; ++x) {
+      float depth = texelFetch(depths, ivec2(x, y), 0).r;
+      nearest = min(nearest, depth);
+      if (depth < 1.0) sum += 1.0;
+    }
+  }
+  float fraction = sum / float((to.x - from.x) * (to.y - from.y));
+  float below = dot(ground, vec3((vec2(texel) + 0.5) / ${groundInner}.0, 1.0)) - nearest;
+  cover.rg = vec2(fraction, fraction * clamp(below * softness, 0.0, 1.0));
+}`;
+
+// Nine binomial weights, `stride` apart.
+const blurFragment = `in vec2 at;
+uniform sampler2D picture;
+uniform vec2 stride;
+out vec4 blurred;
+void main() {
+  float weights[5] = float[5](70.0, 56.0, 28.0, 8.0, 1.0);
+  vec4 sum = texture(picture, at) * weights[0];
+  for (int i = 1; i < 5; ++i) {
+    vec2 away = stride * float(i);
+    sum += (texture(picture, at + away) + texture(picture, at - away)) * weights[i];
+  }
+  blurred = sum / 256.0;
+}`;
+
+// How much of the sky is seen from points on the ground.
+const opennessFragment = `in vec2 at;
+uniform vec2 origin;
+uniform vec2 along_u;
+uniform vec2 along_v;
+out vec4 open;
+void main() {
+  vec2 place = origin + at.x * along_u + at.y * along_v;
+  open = vec4(left_at(vec3(place, 0.0), vec3(0.0, 0.0, 1.0)).open_to.x);
+}`;
+
+// How near the lowest surface above each texel is: 1 where it touches. Blended by the maximum.
+const nearnessShaders = {
+  vertex: `layout(location = 0) in vec3 position;
+uniform mat4 world_to_picture;
+out float height;
+void main() {
+  height = max(position.z, 0.0);
+  gl_Position = vec4((world_to_picture * vec4(position.xy, 0.0, 1.0)).xy * 2.0 - 1.0, 0.0, 1.0);
+  gl_PointSize = 1.0;
+}`,
+  fragment: `in float height;
+uniform float reach;
+out vec4 nearness;
+void main() {
+  float left = max(1.0 - height / reach, 0.0);
+  nearness = vec4(left * left);
+}`,
+};
+
+// What is left of the ground's colour, in sRGB; alpha: of its light, about the luminance.
+const leftFragment = `in vec2 at;
+uniform sampler2D narrow;
+uniform sampler2D wide;
+uniform sampler2D openness;
+uniform sampler2D contact;
+uniform float light_z;
+out vec4 result;
+void main() {
+  vec4 w = texture(wide, at);
+  float blocked = clamp(mix(texture(narrow, at).r, w.r, w.g / max(w.r, 0.004)), 0.0, 1.0);
+  float open = min(1.0, texture(openness, at).r + 0.03) *
+    (1.0 - 0.9 * texelFetch(contact, ivec2(gl_FragCoord.xy) / 2, 0).r);
+  vec3 direct = sun * light_z;
+  vec3 sky_part = sky_irradiance(1.0) / (sky_irradiance(1.0) + direct);
+  vec3 left = sky_part * open + (1.0 - sky_part) * (1.0 - blocked);
+  result = vec4(pow(left, vec3(1.0 / 2.2)), left.g);
+}`;
+
+// How much of its light the ground below a point has left. As GroundShadow::left_below.
+const leftBelowFunction = `uniform sampler2D ground_left;
+uniform mat4 world_to_picture;
+uniform float texel;  // m; 0 without a shadow on the ground
+float left_below(vec3 position) {
+  if (texel == 0.0) return 1.0;
+  vec2 at = (world_to_picture * vec4(position.xy, 0.0, 1.0)).xy;
+  if (any(lessThanEqual(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))) return 1.0;
+  float level = clamp(log2(max(2.0 * position.z / texel, 1.0)), 0.0, ${groundLevels - 2}.0);
+  return textureLod(ground_left, at, level).a;
+}
+`;
+
+const leftBelowValues = (shadow) => shadow ? { world_to_picture: shadow.worldToPicture, texel: shadow.texel }
+  : { texel: 0 };
+
+class GroundShadow {
+  constructor(gl, shaders) {
+    this.gl = gl;
+    this.cover = new FullScreen(gl, coverFragment);
+    this.blur = new FullScreen(gl, blurFragment);
+    this.findOpenness = new FullScreen(gl, opennessFragment, gatherFunctions);
+    this.nearness = new Program(gl, nearnessShaders);
+    this.left = new FullScreen(gl, leftFragment, shaders.look);
+    this.onGround = new Program(gl, shaders.ground_shadow, shaders.nearness);
+    this.quad = new Vertices(gl, [2]);
+    [this.raw, this.between, this.narrow, this.wide] = [1, 2, 3, 4].map(() => drawnPicture(gl, groundSize));
+    this.openness = drawnPicture(gl, opennessSize);
+    this.contact = drawnPicture(gl, contactSize);
+    this.contactBetween = drawnPicture(gl, contactSize);
+    this.result = drawnPicture(gl, groundSize, groundLevels);
+    this.sharp = gl.createSampler();  // of the result, for the ground
+    gl.samplerParameteri(this.sharp, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    for (const side of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.samplerParameteri(this.sharp, side, gl.CLAMP_TO_EDGE);
+  }
+
+  // After the map has been drawn. `between`: the light between bodies, if there is any; `drawSurface` draws triangles
+  // and their corners.
+  draw(map, between, drawSurface) {
+    const gl = this.gl;
+    this.fit(map);
+    this.measureCover(map);
+    this.measureContact(between ? drawSurface : null);
+    this.measureOpenness(between);
+    this.result.begin();
+    this.left.draw({ light_z: map.toLight[2] }, { narrow: this.narrow.texture, wide: this.wide.texture,
+      openness: this.openness.texture, contact: this.contact.texture });
+    gl.bindTexture(gl.TEXTURE_2D, this.result.texture);
+    gl.generateMipmap(gl.TEXTURE_2D);
+  }
+
+  fit(map) {
+    const inner = groundInner / groundSize, margin = groundMargin / groundSize;
+    this.texel = map.extent / groundInner;
+    const units = [map.units[0] / inner, map.units[1] / inner, map.units[2]];
+    this.worldToPicture = affine(map.axes.map((axis, i) => scale(axis, 1 / units[i])),
+      [map.offset[0] * inner + margin, map.offset[1] * inner + margin, map.offset[2]]);
+    this.corner = (u, v) => map.onGround((u - margin) / inner, (v - margin) / inner);
+  }
+
+  measureCover(map) {
+    const normal = map.axes.map((axis, i) => axis[2] * map.units[i]);
+    const ground = [-normal[0] / normal[2], -normal[1] / normal[2], dot(normal, map.offset) / normal[2]];
+    this.raw.begin();
+    this.cover.draw({ ground, softness: map.range / (0.35 * map.extent) }, { depths: map.depth });
+    const wide = 0.4 * map.edge * groundInner;
+    this.blurInto(this.narrow, this.raw, this.between, Math.min(0.5 * wide, 1));
+    this.blurInto(this.wide, this.narrow, this.between, wide);
+  }
+
+  // Upwards, then across.
+  blurInto(target, source, between, texels) {
+    between.begin();
+    this.blur.draw({ stride: [0, texels / source.width] }, { picture: source.texture });
+    target.begin();
+    this.blur.draw({ stride: [texels / source.width, 0] }, { picture: between.texture });
+  }
+
+  measureContact(drawSurface) {
+    const gl = this.gl;
+    this.contact.begin();
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    if (!drawSurface) return;
+    gl.disable(gl.DEPTH_TEST);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE);
+    gl.blendEquation(gl.MAX);
+    this.nearness.use({ world_to_picture: this.worldToPicture, reach: 7 * this.texel });
+    drawSurface();
+    gl.blendEquation(gl.FUNC_ADD);
+    this.blurInto(this.contact, this.contact, this.contactBetween, 1.3);
+  }
+
+  measureOpenness(between) {
+    this.openness.begin();
+    if (!between) {
+      this.gl.clearColor(1, 1, 1, 1);
+      this.gl.clear(this.gl.COLOR_BUFFER_BIT);
+      return;
+    }
+    const origin = this.corner(0, 0);
+    const [alongU, alongV] = [this.corner(1, 0), this.corner(0, 1)].map((corner) => subtract(corner, origin));
+    this.findOpenness.draw({ ...between.values, origin, along_u: alongU, along_v: alongV }, between.textures);
+  }
+
+  darken(view) {
+    const gl = this.gl;
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ZERO, gl.SRC_COLOR);
+    gl.disable(gl.DEPTH_TEST);
+    bindTexture(gl, 0, this.result.texture, this.sharp);
+    this.onGround.use({ view_projection: view.viewProjection, world_to_map: this.worldToPicture, shadow: 0,
+      centre: view.target.slice(0, 2), radius: view.groundRadius });
+    this.quad.draw(gl.TRIANGLE_STRIP, [[0, 0], [1, 0], [0, 1], [1, 1]].flatMap(([u, v]) => this.corner(u, v)));
+  }
+}

@@ -1,0 +1,227 @@
+// The light on surfaces that does not come from the sun. As render/light/elements.cpp, gather.cpp and indirect.cpp,
+// but that shaders add it up.
+
+// What each element sends, over pi.
+const sentFragment = `uniform sampler2D discs;
+uniform sampler2D depths;
+uniform mat4 world_to_map;
+uniform vec3 to_light;
+out uvec4 sent;
+
+bool is_lit(vec3 point) {
+  vec3 in_map = (world_to_map * vec4(point, 1.0)).xyz;
+  int side = textureSize(depths, 0).x;
+  ivec2 texel = clamp(ivec2(in_map.xy * float(side)), 0, side - 1);
+  return texelFetch(depths, texel, 0).r >= in_map.z;
+}
+
+void main() {
+  const float usually_open = 0.75;
+  ivec2 element = ivec2(gl_FragCoord.xy);
+  vec3 centre = texelFetch(discs, ivec2(3 * element.x, element.y), 0).xyz;
+  vec3 normal = texelFetch(discs, ivec2(3 * element.x + 1, element.y), 0).xyz;
+  vec3 albedo = texelFetch(discs, ivec2(3 * element.x + 2, element.y), 0).xyz;
+  vec3 light = usually_open * (sky_irradiance(normal.z) + floor_light * (0.5 - 0.5 * normal.z));
+  float facing = dot(normal, to_light);
+  if (facing > 0.0 && is_lit(centre)) light += facing * sun;
+  sent = uvec4(floatBitsToUint(albedo * light), 0u);
+}`;
+
+// What the ball in a body's place sends.
+const ballFragment = `uniform sampler2D discs;
+uniform sampler2D balls;
+uniform usampler2D sent;
+out uvec4 sent_by_ball;
+
+void main() {
+  int body = int(gl_FragCoord.y);
+  int count = int(texelFetch(balls, ivec2(1, body), 0).y);
+  vec3 sum = vec3(0.0);
+  float area = 0.0;
+  for (int i = 0; i < count; ++i) {
+    float of_element = texelFetch(discs, ivec2(3 * i, body), 0).w;
+    sum += of_element * uintBitsToFloat(texelFetch(sent, ivec2(i, body), 0).rgb);
+    area += of_element;
+  }
+  sent_by_ball = uvec4(floatBitsToUint(sum / max(area, 1e-12)), 0u);
+}`;
+
+const gatherFunctions = `uniform sampler2D discs;
+uniform sampler2D balls;
+uniform usampler2D sent;
+uniform usampler2D sent_by_ball;
+uniform int body_count;
+
+const float far_away = 3.0;  // radii of the body from its centre
+
+struct Gathered {
+  float above;
+  float below;
+  vec3 sent;
+};
+
+struct Left {
+  vec3 bounced;
+  vec2 open_to;
+};
+
+// \`at_element\`: the distance times the cosine there.
+void add_element(inout Gathered sum, vec3 normal, vec3 away, float squared, float at_element, float area,
+                 uvec4 radiosity) {
+  float taken = area * max(dot(normal, away), 0.0) * at_element / (squared * (3.14159265 * squared + area));
+  float above = taken * clamp(1e6 * away.z, 0.0, 1.0);
+  sum.above += above;
+  sum.below += taken - above;
+  sum.sent += taken * uintBitsToFloat(radiosity.rgb);
+}
+
+Gathered gather(vec3 position, vec3 normal) {
+  Gathered sum = Gathered(0.0, 0.0, vec3(0.0));
+  for (int body = 0; body < body_count; ++body) {
+    vec4 ball = texelFetch(balls, ivec2(0, body), 0);
+    vec2 more = texelFetch(balls, ivec2(1, body), 0).xy;
+    vec3 away = ball.xyz - position;
+    float squared = dot(away, away) + 1e-9;
+    if (squared > far_away * far_away * ball.w * ball.w) {
+      add_element(sum, normal, away, squared, sqrt(squared), more.x, texelFetch(sent_by_ball, ivec2(0, body), 0));
+      continue;
+    }
+    for (int i = 0; i < int(more.y); ++i) {
+      vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
+      away = disc.xyz - position;
+      float at_element = max(-dot(texelFetch(discs, ivec2(3 * i + 1, body), 0).xyz, away), 0.0);
+      add_element(sum, normal, away, dot(away, away) + 1e-9, at_element, disc.w, texelFetch(sent, ivec2(i, body), 0));
+    }
+  }
+  return sum;
+}
+
+float at_most_one(float x) { return x / pow(1.0 + x * x * x, 1.0 / 3.0); }
+
+Left left_at(vec3 position, vec3 normal) {
+  Gathered sum = gather(position, normal);
+  float sky = max(0.5 + 0.5 * normal.z, 0.02);
+  float below = max(0.5 - 0.5 * normal.z, 0.02);
+  float all = sum.above + sum.below;
+  float part = all > 0.0 ? at_most_one(all) / all : 0.0;
+  return Left(part * sum.sent, vec2(1.0 - at_most_one(sum.above / sky), 1.0 - at_most_one(sum.below / below)));
+}
+`;
+
+const litFragment = `uniform sampler2D lit;
+out uvec4 light;
+
+void main() {
+  ivec2 receiver = ivec2(gl_FragCoord.xy);
+  vec3 position = texelFetch(lit, ivec2(2 * receiver.x, receiver.y), 0).xyz;
+  vec3 normal = texelFetch(lit, ivec2(2 * receiver.x + 1, receiver.y), 0).xyz;
+  Left left = left_at(position, normal);
+  left.open_to.y *= left_below(position);
+  light = uvec4(floatBitsToUint(left.bounced), packUnorm2x16(left.open_to));
+}`;
+
+// From one light per lit vertex, one per point. As DrawnSurface::spread.
+const spreadShaders = {
+  vertex: `layout(location = 0) in uvec3 corners;
+layout(location = 1) in vec3 weights;
+uniform usampler2D light;
+out vec3 bounced;
+out vec2 open_to;
+
+void main() {
+  bounced = vec3(0.0);
+  open_to = vec2(0.0);
+  for (int i = 0; i < 3; ++i) {
+    int number = int(corners[i]);
+    uvec4 words = texelFetch(light, ivec2(number % ${receiversPerRow}, number / ${receiversPerRow}), 0);
+    bounced += weights[i] * uintBitsToFloat(words.rgb);
+    open_to += weights[i] * unpackUnorm2x16(words.a);
+  }
+  gl_Position = vec4(0.0);
+}`,
+  fragment: "void main() {}",
+};
+
+class BetweenBodies {
+  constructor(gl, recording, surface, shaders) {
+    Object.assign(this, { gl, surface });
+    this.elements = new Elements(recording);
+    const { columns, bodies: { length: bodies } } = this.elements;
+    this.discs = new FloatTable(gl, 3 * columns, bodies);
+    this.balls = new FloatTable(gl, 2, bodies);
+    this.sent = drawnBits(gl, columns, bodies);
+    this.sentByBall = drawnBits(gl, 1, bodies);
+    this.findSent = new FullScreen(gl, sentFragment, shaders.look);
+    this.findSentByBall = new FullScreen(gl, ballFragment);
+    const rows = surface.lit.length / (8 * receiversPerRow);
+    this.lit = new FloatTable(gl, 2 * receiversPerRow, rows);
+    this.light = drawnBits(gl, receiversPerRow, rows);
+    this.findLight = new FullScreen(gl, litFragment, gatherFunctions + leftBelowFunction);
+    this.makeSpread();
+  }
+
+  makeSpread() {
+    const { gl, surface } = this;
+    this.spread = new Program(gl, spreadShaders, "", [], ["bounced", "open_to"]);
+    this.feedback = gl.createTransformFeedback();
+    this.points = gl.createVertexArray();
+    gl.bindVertexArray(this.points);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, surface.corners, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribIPointer(0, 3, gl.UNSIGNED_INT, 0, 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, surface.weights, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(1);
+    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 0);
+    gl.bindVertexArray(null);
+    this.pointLight = gl.createBuffer();  // bounced light and openness of each point
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.pointLight);
+    gl.bufferData(gl.ARRAY_BUFFER, 4 * 5 * surface.corners.length / 3, gl.DYNAMIC_COPY);
+    gl.bindBuffer(gl.ARRAY_BUFFER, null);
+  }
+
+  // After the map has been drawn. `positions`: of the vertices.
+  takeBodies(positions, map) {
+    const { elements, discs, balls } = this;
+    elements.measure(positions);
+    discs.load(elements.discs);
+    balls.load(elements.balls);
+    this.sent.begin();
+    this.findSent.draw({ world_to_map: map.worldToMap, to_light: map.toLight },
+      { discs: discs.texture, depths: map.depth });
+    this.sentByBall.begin();
+    this.findSentByBall.draw({}, { discs: discs.texture, balls: balls.texture, sent: this.sent.texture });
+  }
+
+  // What gatherFunctions read.
+  get textures() {
+    return { discs: this.discs.texture, balls: this.balls.texture, sent: this.sent.texture,
+      sent_by_ball: this.sentByBall.texture };
+  }
+
+  get values() { return { body_count: this.elements.bodies.length }; }
+
+  // Into `pointLight`. `groundShadow`: null where there is none.
+  lightSurface(groundShadow) {
+    const { gl, surface } = this;
+    this.lit.load(surface.lit);
+    this.light.begin();
+    this.findLight.draw({ ...this.values, ...leftBelowValues(groundShadow) },
+      { ...this.textures, lit: this.lit.texture, ground_left: groundShadow?.result.texture ?? null });
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);  // what is read next may not be what is drawn to
+    gl.bindVertexArray(this.points);
+    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, this.feedback);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, this.pointLight);
+    bindTexture(gl, 0, this.light.texture);
+    this.spread.use({ light: 0 });
+    gl.enable(gl.RASTERIZER_DISCARD);
+    gl.beginTransformFeedback(gl.POINTS);
+    gl.drawArrays(gl.POINTS, 0, surface.corners.length / 3);
+    gl.endTransformFeedback();
+    gl.disable(gl.RASTERIZER_DISCARD);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);
+    gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, null);
+    gl.bindVertexArray(null);
+  }
+}
