@@ -23,6 +23,7 @@ void Recorder::add(const Simulation& simulation) {
   const auto& contacts = simulation.stepper().contacts();
   render::Frame drawn = builder_.build(world);
   RecordedFrame frame;
+  frame.camera = drawn.camera;
   for (const render::Mesh& mesh : drawn.meshes) {
     frame.positions.insert(frame.positions.end(), mesh.positions.begin(), mesh.positions.end());
     if (mesh.room.empty()) continue;

@@ -13,6 +13,7 @@
 namespace pneuma::app {
 
 struct RecordedFrame {
+  render::Camera camera;
   std::vector<render::Vec3f> positions;  // m, of the vertices of all meshes, one after the other
   std::vector<float> shares;  // of its bulge, 0..1, at each vertex of the meshes drawn rounded
   std::vector<render::Point> particles;  // as `--show particles` draws them
@@ -30,8 +31,8 @@ struct Recording {
   int frames_per_second = 0;
   int steps_per_frame = 0;
   float aspect = 1.0f;  // width over height of the scene's pictures
-  /// The first frame as the renderer is handed it, for all that stays the same: camera, light,
-  /// ground, shapes of the meshes.
+  /// The first frame as the renderer is handed it, for all that stays the same: light, ground,
+  /// shapes of the meshes.
   render::Frame first;
   std::vector<RecordedFrame> frames;
 };

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "app/export/replay/quantise.h"
 #include "app/host/errors.h"
@@ -179,6 +180,24 @@ Json meshes_json(const Recording& recording, Streams& streams) {
   return meshes;
 }
 
+/// Eye and target of each frame, unless the camera stays where it is.
+void add_cameras(const Recording& recording, Streams& streams) {
+  const auto place = [](const RecordedFrame& frame) {
+    return std::pair(frame.camera.eye, frame.camera.target);
+  };
+  std::vector<float> values;
+  if (!std::ranges::all_of(recording.frames, [&](const RecordedFrame& frame) {
+        return place(frame) == place(recording.frames.front());
+      })) {
+    for (const RecordedFrame& frame : recording.frames) {
+      for (const Vec3f& point : {frame.camera.eye, frame.camera.target}) {
+        values.insert(values.end(), point.begin(), point.end());
+      }
+    }
+  }
+  streams.add("cameras", values);
+}
+
 using Number = std::function<double(const RecordedFrame&)>;
 
 /// What is plotted over time: a plot, and its lines.
@@ -271,6 +290,7 @@ ReplayData replay_data(const Recording& recording, std::size_t allowed_bytes) {
             {"meshes", meshes_json(recording, streams)}};
   add_positions(recording, lattice, streams);
   add_shares(recording, streams);
+  add_cameras(recording, streams);
   add_points("particles", recording, &RecordedFrame::particles, lattice, looks, streams);
   add_points("contacts", recording, &RecordedFrame::contacts, lattice, looks, streams);
   add_normals(recording, streams);

@@ -93,6 +93,18 @@ TEST_F(LongBrowser, DrawsParticlesAndContacts) {
   EXPECT_EQ(said, "");
 }
 
+TEST_F(LongBrowser, FollowsACameraThatMoves) {
+  const std::string camera =
+      "--set camera.eye=[0,-30,14] --set camera.target=[0,0,3] --set camera.orbit=90";
+  export_page("two_spheres_contact --frames 41 " + camera);
+  std::string said;
+  const render::Image turned = shown("two_spheres_contact.html", "frame=40&bare=640x480", said);
+  expect_alike(turned, rendered("two_spheres_contact", 40, camera));
+  const render::Image first = shown("two_spheres_contact.html", "frame=0&bare=640x480", said);
+  EXPECT_GT(render::compare_images(turned, first, 24).fraction_beyond, 0.02) << "it stays";
+  EXPECT_EQ(said, "");
+}
+
 TEST_F(LongBrowser, ShowsThePlayer) {
   export_page("one_sphere --frames 40");
   std::string said;

@@ -1,5 +1,6 @@
 // `pneuma export --format html`: the page holds the run that the simulation makes.
 #include <cmath>
+#include <numbers>
 
 #include "app/export/exported_mesh.h"
 #include "app/export/replay/quantise.h"
@@ -154,6 +155,26 @@ TEST_F(ReplayTest, SaysHowFarBodiesAreDrawnRounded) {
 
   ASSERT_EQ(run_export("--overwrite --frames 2 --set picture.rounded=false").exit_code, 0);
   EXPECT_TRUE(ReadReplay(page()).series<std::uint8_t>("shares").empty());
+}
+
+TEST_F(ReplayTest, HasTheWayOfACameraThatMoves) {
+  const std::string still = "--set camera.eye=[3,-9,4] --set camera.target=[1,0,2]";
+  ASSERT_EQ(run_export("--frames 13-21 --set camera.orbit=90 " + still).exit_code, 0);
+  const ReadReplay moving(page());
+  const auto cameras = moving.series<float>("cameras");
+  ASSERT_EQ(cameras.size(), 6u * 9u);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double angle =
+        0.5 * std::numbers::pi * (13.0 + static_cast<double>(i)) /
+        moving.header["frames_per_second"].get<double>();  // from above, anticlockwise
+    EXPECT_NEAR(cameras[6 * i], 1.0 + 2.0 * std::cos(angle) + 9.0 * std::sin(angle), 1e-5);
+    EXPECT_NEAR(cameras[6 * i + 1], 2.0 * std::sin(angle) - 9.0 * std::cos(angle), 1e-5);
+    EXPECT_EQ(cameras[6 * i + 2], 4.0f);
+    EXPECT_EQ(cameras[6 * i + 3], 1.0f);
+    EXPECT_EQ(cameras[6 * i + 5], 2.0f);
+  }
+  ASSERT_EQ(run_export("--overwrite --frames 2 " + still).exit_code, 0);
+  EXPECT_TRUE(ReadReplay(page()).series<float>("cameras").empty());
 }
 
 TEST_F(ReplayTest, NeedsNothingButItself) {

@@ -39,15 +39,24 @@ function boxAround(positions) {
   return box;
 }
 
+// Where the recording has it, until somebody takes hold of it.
 class Camera {
-  constructor(scenery) {
-    this.scenery = scenery;
+  constructor(recording) {
+    this.recording = recording;
+    this.scenery = recording.header.scenery;
     this.reset();
   }
 
   reset() {
-    this.target = [...this.scenery.target];
-    const away = subtract(this.scenery.eye, this.target);
+    this.held = false;
+    this.follow(0);
+  }
+
+  follow(frame) {
+    if (this.held) return;
+    const { eye, target } = this.recording.cameraAt(frame);
+    this.target = [...target];
+    const away = subtract(eye, target);
     this.distance = norm(away);
     this.azimuth = Math.atan2(away[1], away[0]);
     this.elevation = Math.asin(away[2] / this.distance);
@@ -67,11 +76,13 @@ class Camera {
 
   // By radians.
   orbit(right, up) {
+    this.held = true;
     this.azimuth -= right;
     this.elevation = Math.min(1.55, Math.max(-1.55, this.elevation + up));
   }
 
   zoom(factor) {
+    this.held = true;
     const nearest = 0.02, farthest = 50;  // of the scene's own distance
     const usual = norm(subtract(this.scenery.eye, this.scenery.target));
     this.distance = Math.min(farthest * usual, Math.max(nearest * usual, this.distance * factor));
@@ -79,6 +90,7 @@ class Camera {
 
   // By fractions of the picture's height.
   shift(right, up, aspect) {
+    this.held = true;
     const height = 2 * this.distance * this.slope(aspect);
     const [x, y] = this.axes();
     this.target = add(this.target, add(scale(x, -right * height), scale(y, -up * height)));

@@ -29,6 +29,7 @@ class Recording {
     this.quantised = this.stream("positions");
     this.positions = new Float32Array(3 * this.vertexCount);
     this.shares = this.stream("shares");
+    this.cameras = this.stream("cameras");
     this.particles = this.readMarks("particles");
     this.contacts = this.readMarks("contacts");
     this.normals = this.stream("contacts_normals");
@@ -96,6 +97,13 @@ class Recording {
   sharesAt(frame) {
     const count = this.shares.length / this.frameCount;
     return this.shares.subarray(frame * count, (frame + 1) * count);
+  }
+
+  // The scene's own: {eye, target}.
+  cameraAt(frame) {
+    if (this.cameras.length === 0) return this.header.scenery;
+    const numbers = [...this.cameras.subarray(6 * frame, 6 * frame + 6)];
+    return { eye: numbers.slice(0, 3), target: numbers.slice(3) };
   }
 
   // Discs of a frame: [{position, colour, diameter}].

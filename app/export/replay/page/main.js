@@ -8,7 +8,7 @@ const speeds = [0.1, 0.25, 0.5, 1, 2, 4];
 class Player {
   constructor(recording) {
     this.recording = recording;
-    this.camera = new Camera(recording.header.scenery);
+    this.camera = new Camera(recording);
     this.picture = new Picture(element("picture"), recording);
     this.frame = 0;
     this.speed = 1;
@@ -132,6 +132,7 @@ class Player {
     const { recording, frame } = this;
     fitPixels(element("picture"));
     const show = Object.fromEntries(["particles", "contacts", "wireframe"].map((id) => [id, element(id).checked]));
+    this.camera.follow(frame);
     this.picture.draw(frame, this.camera, show);
     element("plots").hidden = !element("graphs").checked;
     for (const plot of this.plots) plot.draw(frame);
