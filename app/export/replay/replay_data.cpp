@@ -87,12 +87,17 @@ void add_positions(const Recording& recording, const Lattice& lattice, Streams& 
   streams.add_differences("positions", values, 3 * recording.frames.front().positions.size());
 }
 
-/// In 255ths, rounded down: what does not cross is not drawn crossing.
+/// Finer steps would not be seen, and make the page of many bodies that touch larger.
+constexpr float share_steps = 31.0f;
+
+/// One vertex after the other, as most of them keep theirs; rounded down, so that what does not
+/// cross is not drawn crossing.
 void add_shares(const Recording& recording, Streams& streams) {
   std::vector<std::uint8_t> values;
-  for (const RecordedFrame& frame : recording.frames) {
-    for (const float share : frame.shares)
-      values.push_back(static_cast<std::uint8_t>(255.0f * share));
+  for (std::size_t v = 0; v < recording.frames.front().shares.size(); ++v) {
+    for (const RecordedFrame& frame : recording.frames) {
+      values.push_back(static_cast<std::uint8_t>(share_steps * frame.shares[v]));
+    }
   }
   streams.add("shares", values);
 }
@@ -285,6 +290,7 @@ ReplayData replay_data(const Recording& recording, std::size_t allowed_bytes) {
               {"step", lattice.step},
               {"extent", lattice.extent},
               {"max_error", 0.5 * lattice.step}}},
+            {"share_steps", share_steps},
             {"scenery", scenery_json(recording)},
             {"shaders", shaders_json()},
             {"meshes", meshes_json(recording, streams)}};

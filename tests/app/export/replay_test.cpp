@@ -134,23 +134,25 @@ TEST_F(ReplayTest, SaysHowFarBodiesAreDrawnRounded) {
   const scenes::Scene loaded = scenes::load_scene(scene());
   Simulation simulation(loaded, build_world(loaded), 1);
   const FrameBuilder builder(loaded, simulation.world(), {});
-  std::size_t at = 0;
+  const auto frames = replay.header["frames"].get<std::size_t>();
+  const auto steps = replay.header["share_steps"].get<float>();
   std::size_t held = 0;
-  for (int frame = 0; frame < replay.header["frames"].get<int>(); ++frame) {
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    std::size_t vertex = 0;
     for (const render::Mesh& mesh : builder.build(simulation.world()).meshes) {
       if (mesh.room.empty()) continue;  // the box
       const std::vector<float> share =
           render::bulge_shares(mesh.shape->triangles, mesh.positions, mesh.normals, mesh.room);
       for (const float expected : share) {
-        const float read = static_cast<float>(shares.at(at++)) / 255.0f;
-        EXPECT_LE(read, expected);
-        EXPECT_GT(read, expected - 1.0f / 255.0f);
+        const float read = static_cast<float>(shares.at(vertex++ * frames + frame)) / steps;
+        EXPECT_LE(read, expected + 1e-6f);
+        EXPECT_GE(read, expected - 1.0f / steps - 1e-6f);
         if (expected < 1.0f) ++held;
       }
     }
+    EXPECT_EQ(vertex * frames, shares.size());
     simulation.advance_frame();
   }
-  EXPECT_EQ(at, shares.size());
   EXPECT_GT(held, 0u) << "nothing is near: the scene tests nothing";
 
   ASSERT_EQ(run_export("--overwrite --frames 2 --set picture.rounded=false").exit_code, 0);

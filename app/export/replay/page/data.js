@@ -93,10 +93,11 @@ class Recording {
     return this.place(this.quantised, frame * count, (frame + 1) * count, this.positions);
   }
 
-  // Of the bulge, at the vertices of all meshes that are drawn rounded, in 255ths.
+  // Of the bulge, 0 to 1, at the vertices of all meshes that are drawn rounded.
   sharesAt(frame) {
-    const count = this.shares.length / this.frameCount;
-    return this.shares.subarray(frame * count, (frame + 1) * count);
+    const { shares, frameCount, header } = this;
+    return Float32Array.from({ length: shares.length / frameCount },
+      (unused, v) => shares[v * frameCount + frame] / header.share_steps);
   }
 
   // The scene's own: {eye, target}.

@@ -115,7 +115,7 @@ class Surface {
     return mixed;
   }
 
-  // `positions`: of the vertices. `shares`: in 255ths; null where nothing is rounded. `ground`: whether there is any.
+  // `positions`: of the vertices. `shares`: of the bulge; null where nothing is rounded. `ground`: whether there is any.
   place(positions, shares, ground) {
     this.findVertexNormals(positions);
     this.placeLit(positions, shares);
@@ -149,7 +149,7 @@ class Surface {
       }
       lit[at + 3] = 0;
     }
-    if (shares) this.sharing.forEach((i, number) => { lit[8 * i + 3] = shares[number] / 255; });
+    if (shares) this.sharing.forEach((i, number) => { lit[8 * i + 3] = shares[number]; });
     for (const first of this.flat) {
       const place = (i) => lit.subarray(8 * (first + i), 8 * (first + i) + 3);
       const across = cross([...subtract(place(1), place(0))], [...subtract(place(2), place(0))]);
