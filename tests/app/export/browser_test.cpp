@@ -1,7 +1,9 @@
 // The replay page in a real browser: it draws what the program's own renderer draws, and nothing
 // goes wrong.
 #include "app/host/find_program.h"
+#include "app/world/scene_catalogue.h"
 #include "render/image/compare.h"
+#include "tests/app/export/read_replay.h"
 #include "tests/app/render/rendered_run.h"
 
 namespace pneuma::app {
@@ -40,6 +42,15 @@ class LongBrowser : public testing::Test {
     return upper_left(render::read_png(picture.string()));
   }
 
+  /// What the browser shows after `script` has done to the opened page what its user may do.
+  render::Image shown_after(const std::string& script, const std::string& page,
+                            const std::string& wishes, std::string& said) const {
+    write_text(folder_ / "used.html",
+               read_text(folder_ / page) +
+                   fmt::format("<script>setTimeout(() => {{ {} }}, 5000)</script>\n", script));
+    return shown("used.html", wishes + "&bare=640x480", said);
+  }
+
   /// Of the window, which is larger than the picture in it.
   static render::Image upper_left(const render::Image& window) {
     render::Image part{640, 480, {}};
@@ -51,7 +62,7 @@ class LongBrowser : public testing::Test {
   }
 
   render::Image rendered(const std::string& scene, int frame, const std::string& options) const {
-    const std::string name = fmt::format("pictures{}{}", frame, options.size());
+    const std::string name = fmt::format("{}{}{}", scene, frame, options.size());
     const ProgramResult result = run_pneuma(fmt::format(
         "render {} --frames {}-{} --size 640x480 --set picture.caption=false --out '{}' {} 2>&1",
         scene, frame, frame, (folder_ / name).string(), options));
@@ -84,6 +95,23 @@ TEST_F(LongBrowser, DrawsWhatTheRendererDraws) {
   EXPECT_EQ(said, "");
 }
 
+TEST_F(LongBrowser, DrawsEveryPaperSceneAtThreeTimes) {
+  for (const std::filesystem::path& scene : scenes_of_the_paper()) {
+    const std::string name = scene.stem().string();
+    SCOPED_TRACE(name);
+    export_page(name + " --set picture.caption=false");
+    const int last =
+        ReadReplay(read_text(folder_ / (name + ".html"))).header["frames"].get<int>() - 1;
+    std::string said;
+    for (const int frame : {0, last / 2, last}) {
+      SCOPED_TRACE(frame);
+      expect_alike(shown(name + ".html", fmt::format("frame={}&bare=640x480", frame), said),
+                   rendered(name, frame, ""));
+    }
+    EXPECT_EQ(said, "");
+  }
+}
+
 TEST_F(LongBrowser, DrawsParticlesAndContacts) {
   export_page("two_spheres_contact --frames 31");
   std::string said;
@@ -102,6 +130,41 @@ TEST_F(LongBrowser, FollowsACameraThatMoves) {
   expect_alike(turned, rendered("two_spheres_contact", 40, camera));
   const render::Image first = shown("two_spheres_contact.html", "frame=0&bare=640x480", said);
   EXPECT_GT(render::compare_images(turned, first, 24).fraction_beyond, 0.02) << "it stays";
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(LongBrowser, CanBeScrubbedAndToggled) {
+  export_page("two_spheres_contact --frames 41");
+  const std::string page = "two_spheres_contact.html";
+  const std::string scrub =
+      "element('frame').value = 30; element('frame').dispatchEvent(new Event('input'));";
+  const std::string press_p = "dispatchEvent(new KeyboardEvent('keydown', {key: 'p'}));";
+  std::string said;
+  const render::Image plain = rendered("two_spheres_contact", 30, "");
+  const render::Image particles = rendered("two_spheres_contact", 30, "--show particles");
+  EXPECT_GT(render::compare_images(plain, particles, 24).fraction_beyond, 0.01);
+  expect_alike(shown_after(scrub, page, "frame=0", said), plain);
+  expect_alike(shown_after("element('particles').click();", page, "frame=30", said), particles);
+  expect_alike(shown_after(scrub + press_p, page, "frame=0", said), particles);
+  expect_alike(shown_after(press_p + press_p, page, "frame=30", said), plain);
+  EXPECT_EQ(said, "");
+}
+
+TEST_F(LongBrowser, LeavesTheCameraToWhoTakesHoldOfIt) {
+  const std::string still = "--set camera.eye=[0,-30,14] --set camera.target=[0,0,3] ";
+  export_page("two_spheres_contact --frames 41 --set camera.orbit=90 " + still);
+  const std::string page = "two_spheres_contact.html";
+  const std::string take =
+      "element('picture').dispatchEvent(new WheelEvent('wheel', {deltaY: 1e-9}));";
+  const std::string go_on =
+      "element('frame').value = 40; element('frame').dispatchEvent(new Event('input'));";
+  std::string said;
+  expect_alike(shown_after(take + go_on, page, "frame=0", said),
+               rendered("two_spheres_contact", 40, still));
+  expect_alike(
+      shown_after(take + go_on + "element('picture').dispatchEvent(new MouseEvent('dblclick'));",
+                  page, "frame=0", said),
+      rendered("two_spheres_contact", 40, "--set camera.orbit=90 " + still));
   EXPECT_EQ(said, "");
 }
 
