@@ -135,9 +135,7 @@ double contact_energy(const World& world) {
   const ContactSurfaces surfaces(world);
   VertexArray positions(surfaces.vertex_count()), velocities(surfaces.vertex_count());
   surfaces.gather(world, positions, velocities);
-  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
-    surfaces.place_box(world.rigid[at(i)], i, positions);
-  }
+  surfaces.place_boxes(world, positions);
   std::vector<ContactPair> pairs;
   PairFinder(surfaces).find(positions, positions, 0.0, pairs);
   return contact_energy(surfaces, positions, pairs);

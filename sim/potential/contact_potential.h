@@ -53,7 +53,7 @@ double find_active(const ContactSurfaces& surfaces, const VertexArray& positions
 double contact_energy(const ContactSurfaces& surfaces, const VertexArray& positions,
                       const std::vector<ContactPair>& pairs);
 
-/// J, of a world as it lies, whose boxes are all static or moved.
+/// J, of a world as it lies.
 double contact_energy(const World& world);
 
 PairCorners corners_of(const ActiveContact& contact, const VertexArray& positions);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
@@ -44,9 +43,6 @@ ContactSurfaces::ContactSurfaces(const World& world)
     }
   }
   for (const RigidBox& box : world.rigid) {
-    if (!box.is_kinematic) {
-      throw std::invalid_argument(box.name + ": boxes that move freely have no contact potential");
-    }
     add_box(box, distance);
   }
   find_self_reaches();
@@ -61,6 +57,7 @@ void ContactSurfaces::add(const MeshTopology& topology, const VertexArray& rest,
   surface.vertex_count = topology.vertex_count();
   surface.tree = std::make_shared<SurfaceTree>(topology, rest, is_rigid);
   surface.reach = std::min(distance, reach_of_edge * surface.tree->mean_edge());
+  surface.is_rigid = is_rigid;
   surface.material = material;
   surface.areas.assign(at(topology.vertex_count()), 0.0);
   for (const Triangle& t : topology.triangles()) {
@@ -82,7 +79,8 @@ void ContactSurfaces::add_box(const RigidBox& box, double distance) {
   box_topologies_.push_back(
       std::make_unique<const MeshTopology>(static_cast<int>(mesh.vertices.size()), mesh.triangles));
   add(*box_topologies_.back(), corners_.back(), true, box.surface, distance);
-  is_mobile_.resize(is_mobile_.size() + mesh.vertices.size(), 0);
+  is_mobile_.resize(is_mobile_.size() + mesh.vertices.size(), box.is_kinematic ? 0 : 1);
+  surfaces_.back().is_mobile = !box.is_kinematic;
 }
 
 /// Features of one surface that are near each other at rest do not push each other there.
@@ -90,7 +88,7 @@ void ContactSurfaces::find_self_reaches() {
   std::map<const SurfaceTree*, double> known;
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     ContactSurface& surface = surfaces_[i];
-    if (!surface.is_mobile) continue;
+    if (!surface.is_mobile || surface.is_rigid) continue;
     const auto [entry, is_new] = known.try_emplace(surface.tree.get(), surface.reach);
     if (is_new) {
       const double least =
@@ -101,11 +99,18 @@ void ContactSurfaces::find_self_reaches() {
   }
 }
 
-void ContactSurfaces::place_box(const RigidBox& box, int i, VertexArray& positions) const {
+void ContactSurfaces::place_box(const Pose& pose, int i, VertexArray& positions) const {
   const VertexArray& own = corners_[at(i)];
-  const int first = surfaces_[at(soft_count_ + i)].first_vertex;
-  const Mat3 axes = box.orientation.toRotationMatrix();
-  for (int v = 0; v < own.size(); ++v) positions[first + v] = box.position + axes * Vec3(own[v]);
+  const int first = of_box(i).first_vertex;
+  const Mat3 axes = pose.orientation.toRotationMatrix();
+  for (int v = 0; v < own.size(); ++v) positions[first + v] = pose.position + axes * Vec3(own[v]);
+}
+
+void ContactSurfaces::place_boxes(const World& world, VertexArray& positions) const {
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    const RigidBox& box = world.rigid[at(i)];
+    place_box({box.position, box.orientation}, i, positions);
+  }
 }
 
 void ContactSurfaces::gather(const World& world, VertexArray& positions,
@@ -120,6 +125,13 @@ void ContactSurfaces::gather(const World& world, VertexArray& positions,
 
 double default_stiffness(const World& world, const std::vector<ContactSurface>& surfaces) {
   double pressure = 1.0;
+  const double gravity = world.settings.gravity.norm();
+  // Of a surface of some mass per area, kg/m^2.
+  const auto meet_mass = [&](double density, double reach) {
+    const double weight = density * gravity / carrying_fraction;
+    const double impact = density * typical_speed * typical_speed / reach;
+    pressure = std::max({pressure, weight, impact});
+  };
   for (std::size_t b = 0; b < world.soft.size(); ++b) {
     const SoftBody& body = world.soft[b];
     const ContactSurface& surface = surfaces[b];
@@ -127,10 +139,12 @@ double default_stiffness(const World& world, const std::vector<ContactSurface>& 
     const double enclosed = volume(body.mesh->topology, body.mesh->rest_positions);
     const double gas = enclosed > 0.0 ? gas_strength(body.material) / enclosed : 0.0;
     const double springs = body.material.k / surface.tree->mean_edge();
-    const double density = body.material.vertex_mass * surface.vertex_count / surface.area;
-    const double weight = density * world.settings.gravity.norm() / carrying_fraction;
-    const double impact = density * typical_speed * typical_speed / surface.reach;
-    pressure = std::max({pressure, gas, springs, weight, impact});
+    meet_mass(body.material.vertex_mass * surface.vertex_count / surface.area, surface.reach);
+    pressure = std::max({pressure, gas, springs});
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const ContactSurface& surface = surfaces[world.soft.size() + i];
+    if (surface.is_mobile) meet_mass(world.rigid[i].mass / surface.area, surface.reach);
   }
   return stiffness_over_pressure * pressure;
 }

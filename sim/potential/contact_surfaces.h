@@ -8,17 +8,19 @@
 #include <vector>
 
 #include "sim/mesh/topology.h"
+#include "sim/rigid/given_motion.h"
 #include "sim/swept/surface_tree.h"
 #include "sim/world/world.h"
 
 namespace pneuma::sim {
 
-/// Of a soft body, an obstacle, or a box that is static or moved.
+/// Of a soft body, an obstacle, or a box.
 struct ContactSurface {
   int first_vertex = 0;  // in the array of all surfaces
   int vertex_count = 0;
   std::shared_ptr<const SurfaceTree> tree;
   bool is_mobile = false;   // some vertex is moved by forces
+  bool is_rigid = false;    // its vertices move together: it never meets itself
   double reach = 0.0;       // m: the potential is zero beyond it
   double self_reach = 0.0;  // m, between its own features
   double area = 0.0;        // m^2 at rest
@@ -30,15 +32,15 @@ struct ContactSurface {
   const MeshTopology& topology() const { return tree->topology(); }
 };
 
-/// The order is that of body indices: soft bodies, then boxes. Of boxes only the static and moved
-/// ones are here.
+/// The order is that of body indices: soft bodies, then boxes.
 class ContactSurfaces {
  public:
-  /// Throws std::invalid_argument if a box of the world can move freely.
   explicit ContactSurfaces(const World& world);
 
   const std::vector<ContactSurface>& all() const { return surfaces_; }
   const ContactSurface& operator[](int i) const { return surfaces_[at(i)]; }
+  /// Of a box of the world.
+  const ContactSurface& of_box(int i) const { return surfaces_[at(soft_count_ + i)]; }
   int count() const { return static_cast<int>(surfaces_.size()); }
   int vertex_count() const { return static_cast<int>(is_mobile_.size()); }
   bool is_mobile(int vertex) const { return is_mobile_[at(vertex)] != 0; }
@@ -50,8 +52,9 @@ class ContactSurfaces {
   double regularisation_speed() const { return speed_; }
   const std::optional<ContactMaterial>& ground() const { return ground_; }
 
-  /// The corners of box `i` of the world, as it lies, into the array of all vertices.
-  void place_box(const RigidBox& box, int i, VertexArray& positions) const;
+  /// The corners of box `i` of the world into the array of all vertices.
+  void place_box(const Pose& pose, int i, VertexArray& positions) const;
+  void place_boxes(const World& world, VertexArray& positions) const;
   /// Positions, then velocities, of all soft bodies.
   void gather(const World& world, VertexArray& positions, VertexArray& velocities) const;
 

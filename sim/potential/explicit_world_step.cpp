@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace pneuma::sim {
 namespace {
@@ -27,6 +28,11 @@ WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& 
       finder_(surfaces),
       searched_(surfaces.vertex_count()),
       forces_(surfaces.vertex_count()) {
+  for (const RigidBox& box : world.rigid) {
+    if (box.is_kinematic) continue;
+    throw std::invalid_argument(
+        box.name + ": explicit integrators step no free boxes where contact is a potential");
+  }
   scratch_.reserve(world.soft.size());  // which the equations refer to
   for (int b = 0; b < static_cast<int>(world.soft.size()); ++b) {
     const SoftBody& body = world.soft[at(b)];

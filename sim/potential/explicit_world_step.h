@@ -17,7 +17,8 @@ namespace pneuma::sim {
 /// no acceleration.
 class WorldAcceleration {
  public:
-  /// Refers to both; of the world its meshes, materials and gravity.
+  /// Refers to both; of the world its meshes, materials and gravity. Throws std::invalid_argument
+  /// if a box of it can move freely.
   WorldAcceleration(const World& world, const ContactSurfaces& surfaces);
 
   /// Writes dv/dt in m/s^2. Returns the least volume of a body with gas in m^3, or 1: not above

@@ -16,6 +16,10 @@ namespace {
 constexpr double world_tolerance_fraction = 1e-8;
 constexpr double world_rounding = 1e-13;
 
+WorldState make_state(int vertex_count, std::size_t boxes) {
+  return {VertexArray(vertex_count), VertexArray(vertex_count), std::vector<RigidStart>(boxes)};
+}
+
 /// sdirk2's, as in sim/soft/implicit_step.cpp.
 constexpr double sdirk_part = 1.0 - 0.5 * std::numbers::sqrt2;
 constexpr double sdirk_extrapolation = 1.0 + std::numbers::sqrt2;
@@ -27,8 +31,8 @@ ImplicitWorldStep::ImplicitWorldStep(const World& world, const ContactSurfaces& 
       energy_(world, surfaces),
       minimiser_(surfaces, energy_),
       finder_(surfaces),
-      extrapolated_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())},
-      middle_(surfaces.vertex_count()),
+      extrapolated_(make_state(surfaces.vertex_count(), energy_.boxes().size())),
+      middle_(extrapolated_),
       targets_(surfaces.vertex_count()) {
   double least_edge = std::numeric_limits<double>::infinity();
   for (const WorldEnergy::Body& body : energy_.bodies()) {
@@ -36,6 +40,9 @@ ImplicitWorldStep::ImplicitWorldStep(const World& world, const ContactSurfaces& 
     start_lengths_.emplace_back(body.mesh->rest_lengths.size());
     own_.emplace_back(body.mesh->topology.vertex_count());
     least_edge = std::min(least_edge, surfaces[body.soft].tree->mean_edge());
+  }
+  for (const WorldEnergy::Box& box : energy_.boxes()) {
+    least_edge = std::min(least_edge, surfaces.of_box(box.index).tree->mean_edge());
   }
   tolerance_ = world_tolerance_fraction * least_edge;
 }
@@ -58,8 +65,8 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
     const WorldEnergy::Body& body = energy_.bodies()[i];
     edge_lengths(body.mesh->topology, own_part(start.positions, i), start_lengths_[i]);
   }
-  const double speed_energy = kinetic(world, start.velocities);
-  start_energy_ = potential(world, start.positions) + speed_energy;
+  const double speed_energy = kinetic(world, start);
+  start_energy_ = potential(world, start) + speed_energy;
   report_.is_valid = std::isfinite(start_energy_);
   if (!report_.is_valid) return report_;
   start_energy_ += world_rounding * (magnitude_ + speed_energy);
@@ -75,10 +82,19 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
 bool ImplicitWorldStep::implicit_euler(const World& world, double step, const WorldState& start,
                                        WorldState& end) {
   for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
-  if (!minimise(world, step, start, start, start.positions, step)) return false;
+  if (!minimise(world, step, start, start, start, step)) return false;
   end.positions.rows() = minimiser_.point().positions.rows();
   end.velocities.rows() = (end.positions.rows() - start.positions.rows()) / step;
+  finish(end);
   return true;
+}
+
+/// Boxes where the minimiser has ended, with their velocities.
+void ImplicitWorldStep::finish(WorldState& end) const {
+  for (std::size_t i = 0; i < end.boxes.size(); ++i) {
+    end.boxes[i] = energy_.boxes()[i].energy.state_at(minimiser_.point().boxes[i]);
+  }
+  move_corners(end);
 }
 
 /// False when the step must be left to implicit_euler.
@@ -86,44 +102,58 @@ bool ImplicitWorldStep::sdirk2(const World& world, double step, const WorldState
                                WorldState& end) {
   const double part = sdirk_part * step;
   for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
-  if (!minimise(world, part, start, start, start.positions, part)) return false;
-  middle_.rows() = minimiser_.point().positions.rows();
+  if (!minimise(world, part, start, start, start, part)) return false;
+  middle_.positions.rows() = minimiser_.point().positions.rows();
+  middle_.velocities.rows() = (middle_.positions.rows() - start.positions.rows()) / part;
+  finish(middle_);
 
-  const auto change = middle_.rows() - start.positions.rows();
+  const auto change = middle_.positions.rows() - start.positions.rows();
   extrapolated_.positions.rows() = start.positions.rows() + sdirk_extrapolation * change;
   extrapolated_.velocities.rows() =
       start.velocities.rows() + sdirk_extrapolation * (change / part - start.velocities.rows());
-  end.positions.rows() = middle_.rows();
-  end.velocities.rows() = change / part;
+  extrapolate_boxes();
   for (std::size_t i = 0; i < bases_.size(); ++i) {
     const WorldEnergy::Body& body = energy_.bodies()[i];
     std::vector<double>& lengths = bases_[i].lengths;
-    edge_lengths(body.mesh->topology, own_part(middle_, i), lengths);
+    edge_lengths(body.mesh->topology, own_part(middle_.positions, i), lengths);
     for (std::size_t e = 0; e < lengths.size(); ++e) {
       const double before = start_lengths_[i][e];
       lengths[e] = before + sdirk_extrapolation * (lengths[e] - before);
     }
   }
-  if (!minimise(world, part, extrapolated_, end, middle_, step - part)) return false;
+  if (!minimise(world, part, extrapolated_, middle_, middle_, step - part)) return false;
   end.positions.rows() = minimiser_.point().positions.rows();
   end.velocities.rows() = (end.positions.rows() - extrapolated_.positions.rows()) / part;
-  return does_work_ || potential(world, end.positions) <= start_energy_;
+  finish(end);
+  return does_work_ || potential(world, end) <= start_energy_;
+}
+
+void ImplicitWorldStep::extrapolate_boxes() {
+  for (std::size_t i = 0; i < middle_.boxes.size(); ++i) {
+    const WorldEnergy::Box& box = energy_.boxes()[i];
+    RigidStart& to = extrapolated_.boxes[i];
+    to = box.energy.extrapolate(middle_.boxes[i], sdirk_extrapolation);
+    surfaces_.place_box({to.position, to.orientation}, box.index, extrapolated_.positions);
+  }
 }
 
 /// Of a step of `beta` from `base`, starting at `guess`, with friction and restitution as of `lag`.
 /// `way`: s, in which what keys move goes on from the guess.
 bool ImplicitWorldStep::minimise(const World& world, double beta, const WorldState& base,
-                                 const WorldState& lag, const VertexArray& guess, double way) {
-  targets_.rows() = guess.rows() + way * lag.velocities.rows();
+                                 const WorldState& lag, const WorldState& guess, double way) {
+  targets_.rows() = guess.positions.rows() + way * lag.velocities.rows();
   for (std::size_t i = 0; i < bases_.size(); ++i) {
     const WorldEnergy::Body& body = energy_.bodies()[i];
     const int count = bases_[i].state.positions.size();
     bases_[i].state.positions.rows() = base.positions.rows().middleCols(body.first_vertex, count);
     bases_[i].state.velocities.rows() = base.velocities.rows().middleCols(body.first_vertex, count);
   }
-  energy_.set_step(world, beta, bases_, targets_);
+  energy_.set_step(world, beta, bases_, base.boxes, targets_);
   WorldPoint& point = minimiser_.point();
-  point.positions.rows() = guess.rows();
+  point.positions.rows() = guess.positions.rows();
+  for (std::size_t i = 0; i < point.boxes.size(); ++i) {
+    point.boxes[i] = {guess.boxes[i].position, guess.boxes[i].orientation};
+  }
   if (!minimiser_.begin()) {
     report_.is_valid = false;
     return false;
@@ -133,7 +163,7 @@ bool ImplicitWorldStep::minimise(const World& world, double beta, const WorldSta
     report_.is_valid = false;
     return false;
   }
-  const double rounding = 4e-15 * guess.rows().cwiseAbs().maxCoeff();
+  const double rounding = 4e-15 * guess.positions.rows().cwiseAbs().maxCoeff();
   const WorldMinimiserReport done = minimiser_.minimise(std::max(tolerance_, rounding));
   report_.iterations += done.iterations;
   report_.gradient_iterations = minimiser_.gradient_iterations();
@@ -146,6 +176,14 @@ bool ImplicitWorldStep::minimise(const World& world, double beta, const WorldSta
   return done.arrived;
 }
 
+/// The velocities of free boxes' corners.
+void ImplicitWorldStep::move_corners(WorldState& state) const {
+  for (std::size_t i = 0; i < state.boxes.size(); ++i) {
+    sim::move_corners(state.boxes[i], energy_.boxes()[i].first_vertex, state.positions,
+                      state.velocities);
+  }
+}
+
 /// What forces do not move keeps its velocity.
 void ImplicitWorldStep::keep_given(const WorldState& start, double step, WorldState& end) const {
   for (int v = 0; v < end.positions.size(); ++v) {
@@ -155,18 +193,27 @@ void ImplicitWorldStep::keep_given(const WorldState& start, double step, WorldSt
   }
 }
 
-double ImplicitWorldStep::kinetic(const World& world, const VertexArray& velocities) const {
+double ImplicitWorldStep::kinetic(const World& world, const WorldState& state) const {
   double sum = 0.0;
   for (const WorldEnergy::Body& body : energy_.bodies()) {
     const int count = body.mesh->topology.vertex_count();
     sum += 0.5 * world.soft[at(body.soft)].material.vertex_mass *
-           velocities.rows().middleCols(body.first_vertex, count).squaredNorm();
+           state.velocities.rows().middleCols(body.first_vertex, count).squaredNorm();
+  }
+  return sum + kinetic_of_boxes(world, state);
+}
+
+double ImplicitWorldStep::kinetic_of_boxes(const World& world, const WorldState& state) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < state.boxes.size(); ++i) {
+    sum += kinetic_energy(world.rigid[at(energy_.boxes()[i].index)], state.boxes[i]);
   }
   return sum;
 }
 
 /// Of springs, hinges, gas, gravity and contacts. Adds the sizes of the terms up in magnitude_.
-double ImplicitWorldStep::potential(const World& world, const VertexArray& positions) {
+double ImplicitWorldStep::potential(const World& world, const WorldState& state) {
+  const VertexArray& positions = state.positions;
   double sum = 0.0;
   magnitude_ = 0.0;
   for (std::size_t i = 0; i < bases_.size(); ++i) {
@@ -183,20 +230,26 @@ double ImplicitWorldStep::potential(const World& world, const VertexArray& posit
     sum += springs + gas_energy(law, enclosed) + gravity;
     magnitude_ += springs + gas_energy_size(law, enclosed) + std::abs(gravity);
   }
+  for (std::size_t i = 0; i < state.boxes.size(); ++i) {
+    const double mass = world.rigid[at(energy_.boxes()[i].index)].mass;
+    const double gravity = -mass * world.settings.gravity.dot(state.boxes[i].position);
+    sum += gravity;
+    magnitude_ += std::abs(gravity);
+  }
   finder_.find(positions, positions, 0.0, pairs_);
   const double contacts = contact_energy(surfaces_, positions, pairs_);
   magnitude_ += contacts;
   return sum + contacts;
 }
 
-/// Cuts the velocities to what is left of the energy: those relative to the bodies' centres, and
-/// only if that is not enough, all. Returns whether it was needed.
+/// Cuts the velocities to what is left of the energy: those relative to the bodies' centres, of
+/// which boxes have none, and only if that is not enough, all. Returns whether it was needed.
 bool ImplicitWorldStep::limit_energy(const World& world, WorldState& end) {
   if (does_work_) return false;
-  const double left = std::max(0.0, start_energy_ - potential(world, end.positions));
-  const double moving = kinetic(world, end.velocities);
+  const double left = std::max(0.0, start_energy_ - potential(world, end));
+  const double moving = kinetic(world, end);
   if (moving <= left) return false;
-  double of_centres = 0.0;
+  double of_centres = kinetic_of_boxes(world, end);
   for (const WorldEnergy::Body& body : energy_.bodies()) {
     const SoftBody& soft = world.soft[at(body.soft)];
     if (soft.pins) continue;
@@ -217,6 +270,12 @@ bool ImplicitWorldStep::limit_energy(const World& world, WorldState& end) {
     own = factor * (own.colwise() - common).eval();
     own.colwise() += common;
   }
+  for (RigidStart& box : end.boxes) {
+    if (keeps_centres) break;
+    box.velocity *= factor;
+    box.angular_velocity *= factor;
+  }
+  move_corners(end);
   return true;
 }
 

@@ -14,10 +14,11 @@
 
 namespace pneuma::sim {
 
-/// Positions and velocities of all surfaces' vertices.
+/// Positions and velocities of all surfaces' vertices, and the boxes whose corners move freely.
 struct WorldState {
-  VertexArray positions;   // m
-  VertexArray velocities;  // m/s
+  VertexArray positions;          // m
+  VertexArray velocities;         // m/s
+  std::vector<RigidStart> boxes;  // in the order of the world's
 };
 
 struct ImplicitWorldReport {
@@ -45,10 +46,14 @@ class ImplicitWorldStep {
   bool implicit_euler(const World& world, double step, const WorldState& start, WorldState& end);
   bool sdirk2(const World& world, double step, const WorldState& start, WorldState& end);
   bool minimise(const World& world, double beta, const WorldState& base, const WorldState& lag,
-                const VertexArray& guess, double step_from_start);
+                const WorldState& guess, double step_from_start);
+  void finish(WorldState& end) const;
+  void move_corners(WorldState& state) const;
+  void extrapolate_boxes();
   const VertexArray& own_part(const VertexArray& all, std::size_t i);
-  double potential(const World& world, const VertexArray& positions);
-  double kinetic(const World& world, const VertexArray& velocities) const;
+  double potential(const World& world, const WorldState& state);
+  double kinetic(const World& world, const WorldState& state) const;
+  double kinetic_of_boxes(const World& world, const WorldState& state) const;
   bool limit_energy(const World& world, WorldState& end);
   void keep_given(const WorldState& start, double step, WorldState& end) const;
 
@@ -59,8 +64,8 @@ class ImplicitWorldStep {
   std::vector<ContactPair> pairs_;
   std::vector<EulerBase> bases_;
   std::vector<std::vector<double>> start_lengths_;  // m, per body and edge
-  WorldState extrapolated_;
-  VertexArray middle_, targets_;
+  WorldState extrapolated_, middle_;
+  VertexArray targets_;
   std::vector<VertexArray> own_;  // positions, per body
   double tolerance_ = 0.0;        // m
   double start_energy_ = 0.0;

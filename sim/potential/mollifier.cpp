@@ -19,8 +19,6 @@ Mollifier mollifier(const PairCorners& edges, double threshold) {
   if (c >= threshold) return result;
   const Vec3 u = edges[1] - edges[0], v = edges[3] - edges[2];
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
-  using Mat6 = Eigen::Matrix<double, 6, 6>;
   Vec6 slope;
   slope.head<3>() = 2.0 * (vv * u - uv * v);
   slope.tail<3>() = 2.0 * (uu * v - uv * u);

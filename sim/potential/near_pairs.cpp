@@ -69,6 +69,7 @@ void PairFinder::find(const VertexArray& from, const VertexArray& to, double mar
   }
   for (int i = 0; i < surfaces_.count(); ++i) {
     for (int j = i; j < surfaces_.count(); ++j) {
+      if (i == j && surfaces_[i].is_rigid) continue;
       if (surfaces_[i].is_mobile || surfaces_[j].is_mobile) add(i, j, pairs);
     }
   }

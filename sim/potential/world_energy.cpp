@@ -1,5 +1,6 @@
 #include "sim/potential/world_energy.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,9 +8,15 @@
 #include "sim/soft/bending.h"
 
 namespace pneuma::sim {
+namespace {
+
+/// Of a box's inertia, what is left of its second derivative by turning at least.
+constexpr double min_turning_fraction = 0.1;
+
+}  // namespace
 
 WorldEnergy::WorldEnergy(const World& world, const ContactSurfaces& surfaces)
-    : surfaces_(surfaces), targets_(surfaces.vertex_count()) {
+    : surfaces_(surfaces), targets_(surfaces.vertex_count()), slopes_(surfaces.vertex_count()) {
   for (int b = 0; b < static_cast<int>(world.soft.size()); ++b) {
     const SoftBody& body = world.soft[at(b)];
     if (!surfaces[b].is_mobile) continue;
@@ -18,17 +25,24 @@ WorldEnergy::WorldEnergy(const World& world, const ContactSurfaces& surfaces)
     scratch_.emplace_back(body.positions.size());
     if (body.pins) bodies_.back().energy.is_pinned = body.pins->is_pinned.data();
   }
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    const RigidBox& box = world.rigid[at(i)];
+    if (!box.is_kinematic) {
+      boxes_.push_back({i, surfaces.of_box(i).first_vertex, BoxInertia(box)});
+    }
+  }
 }
 
 WorldPoint WorldEnergy::make_point() const {
   WorldPoint point;
   point.positions = VertexArray(surfaces_.vertex_count());
   for (const Body& body : bodies_) point.bodies.emplace_back(*body.mesh);
+  point.boxes.resize(boxes_.size());
   return point;
 }
 
 void WorldEnergy::set_step(const World& world, double beta, const std::vector<EulerBase>& bases,
-                           const VertexArray& targets) {
+                           const std::vector<RigidStart>& box_bases, const VertexArray& targets) {
   targets_.rows() = targets.rows();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
@@ -40,6 +54,9 @@ void WorldEnergy::set_step(const World& world, double beta, const std::vector<Eu
       }
     }
   }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    boxes_[i].energy.set_step(box_bases[i], world.settings.gravity, beta);
+  }
   lagged_.start({}, targets, targets, beta, surfaces_.regularisation_speed());
 }
 
@@ -47,6 +64,20 @@ void WorldEnergy::start_lagged(const std::vector<ActiveContact>& active,
                                const VertexArray& velocities, const VertexArray& base,
                                double beta) {
   lagged_.start(active, velocities, base, beta, surfaces_.regularisation_speed());
+}
+
+void WorldEnergy::place_boxes(WorldPoint& point) const {
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    surfaces_.place_box(point.boxes[i], boxes_[i].index, point.positions);
+  }
+}
+
+BoxFrame WorldEnergy::frame_of(const WorldPoint& point, std::size_t box) const {
+  BoxFrame frame{boxes_[box].first_vertex, {}};
+  for (int i = 0; i < box_corners; ++i) {
+    frame.arms[at(i)] = point.positions[frame.first_vertex + i] - point.boxes[box].position;
+  }
+  return frame;
 }
 
 bool WorldEnergy::evaluate(const std::vector<ContactPair>& pairs, WorldPoint& point) const {
@@ -59,6 +90,11 @@ bool WorldEnergy::evaluate(const std::vector<ContactPair>& pairs, WorldPoint& po
     if (!sim::evaluate(*body.mesh, body.energy, own)) return false;
     point.energy += own.energy;
     point.magnitude += own.magnitude;
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const double own = boxes_[i].energy.energy(point.boxes[i]);
+    point.energy += own;
+    point.magnitude += own;
   }
   const double contact = find_active(surfaces_, point.positions, pairs, point.active);
   const double lagged = lagged_.energy(point.positions);
@@ -83,6 +119,11 @@ void WorldEnergy::gradient(const WorldPoint& point, VertexArray& gradient) const
   lagged_.add_gradient(point.positions, gradient);
   for (int v = 0; v < gradient.size(); ++v) {
     if (!surfaces_.is_mobile(v)) gradient[v].setZero();
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const BoxFrame frame = frame_of(point, i);
+    contract(frame, gradient);
+    set_six(frame, six_of(frame, gradient) + boxes_[i].energy.gradient(point.boxes[i]), gradient);
   }
 }
 
@@ -122,6 +163,7 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMat
       matrix.add_rank_one(first, scratch_[i]);
     }
   }
+  add_boxes(point, matrix);
   for (const ActiveContact& contact : point.active) {
     const bool is_whole =
         contact.count == 4 && (form == ContactHessian::positive || contact.is_mollified());
@@ -136,9 +178,30 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMat
   lagged_.append_hessian(point.positions, matrix.blocks());
 }
 
+/// The turning of corners that are pushed is part of a box's own block, which is kept positive.
+void WorldEnergy::add_boxes(const WorldPoint& point, WorldMatrix& matrix) const {
+  if (boxes_.empty()) return;
+  slopes_.rows().setZero();
+  add_gradient(point.active, point.positions, slopes_);
+  lagged_.add_gradient(point.positions, slopes_);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const BoxInertia& inertia = boxes_[i].energy;
+    const BoxFrame frame = frame_of(point, i);
+    Mat6 own = inertia.hessian(point.boxes[i]);
+    const double least = min_turning_fraction * inertia.per_length() * inertia.squared_radius();
+    const Mat3 turning = own.bottomRightCorner<3, 3>() + turning_hessian(frame, slopes_);
+    const Eigen::SelfAdjointEigenSolver<Mat3> parts(turning);
+    own.bottomRightCorner<3, 3>() = parts.eigenvectors() *
+                                    parts.eigenvalues().cwiseMax(least).asDiagonal() *
+                                    parts.eigenvectors().transpose();
+    matrix.add_box(frame, own, inertia.squared_radius());
+  }
+}
+
 double WorldEnergy::inertia() const {
   double least = std::numeric_limits<double>::infinity();
   for (const Body& body : bodies_) least = std::min(least, body.energy.inertia);
+  for (const Box& box : boxes_) least = std::min(least, box.energy.per_length());
   return least;
 }
 

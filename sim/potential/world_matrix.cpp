@@ -15,14 +15,16 @@ constexpr int iterations_per_vertex = 3;
 
 }  // namespace
 
-WorldMatrix::WorldMatrix(const std::vector<std::uint8_t>& is_mobile)
-    : is_mobile_(is_mobile),
-      diagonal_(is_mobile.size(), Mat3::Zero()),
-      inverse_(is_mobile.size()),
-      residual_(static_cast<int>(is_mobile.size())),
-      preconditioned_(static_cast<int>(is_mobile.size())),
-      search_(static_cast<int>(is_mobile.size())),
-      product_(static_cast<int>(is_mobile.size())) {}
+WorldMatrix::WorldMatrix(std::vector<std::uint8_t> is_mobile)
+    : is_mobile_(std::move(is_mobile)),
+      diagonal_(is_mobile_.size(), Mat3::Zero()),
+      inverse_(is_mobile_.size()),
+      box_of_vertex_(is_mobile_.size(), -1),
+      corners_(static_cast<int>(is_mobile_.size())),
+      residual_(static_cast<int>(is_mobile_.size())),
+      preconditioned_(static_cast<int>(is_mobile_.size())),
+      search_(static_cast<int>(is_mobile_.size())),
+      product_(static_cast<int>(is_mobile_.size())) {}
 
 void WorldMatrix::clear() {
   std::fill(diagonal_.begin(), diagonal_.end(), Mat3::Zero());
@@ -30,6 +32,8 @@ void WorldMatrix::clear() {
   rank_one_count_ = 0;
   blocks_.clear();
   wholes_.clear();
+  frames_.clear();
+  boxes_.clear();
 }
 
 void WorldMatrix::add_diagonal(int vertex, double value) {
@@ -51,7 +55,26 @@ void WorldMatrix::add_whole(const std::array<int, 4>& vertices, const Mat12& blo
   wholes_.push_back({vertices, block});
 }
 
+void WorldMatrix::add_box(const BoxFrame& frame, const Mat6& own, double squared_radius) {
+  const int index = static_cast<int>(boxes_.size());
+  for (int i = 0; i < box_corners; ++i) box_of_vertex_[at(frame.first_vertex + i)] = index;
+  frames_.push_back(frame);
+  boxes_.push_back({own, squared_radius, Mat6::Zero(), Mat6::Zero()});
+}
+
 void WorldMatrix::multiply(const VertexArray& values, VertexArray& product) const {
+  if (boxes_.empty()) return multiply_vertices(values, product);
+  corners_.rows() = values.rows();
+  expand(frames_, corners_);
+  multiply_vertices(corners_, product);
+  for (const BoxFrame& frame : frames_) contract(frame, product);
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    const BoxFrame& frame = frames_[b];
+    set_six(frame, six_of(frame, product) + boxes_[b].own * six_of(frame, values), product);
+  }
+}
+
+void WorldMatrix::multiply_vertices(const VertexArray& values, VertexArray& product) const {
   const VertexReader x(values), y(product);
   const VertexWriter out(product);
   for (int v = 0; v < values.size(); ++v) product[v] = diagonal_[at(v)] * values[v];
@@ -104,13 +127,63 @@ bool WorldMatrix::invert_diagonal(double shift) {
     }
   }
   for (std::size_t v = 0; v < whole.size(); ++v) {
-    if (is_mobile_[v] == 0) continue;
+    if (is_mobile_[v] == 0 || box_of_vertex_[v] >= 0) continue;
     whole[v].diagonal().array() += shift;
     const Eigen::LLT<Mat3> factor(whole[v]);
     if (factor.info() != Eigen::Success) return false;
     inverse_[v] = mat3x4(factor.solve(Mat3::Identity()));
   }
+  return boxes_.empty() || invert_boxes(shift);
+}
+
+bool WorldMatrix::invert_boxes(double shift) {
+  for (Box& box : boxes_) box.whole = box.own;
+  for (const WeightedBlock& term : blocks_) add_to_boxes(term);
+  for (const Whole& each : wholes_) add_to_boxes(each);
+  for (Box& box : boxes_) {
+    box.whole.diagonal().head<3>().array() += shift;
+    box.whole.diagonal().tail<3>().array() += shift * box.squared_radius;
+    const Eigen::LLT<Mat6> factor(box.whole);
+    if (factor.info() != Eigen::Success) return false;
+    box.inverse = factor.solve(Mat6::Identity());
+  }
   return true;
+}
+
+/// How the weighted sum of a term's vertices moves with a box.
+Mat3x6 WorldMatrix::rates_of(const WeightedBlock& term, int box) const {
+  Mat3x6 sum = Mat3x6::Zero();
+  for (int i = 0; i < term.count; ++i) {
+    const int v = term.vertices[at(i)];
+    if (box_of(v) == box) sum += term.weights[at(i)] * frames_[at(box)].rates(v);
+  }
+  return sum;
+}
+
+void WorldMatrix::add_to_boxes(const WeightedBlock& term) {
+  int last = -1;  // the vertices of a surface follow each other
+  for (int i = 0; i < term.count; ++i) {
+    const int box = box_of(term.vertices[at(i)]);
+    if (box < 0 || box == last) continue;
+    last = box;
+    const Mat3x6 rates = rates_of(term, box);
+    boxes_[at(box)].whole += rates.transpose() * (term.block * rates);
+  }
+}
+
+void WorldMatrix::add_to_boxes(const Whole& whole) {
+  int last = -1;
+  for (int i = 0; i < 4; ++i) {
+    const int box = box_of(whole.vertices[at(i)]);
+    if (box < 0 || box == last) continue;
+    last = box;
+    Eigen::Matrix<double, 12, 6> rates = Eigen::Matrix<double, 12, 6>::Zero();
+    for (int j = 0; j < 4; ++j) {
+      const int v = whole.vertices[at(j)];
+      if (box_of(v) == box) rates.middleRows<3>(3 * j) = frames_[at(box)].rates(v);
+    }
+    boxes_[at(box)].whole += rates.transpose() * (whole.block * rates);
+  }
 }
 
 void WorldMatrix::precondition() {
@@ -118,6 +191,18 @@ void WorldMatrix::precondition() {
   const VertexWriter out(preconditioned_);
   for (int v = 0; v < residual_.size(); ++v) {
     out.put(v, is_mobile_[at(v)] != 0 ? inverse_[at(v)] * residual[v] : Vec4d{});
+  }
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    set_six(frames_[b], boxes_[b].inverse * six_of(frames_[b], residual_), preconditioned_);
+  }
+}
+
+/// To the product with what is searched along.
+void WorldMatrix::add_shift(double shift) {
+  product_.rows() += shift * search_.rows();
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    const int turn = frames_[b].first_vertex + 1;
+    product_[turn] += shift * (boxes_[b].squared_radius - 1.0) * search_[turn];
   }
 }
 
@@ -141,7 +226,7 @@ WorldMatrix::End WorldMatrix::solve(const VertexArray& right, double shift,
     ++iterations_;
     multiply(search_, product_);
     clear_fixed(product_);
-    product_.rows() += shift * search_.rows();
+    add_shift(shift);
     const double curvature = dot(search_, product_);
     if (!(curvature > 0.0)) return End::not_positive;
     const double length = size / curvature;

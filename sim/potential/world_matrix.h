@@ -2,8 +2,9 @@
 // be multiplied and summed up, and Newton's directions by conjugate gradients.
 //
 // Parts: a 3 x 3 block for each vertex and each edge of a mesh, q q^T of each body's gas, and for
-// contacts either 3 x 3 blocks between weighted sums of vertices or whole 12 x 12 ones. The
-// preconditioner is block Jacobi.
+// contacts either 3 x 3 blocks between weighted sums of vertices or whole 12 x 12 ones, and a 6 x 6
+// block for each free box, whose corners take its six coordinates with them (box_frame.h). The
+// preconditioner is block Jacobi, of a box in all of its coordinates.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +12,16 @@
 
 #include "sim/mesh/vec4d.h"
 #include "sim/mesh/vertex_array.h"
+#include "sim/potential/box_frame.h"
 #include "sim/potential/lagged_terms.h"
 
 namespace pneuma::sim {
 
 class WorldMatrix {
  public:
-  /// `is_mobile`: rows and columns of other vertices are left out when it is solved for.
-  explicit WorldMatrix(const std::vector<std::uint8_t>& is_mobile);
+  /// `is_mobile`: rows and columns of other vertices are left out when it is solved for; of boxes
+  /// all that carry no coordinates.
+  explicit WorldMatrix(std::vector<std::uint8_t> is_mobile);
 
   void clear();
   void add_diagonal(int vertex, double value);
@@ -29,8 +32,14 @@ class WorldMatrix {
   void add_rank_one(int first, const VertexArray& q);
   std::vector<WeightedBlock>& blocks() { return blocks_; }
   void add_whole(const std::array<int, 4>& vertices, const Mat12& block);
+  /// A free box with its own second derivative; `squared_radius` (m^2): of what shifts the diagonal
+  /// of ways, the part that shifts that of turns.
+  void add_box(const BoxFrame& frame, const Mat6& own, double squared_radius);
 
-  /// All of it times `values`.
+  /// Of the boxes so far.
+  const std::vector<BoxFrame>& frames() const { return frames_; }
+
+  /// All of it times `values`. Of free boxes both are contracted.
   void multiply(const VertexArray& values, VertexArray& product) const;
 
   enum class End { solved, not_positive, too_slow };
@@ -54,11 +63,25 @@ class WorldMatrix {
     Mat12 block;
   };
 
+  struct Box {
+    Mat6 own;
+    double squared_radius;
+    Mat6 whole;  // of all parts
+    Mat6 inverse;
+  };
+
+  void multiply_vertices(const VertexArray& values, VertexArray& product) const;
   bool invert_diagonal(double shift);
+  bool invert_boxes(double shift);
+  int box_of(int vertex) const { return box_of_vertex_[at(vertex)]; }
+  void add_to_boxes(const WeightedBlock& term);
+  void add_to_boxes(const Whole& whole);
+  Mat3x6 rates_of(const WeightedBlock& term, int box) const;
+  void add_shift(double shift);
   void precondition();
   void clear_fixed(VertexArray& values) const;
 
-  const std::vector<std::uint8_t>& is_mobile_;
+  std::vector<std::uint8_t> is_mobile_;
   std::vector<Mat3> diagonal_;
   std::vector<Edge> edges_;
   std::vector<RankOne> rank_ones_;
@@ -67,6 +90,10 @@ class WorldMatrix {
   std::vector<Whole> wholes_;
   std::vector<Mat3> whole_diagonal_;  // of all parts
   std::vector<Mat3x4> inverse_;
+  std::vector<BoxFrame> frames_;
+  std::vector<Box> boxes_;
+  std::vector<int> box_of_vertex_;  // -1: of none
+  mutable VertexArray corners_;     // what is multiplied, of boxes by corner
   VertexArray residual_, preconditioned_, search_, product_;
   int iterations_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/rigid/rigid_motion.h"
 #include "sim/soft/vertex_matrix.h"
 
 namespace pneuma::sim {
@@ -22,6 +23,13 @@ constexpr double min_world_volume_left = 0.01;
 constexpr int max_world_polishing = 3;
 /// Of a pair's distance, which an iteration leaves at least.
 constexpr double kept_distance = 0.1;
+/// The same of poses beside straight ways that keep it.
+constexpr double kept_beside = 0.05;
+/// How much shorter than a way that is free a turn beside it is tried.
+constexpr double beside = 0.7;
+constexpr int max_besides = 30;
+/// rad, by which a box turns at most in an iteration, so that it is never turned inside out.
+constexpr double max_turn_per_iteration = 1.0;
 /// After so many iterations the contacts' second derivative is taken whole: where distances curve,
 /// what is left of it converges only slowly.
 constexpr int quick_iterations = 12;
@@ -34,6 +42,16 @@ constexpr double first_world_shift = 0.1;
 constexpr double world_shift_factor = 4.0;
 constexpr double min_shrinking = 1e-3;
 
+/// Of free boxes only the columns that carry their coordinates.
+std::vector<std::uint8_t> mobile_coordinates(const ContactSurfaces& surfaces,
+                                             const WorldEnergy& energy) {
+  std::vector<std::uint8_t> mobile = surfaces.mobile();
+  for (const WorldEnergy::Box& box : energy.boxes()) {
+    for (int i = 2; i < box_corners; ++i) mobile[at(box.first_vertex + i)] = 0;
+  }
+  return mobile;
+}
+
 double max_way(const VertexArray& values) {
   return std::sqrt(values.rows().colwise().squaredNorm().maxCoeff());
 }
@@ -44,7 +62,7 @@ WorldMinimiser::WorldMinimiser(const ContactSurfaces& surfaces, const WorldEnerg
     : surfaces_(surfaces),
       energy_(energy),
       finder_(surfaces),
-      matrix_(surfaces.mobile()),
+      matrix_(mobile_coordinates(surfaces, energy)),
       point_(energy.make_point()),
       trial_(energy.make_point()),
       gradient_(surfaces.vertex_count()),
@@ -88,17 +106,66 @@ void WorldMinimiser::find_direction(int iteration) {
   direction_.rows() += given_.rows();
 }
 
+/// rad, of the direction.
+double WorldMinimiser::max_turn() const {
+  double most = 0.0;
+  for (const WorldEnergy::Box& box : energy_.boxes()) {
+    most = std::max(most, direction_[box.first_vertex + 1].norm());
+  }
+  return most;
+}
+
+/// Along the direction.
+void WorldMinimiser::go(double fraction, WorldPoint& to) const {
+  to.positions.rows() = point_.positions.rows() + fraction * direction_.rows();
+  for (std::size_t i = 0; i < to.boxes.size(); ++i) {
+    const int first = energy_.boxes()[i].first_vertex;
+    to.boxes[i].position = point_.boxes[i].position + fraction * direction_[first];
+    to.boxes[i].orientation = turned(point_.boxes[i].orientation, fraction * direction_[first + 1]);
+  }
+  energy_.place_boxes(to);
+}
+
+/// At most the given one: the trial is put to where nothing stands between.
+double WorldMinimiser::allowed_fraction(double fraction) {
+  for (int i = 0; i < max_besides; ++i) {
+    go(fraction, trial_);
+    const WayLimit limit =
+        limit_ways(surfaces_, pairs_, point_.positions, trial_.positions, kept_beside);
+    if (!limit.is_limited) return fraction;
+    fraction *= std::min(beside, limit.fraction);
+  }
+  return 0.0;
+}
+
+/// m, by which the ways of corners bend away from straight ones.
+double WorldMinimiser::margin_beside(double turn) const {
+  if (turn == 0.0) return 0.0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < point_.boxes.size(); ++i) {
+    const Vec3 corner = point_.positions[energy_.boxes()[i].first_vertex];
+    farthest = std::max(farthest, (corner - point_.boxes[i].position).norm());
+  }
+  return farthest * (1.0 - std::cos(0.5 * turn));
+}
+
 /// Returns the fraction of the direction that was taken; 0 when none helped.
 double WorldMinimiser::search_line(bool arrived, WorldMinimiserReport& report) {
-  ahead_.rows() = point_.positions.rows() + direction_.rows();
-  finder_.find(point_.positions, ahead_, 0.0, pairs_);
+  const double turn = max_turn();
+  const double longest = turn > max_turn_per_iteration ? max_turn_per_iteration / turn : 1.0;
+  go(longest, trial_);
+  ahead_.rows() = trial_.positions.rows();
+  finder_.find(point_.positions, ahead_, margin_beside(longest * turn), pairs_);
   const WayLimit limit = limit_ways(surfaces_, pairs_, point_.positions, ahead_, kept_distance);
   report.blocked = limit;
   if (limit.pair >= 0) report.blocked_pair = pairs_[at(limit.pair)];
-  double fraction = limit.fraction;
+  double fraction = longest * limit.fraction;
   for (int i = 0; i <= max_world_halvings; ++i, fraction *= 0.5) {
-    trial_.positions.rows() =
-        fraction == 1.0 ? ahead_.rows() : point_.positions.rows() + fraction * direction_.rows();
+    if (turn > 0.0 && fraction < longest) {
+      fraction = allowed_fraction(fraction);
+    } else {
+      go(fraction, trial_);
+    }
     for (int v = 0; fraction == 1.0 && v < given_.size(); ++v) {
       if (!surfaces_.is_mobile(v)) trial_.positions[v] = energy_.targets()[v];
     }
@@ -127,7 +194,9 @@ WorldMinimiserReport WorldMinimiser::minimise(double tolerance) {
   while (report.iterations < max_world_iterations && !report.converged) {
     find_direction(report.iterations);
     ++report.iterations;
-    const double size = max_way(direction_);
+    right_.rows() = direction_.rows();
+    expand(matrix_.frames(), right_);
+    const double size = max_way(right_);
     const double promise = -dot(gradient_, direction_);
     const double fraction = search_line(arrived, report);
     if (!arrived) {

@@ -6,6 +6,11 @@
 // fraction of what its slope promises: an accepted point never lies beyond a crossing. Where
 // vertices are moved by keys they go along with the direction, and only what they leave of it is
 // gone in the next iteration; until they have arrived E may grow, by their work.
+//
+// Free boxes turn along curves, so that a shorter way of theirs ends beside the longer one. What is
+// swept is the straight ways of all vertices to where they are to be: between two of its poses a
+// box is then sheared and shrunk a little, but at both of them rigid, and what separates them is
+// crossed nowhere on the way. Poses that were not swept to are never accepted.
 #pragma once
 
 #include <vector>
@@ -45,6 +50,10 @@ class WorldMinimiser {
  private:
   bool is_arrived() const;
   void find_direction(int iteration);
+  double max_turn() const;
+  void go(double fraction, WorldPoint& to) const;
+  double margin_beside(double turn) const;
+  double allowed_fraction(double fraction);
   double search_line(bool arrived, WorldMinimiserReport& report);
 
   const ContactSurfaces& surfaces_;

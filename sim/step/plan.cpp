@@ -63,7 +63,9 @@ Plan make_plan(const World& world) {
   const bool ground = world.settings.ground.has_value();
   Plan plan;
 
-  item(plan, Stage::integrate_soft) = needs(soft > 0, "no soft body");
+  // Where contact is a potential, free boxes are part of the same equation.
+  const bool with_boxes = world.settings.contact == ContactMethod::potential && free_boxes;
+  item(plan, Stage::integrate_soft) = needs(soft > 0 || with_boxes, "no soft body");
   item(plan, Stage::integrate_rigid) = needs(rigid > 0, "no rigid box");
   item(plan, Stage::broad_phase) = needs(soft + rigid > 1, "a single body has no pair");
   item(plan, Stage::move_particles) = needs(soft > 1, "particles need two soft bodies");

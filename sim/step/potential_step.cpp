@@ -74,26 +74,29 @@ class PotentialStep {
     }
   }
 
-  /// Boxes move as they do, and their corners straight.
+  /// What keys move goes where it is to go, and its corners straight; free boxes do not move yet.
   std::optional<Divergence> gather_start() {
     m_.surfaces.gather(world_, m_.start.positions, m_.start.velocities);
-    place_boxes(m_.start.positions);
+    m_.surfaces.place_boxes(world_, m_.start.positions);
     if (auto failure = integrate_rigid(world_, w_.motion_start.rigid)) return failure;
+    for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
+      const int box = m_.free_boxes[i];
+      m_.start.boxes[i] = w_.motion_start.rigid[at(box)];
+      set_motion(world_.rigid[at(box)], m_.start.boxes[i]);
+    }
     m_.end.positions.rows() = m_.start.positions.rows();
-    place_boxes(m_.end.positions);
+    m_.surfaces.place_boxes(world_, m_.end.positions);
     if (world_.rigid.empty()) return std::nullopt;
     const int first = m_.surfaces[static_cast<int>(world_.soft.size())].first_vertex;
     const int count = m_.surfaces.vertex_count() - first;
     m_.start.velocities.rows().rightCols(count) =
         (m_.end.positions.rows().rightCols(count) - m_.start.positions.rows().rightCols(count)) /
         time_step(world_.settings);
-    return std::nullopt;
-  }
-
-  void place_boxes(VertexArray& positions) const {
-    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
-      m_.surfaces.place_box(world_.rigid[at(i)], i, positions);
+    for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
+      move_corners(m_.start.boxes[i], m_.surfaces.of_box(m_.free_boxes[i]).first_vertex,
+                   m_.start.positions, m_.start.velocities);
     }
+    return std::nullopt;
   }
 
   std::optional<Divergence> try_step(int halvings, bool& may_be_halved) {
@@ -102,6 +105,9 @@ class PotentialStep {
                                     : step_explicitly(halvings, may_be_halved);
     if (failure) return failure;
     scatter(m_.end);
+    for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
+      set_motion(world_.rigid[at(m_.free_boxes[i])], m_.end.boxes[i]);
+    }
     for (const SoftBody& body : world_.soft) {
       if (auto divergence = find_divergence(world_, body)) {
         divergence->stage = Stage::integrate_soft;
@@ -137,7 +143,7 @@ class PotentialStep {
     return lost;
   }
 
-  std::string first_body() const { return world_.soft.empty() ? "" : world_.soft.front().name; }
+  std::string first_body() const { return body_name(world_, 0); }
 
   Divergence failure(std::string body, std::string what) const {
     return {Stage::integrate_soft, world_.steps + 1, std::move(body), std::move(what)};
@@ -223,11 +229,21 @@ class PotentialStep {
   StageRunner run_;
 };
 
+std::vector<int> find_free_boxes(const World& world) {
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    if (!world.rigid[at(i)].is_kinematic) found.push_back(i);
+  }
+  return found;
+}
+
 }  // namespace
 
 PotentialMemory::PotentialMemory(const World& world)
     : surfaces(world),
-      start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())},
+      free_boxes(find_free_boxes(world)),
+      start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count()),
+            std::vector<RigidStart>(free_boxes.size())},
       end(start),
       finder(surfaces) {
   if (is_implicit(world.settings.integrator)) {

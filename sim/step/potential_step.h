@@ -1,10 +1,10 @@
 // A step of the equation of a whole world in which contact is a potential (ERRATA row 73). Private
 // to sim/step.
 //
-// Soft bodies and what is static or moved are stepped together, by every integrator
-// (sim/potential/explicit_world_step.h, implicit_world_step.h). A step that would bring a pair
-// through each other, or too near for an explicit integrator to follow the barrier, is done in two
-// halves, and these again, and ends as a divergence where that does not help.
+// All bodies are stepped together (sim/potential/explicit_world_step.h, implicit_world_step.h):
+// boxes that move freely by the implicit integrators only. A step that would bring a pair through
+// each other, or too near for an explicit integrator to follow the barrier, is done in two halves,
+// and these again, and ends as a divergence where that does not help.
 #pragma once
 
 #include <array>
@@ -26,15 +26,17 @@ inline constexpr int max_potential_halvings = 10;
 inline constexpr int max_implicit_halvings = 4;
 
 struct PotentialMemory {
-  /// Throws std::invalid_argument if a box of the world moves freely.
+  /// Throws std::invalid_argument if a box of the world moves freely and the integrator is
+  /// explicit.
   explicit PotentialMemory(const World& world);
 
   struct Start {
     WorldState state;
-    std::vector<RigidStart> boxes;
+    std::vector<RigidStart> boxes;  // all
   };
 
   ContactSurfaces surfaces;
+  std::vector<int> free_boxes;  // of the world's
   std::optional<ExplicitWorldStep> explicit_step;
   std::optional<ImplicitWorldStep> implicit_step;
   std::array<Start, max_potential_halvings + 1> starts;  // of a part of the step and all around it

@@ -106,7 +106,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     swept.emplace(world);
   }
   if (has_gas_flow(world)) gas_flow.emplace(world);
-  if (world.settings.contact == ContactMethod::potential && !world.soft.empty()) {
+  if (world.settings.contact == ContactMethod::potential && plan.runs(Stage::integrate_soft)) {
     potential = std::make_unique<PotentialMemory>(world);
   }
 }

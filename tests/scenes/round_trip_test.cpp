@@ -219,7 +219,8 @@ Scene any_scene() {
     const bool by_potential =
         scene.settings.contact == sim::ContactMethod::potential && !by_impulses;
     if (body.kind != BodyKind::soft && by_impulses) body.kind = BodyKind::rigid;
-    if (body.kind == BodyKind::rigid && by_potential) body.kind = BodyKind::soft;
+    const bool has_free_boxes = !by_potential || sim::is_implicit(scene.settings.integrator);
+    if (body.kind == BodyKind::rigid && !has_free_boxes) body.kind = BodyKind::soft;
     if (body.kind == BodyKind::rigid) body.shape = Shape::box;
     set_at_random(body_section(body), false);
   }

@@ -78,9 +78,7 @@ class ContactEquation {
       reach = std::max(reach, surface.reach);
     }
     equation_.set_margin(reach);
-    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
-      surfaces_.place_box(world_.rigid[sim::at(i)], i, positions_);
-    }
+    surfaces_.place_boxes(world_, positions_);
     for (const sim::SoftBody& body : world_.soft) vertices_ += body.positions.size();
   }
 

@@ -47,6 +47,14 @@ void check(const scenes::Scene& scene, const sim::World& world) {
         "of: name one body with --body, which then is alone",
         scene.name));
   }
+  const bool by_potential = world.settings.contact == sim::ContactMethod::potential;
+  if (by_potential && !std::ranges::all_of(world.rigid, &sim::RigidBox::is_kinematic)) {
+    throw UsageError(fmt::format(
+        "{}: a rigid body moves freely, which explicit integrators and the solutions to compare "
+        "with do not step under contact = \"potential\": name a soft body with --body, or set "
+        "simulation.contact = \"swept\"",
+        scene.name));
+  }
   for (const sim::SoftBody& body : world.soft) {
     if (body.pins) {
       throw UsageError(

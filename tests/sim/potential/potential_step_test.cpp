@@ -229,7 +229,7 @@ TEST(PotentialStep, IsTheSameForAnyThreadsAndAfterAResume) {
   }
 }
 
-TEST(PotentialStep, RefusesBoxesThatMoveFreely) {
+TEST(PotentialStep, RefusesFreeBoxesOfExplicitIntegrators) {
   World world = potential_world(Integrator::rk4, 60);
   world.soft.push_back(soft_ball({0, 0, 2}, Vec3::Zero()));
   world.rigid.push_back(make_rigid({1, 1, 1}, {5, 0, 2}));

@@ -1,0 +1,211 @@
+// Boxes that move freely where contact is a potential: they are rigid, and part of the equation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "sim/inspect/checkpoint.h"
+#include "sim/inspect/crossings.h"
+#include "sim/rigid/inertia.h"
+#include "sim/rigid/rigid_motion.h"
+#include "tests/sim/potential/potential_worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr auto implicit_integrators =
+    std::to_array<Integrator>({Integrator::implicit_euler, Integrator::sdirk2});
+
+RigidBox undamped_box(const Vec3& size, const Vec3& position, double mass = 1.0) {
+  RigidBox box = make_rigid(size, position, mass);
+  box.rho_g = 0.0;
+  return box;
+}
+
+World world_of_boxes(Integrator integrator, int steps_per_second, std::vector<RigidBox> boxes) {
+  World world = potential_world(integrator, steps_per_second);
+  world.rigid = std::move(boxes);
+  return world;
+}
+
+/// Euler's equations in body axes by rk4, and the orientation with them.
+RigidBox spun(RigidBox box, double duration, int steps) {
+  const Vec3 inertia = body_inertia(box);
+  const auto slope = [&](const Vec3& rate) -> Vec3 {
+    return (inertia.cwiseProduct(rate)).cross(rate).cwiseQuotient(inertia);
+  };
+  Vec3 rate = box.orientation.conjugate() * box.angular_velocity;
+  const double h = duration / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Vec3 a = slope(rate), b = slope(rate + 0.5 * h * a), c = slope(rate + 0.5 * h * b);
+    const Vec3 next = rate + h / 6.0 * (a + 2.0 * b + 2.0 * c + slope(rate + h * c));
+    const Vec3 middle = rate + 0.5 * h * a;
+    box.orientation = turned(box.orientation, h * (box.orientation * middle));
+    rate = next;
+  }
+  box.angular_velocity = box.orientation * rate;
+  return box;
+}
+
+// The momenta and the energy of turning are exact, the fall is each integrator's, and the turning
+// of the second order of the step, here 0.02 rad.
+TEST(FreeBoxes, FlyAndSpinAsTheRigidEquationHasIt) {
+  for (const Integrator integrator : implicit_integrators) {
+    World world = world_of_boxes(integrator, 120, {undamped_box({1, 2, 0.5}, {0, 0, 20})});
+    RigidBox& box = world.rigid[0];
+    box.velocity = {1, 2, 3};
+    box.angular_velocity = {1.5, 0.3, 1.0};
+    const RigidBox start = box;
+    ASSERT_FALSE(run(world, 1.0));
+    const RigidBox exact = spun(start, 1.0, 12'000);
+    const bool is_euler = integrator == Integrator::implicit_euler;
+    EXPECT_LT(exact.orientation.angularDistance(box.orientation), 1e-3);
+    // Implicit Euler falls by g h t / 2 more than g t^2 / 2; sdirk2 by nothing more.
+    const double late = is_euler ? 0.5 * 9.81 / 120.0 : 0.0;
+    EXPECT_NEAR(box.position.z(), 20.0 + 3.0 - 0.5 * 9.81 - late, 1e-10);
+    EXPECT_NEAR(box.position.x(), 1.0, 1e-11);
+    EXPECT_NEAR(box.velocity.z(), 3.0 - 9.81, 1e-11);
+    EXPECT_LT((spin(box) - spin(start)).norm(), 1e-11 * spin(start).norm());
+    EXPECT_NEAR(box.angular_velocity.dot(spin(box)), start.angular_velocity.dot(spin(start)),
+                1e-11 * start.angular_velocity.dot(spin(start)));
+  }
+}
+
+// m g on the four corners below: A kappa |f'(d / r)| = m g / 4 with the weights of its vertices.
+TEST(FreeBoxes, RestWhereTheBarrierCarriesThem) {
+  for (const Integrator integrator : implicit_integrators) {
+    World world = world_of_boxes(integrator, 60, {make_rigid({1, 1.5, 0.8}, {0, 0, 0.6}, 3.0)});
+    ASSERT_FALSE(run(world, 3.0));
+    const ContactSurfaces surfaces(world);
+    const double reach = surfaces[0].reach;
+    double low = 0.0, high = 1.0;  // of the distance over the reach
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      const double push = -surfaces.stiffness() * barrier(middle).slope * 0.5 * surfaces[0].area;
+      (push > 3.0 * 9.81 ? low : high) = middle;
+    }
+    const double expected = (low - 1.0) * reach + 0.4;
+    // Its corners have different weights, so that it stands a little askew.
+    EXPECT_NEAR(world.rigid[0].position.z(), expected, 0.05 * reach);
+    EXPECT_LT(world.rigid[0].velocity.norm(), 1e-5);
+    EXPECT_LT(world.rigid[0].angular_velocity.norm(), 1e-5);
+  }
+}
+
+TEST(FreeBoxes, SlideDownASlopeAsCoulombHasIt) {
+  for (const double slope : {0.3, 0.8}) {
+    World world =
+        world_of_boxes(Integrator::implicit_euler, 60, {undamped_box({2, 2, 0.5}, {0, 0, 0.25})});
+    world.settings.ground = ContactMaterial{0.0, 0.5};
+    world.rigid[0].surface = {0.0, 0.5};
+    const double angle = std::atan(slope);
+    world.settings.gravity = 9.81 * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+    ASSERT_FALSE(run(world, 1.0));
+    const double before = world.rigid[0].velocity.x();
+    ASSERT_FALSE(run(world, 1.0));
+    const double after = world.rigid[0].velocity.x();
+    if (slope < 0.5) {
+      EXPECT_LT(after, world.settings.potential.regularisation_speed);
+      EXPECT_NEAR(after, before, 1e-4);
+    } else {
+      const double expected = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle));
+      EXPECT_NEAR(after - before, expected, 0.01 * expected);
+    }
+  }
+}
+
+/// Boxes and a ball that fall onto each other, turned at random.
+World falling_pile(Integrator integrator, int steps_per_second) {
+  World world = potential_world(integrator, steps_per_second);
+  world.soft.push_back(soft_ball({0, 0, 1.1}, Vec3::Zero()));
+  for (int i = 0; i < 5; ++i) {
+    RigidBox box = make_rigid({0.8, 0.5, 1.0}, {0.5 * (i % 2), 0.3 * (i % 3), 3.0 + 1.6 * i});
+    box.name = "box-" + std::to_string(i);
+    box.orientation = turned(box.orientation, {0.7 * i, 1.0 - 0.3 * i, 0.4});
+    box.angular_velocity = {2.0 - i, 1.0 * i, 0.5};
+    box.velocity = {0, 0, -3.0};
+    box.mass = std::pow(2.0, i - 2);
+    world.rigid.push_back(box);
+  }
+  world.rigid.push_back(make_rigid({6, 6, 0.3}, {0, 0, -0.35}));
+  world.rigid.back().is_kinematic = true;
+  world.settings.ground.reset();
+  return world;
+}
+
+void expect_pile_to_keep_its_guarantees(World world, double duration) {
+  Stepper stepper(world);
+  double before = energy(world).total();
+  bool boxes_met = false;
+  const int steps = static_cast<int>(duration * world.settings.steps_per_second);
+  for (int i = 0; i < steps; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << divergence->body << ": " << divergence->what;
+    const Crossings found = crossings(world);
+    ASSERT_EQ(found.between_bodies + found.within_bodies, 0) << "step " << i;
+    const double after = energy(world).total();
+    // Rounding of the energies' terms, which are far greater than their sum.
+    EXPECT_LE(after, before + 1e-9 * (std::abs(before) + 1.0)) << "step " << i;
+    before = after;
+    for (const Contact& contact : stepper.contacts()) {
+      boxes_met |= contact.first.kind == SideKind::rigid && contact.second.kind == SideKind::rigid;
+    }
+  }
+  EXPECT_TRUE(boxes_met);
+}
+
+TEST(FreeBoxes, NeverCrossAndGainNoEnergy) {
+  for (const Integrator integrator : implicit_integrators) {
+    expect_pile_to_keep_its_guarantees(falling_pile(integrator, 60), 1.5);
+  }
+}
+
+// A plank that spins by more than a radian in a step strikes another.
+TEST(FreeBoxes, FastTurnsCrossNothing) {
+  World world = world_of_boxes(
+      Integrator::implicit_euler, 60,
+      {undamped_box({3, 0.1, 0.3}, {0, 0, 2}), undamped_box({0.1, 1.5, 0.2}, {1.3, -1.2, 2})});
+  world.settings.gravity.setZero();
+  world.rigid[0].angular_velocity = {0, 0, 90.0};
+  Stepper stepper(world);
+  bool touched = false;
+  double before = energy(world).total();
+  for (int i = 0; i < 30; ++i) {
+    const auto divergence = stepper.step(world);
+    ASSERT_FALSE(divergence) << divergence->what;
+    EXPECT_EQ(crossings(world).between_bodies, 0) << "step " << i;
+    const double after = energy(world).total();
+    EXPECT_LE(after, before * (1.0 + 1e-10)) << "step " << i;
+    before = after;
+    touched |= !stepper.contacts().empty();
+  }
+  EXPECT_TRUE(touched);
+}
+
+TEST(FreeBoxes, AreTheSameForAnyThreadsAndAfterAResume) {
+  for (const Integrator integrator : implicit_integrators) {
+    World world = falling_pile(integrator, 60);
+    const std::uint64_t expected = state_hash_after(world, 1.0, 1);
+    EXPECT_EQ(state_hash_after(world, 1.0, 3), expected);
+    World resumed = world;
+    ASSERT_FALSE(run(world, 0.5));
+    load_state(save_state(world), resumed);
+    EXPECT_EQ(state_hash_after(resumed, 0.5, 1), expected);
+  }
+}
+
+// Under implicit steps as long as a contact lasts restitution is not seen; in short ones it is.
+TEST(FreeBoxes, BounceWithTheirRestitution) {
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    World world = world_of_boxes(Integrator::sdirk2, 4000, {undamped_box({1, 1, 1}, {0, 0, 0.52})});
+    world.settings.gravity.setZero();
+    world.settings.ground = ContactMaterial{0.0, 0.0};
+    world.rigid[0].surface = {restitution, 0.0};
+    world.rigid[0].velocity = {0, 0, -2.0};
+    ASSERT_FALSE(run(world, 0.1));
+    EXPECT_NEAR(world.rigid[0].velocity.z(), 2.0 * restitution, 0.1) << restitution;
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim
