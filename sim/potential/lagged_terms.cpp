@@ -1,6 +1,16 @@
 #include "sim/potential/lagged_terms.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pneuma::sim {
+namespace {
+
+/// Of a parabola that touches parting_ramp() at q and is nowhere below it: the one that does so of
+/// max(0, q - 1/2), near whose corner the ramp's own greatest curvature is enough.
+double bounding_ramp_curvature(double q) { return 0.5 / std::max(std::abs(q - 0.5), 1.0 / 3.0); }
+
+}  // namespace
 
 void LaggedTerms::start(const std::vector<ActiveContact>& active, const VertexArray& velocities,
                         const VertexArray& base, double step, double regularisation_speed) {
@@ -59,21 +69,24 @@ void LaggedTerms::add_gradient(const VertexArray& positions, VertexArray& gradie
   }
 }
 
-void LaggedTerms::append_hessian(const VertexArray& positions,
+void LaggedTerms::append_hessian(const VertexArray& positions, Form form,
                                  std::vector<WeightedBlock>& blocks) const {
+  const bool is_bounding = form == Form::bounding;
   for (const Term& term : terms_) {
     const Vec3 u = way(term, positions);
     const double parting = term.normal.dot(u);
     const Vec3 across = u - parting * term.normal;
     const double sliding = across.norm();
     const Mat3 along_normal = term.normal * term.normal.transpose();
-    Mat3 block = term.taken / length_ * parting_ramp(parting / length_).curvature * along_normal;
+    const double q = parting / length_;
+    const double curvature = is_bounding ? bounding_ramp_curvature(q) : parting_ramp(q).curvature;
+    Mat3 block = term.taken / length_ * curvature * along_normal;
     // Of h(y) / y along the surface, and its change along the way: slope and curvature of H.
     const double y = sliding / length_;
     const double per_length =
         term.braking / length_ * (y > 0.0 ? smooth_friction(y).slope / y : 2.0);
     block += per_length * (Mat3::Identity() - along_normal);
-    if (sliding > 0.0) {
+    if (sliding > 0.0 && !is_bounding) {
       const Vec3 direction = across / sliding;
       const double along = term.braking / length_ * smooth_friction(y).curvature - per_length;
       block += along * direction * direction.transpose();

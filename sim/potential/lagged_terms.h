@@ -30,10 +30,17 @@ class LaggedTerms {
   void start(const std::vector<ActiveContact>& active, const VertexArray& velocities,
              const VertexArray& base, double step, double regularisation_speed);
 
+  /// m: within ways of this length the forces turn.
+  double length() const { return length_; }
+
   double energy(const VertexArray& positions) const;
   void add_gradient(const VertexArray& positions, VertexArray& gradient) const;
-  /// Positive semidefinite blocks, one for each term.
-  void append_hessian(const VertexArray& positions, std::vector<WeightedBlock>& blocks) const;
+  /// Positive semidefinite blocks, one for each term: of the second derivative, or of parabolas
+  /// that touch the terms and are nowhere below them, which hold on ways far longer than length()
+  /// too.
+  enum class Form { derivative, bounding };
+  void append_hessian(const VertexArray& positions, Form form,
+                      std::vector<WeightedBlock>& blocks) const;
 
  private:
   struct Term {

@@ -140,7 +140,8 @@ void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, ContactHe
   }
 }
 
-void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMatrix& matrix) const {
+void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, LaggedTerms::Form lagged,
+                          WorldMatrix& matrix) const {
   matrix.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& body = bodies_[i];
@@ -175,7 +176,7 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, WorldMat
     matrix.blocks().push_back({contact.vertices, contact.count, contact.point.weights,
                                contact.barrier.curvature * normal * normal.transpose()});
   }
-  lagged_.append_hessian(point.positions, matrix.blocks());
+  lagged_.append_hessian(point.positions, lagged, matrix.blocks());
 }
 
 /// The turning of corners that are pushed is part of a box's own block, which is kept positive.

@@ -78,8 +78,11 @@ class WorldEnergy {
   /// N, at a point that has been evaluated; zero where forces move nothing. Of free boxes it is
   /// contracted (box_frame.h).
   void gradient(const WorldPoint& point, VertexArray& gradient) const;
-  void hessian(const WorldPoint& point, ContactHessian form, WorldMatrix& matrix) const;
+  void hessian(const WorldPoint& point, ContactHessian form, LaggedTerms::Form lagged,
+               WorldMatrix& matrix) const;
 
+  /// m: on longer ways the second derivative of friction and restitution means little.
+  double lagged_length() const { return lagged_.length(); }
   const VertexArray& targets() const { return targets_; }
   /// N/m, the least of the bodies: with which the diagonal is shifted.
   double inertia() const;

@@ -42,6 +42,12 @@ constexpr double first_world_shift = 0.1;
 constexpr double world_shift_factor = 4.0;
 constexpr double min_shrinking = 1e-3;
 
+/// Of what is free: less was taken because E did not fall as its derivatives had it. Then those of
+/// friction and restitution, whose forces turn within a short way, are replaced by bounds, until
+/// iterations are not longer than so many of these ways.
+constexpr double halved_fraction = 0.9;
+constexpr double long_way = 10.0;
+
 /// Of free boxes only the columns that carry their coordinates.
 std::vector<std::uint8_t> mobile_coordinates(const ContactSurfaces& surfaces,
                                              const WorldEnergy& energy) {
@@ -88,7 +94,7 @@ void WorldMinimiser::find_direction(int iteration) {
   energy_.gradient(point_, gradient_);
   const bool is_whole = iteration >= quick_iterations;
   energy_.hessian(point_, is_whole ? ContactHessian::positive : ContactHessian::along_normals,
-                  matrix_);
+                  lagged_form_, matrix_);
   for (int v = 0; v < given_.size(); ++v) {
     given_[v] = surfaces_.is_mobile(v) ? Vec3(Vec3::Zero())
                                        : Vec3(energy_.targets()[v] - point_.positions[v]);
@@ -188,6 +194,7 @@ double WorldMinimiser::search_line(bool arrived, WorldMinimiserReport& report) {
 WorldMinimiserReport WorldMinimiser::minimise(double tolerance) {
   WorldMinimiserReport report;
   shift_ = 0.0;
+  lagged_form_ = LaggedTerms::Form::derivative;
   double last_size = std::numeric_limits<double>::infinity();
   int polishing = 0, blocked = 0;
   bool arrived = is_arrived();
@@ -216,6 +223,11 @@ WorldMinimiserReport WorldMinimiser::minimise(double tolerance) {
         fraction == 0.0 || polishing > max_world_polishing;
     last_size = full ? size : 0.0;
     shift_ /= world_shift_factor;
+    const bool is_halved = fraction < halved_fraction * report.blocked.fraction;
+    const bool is_long = size > long_way * energy_.lagged_length();
+    const bool is_bounding = is_halved || lagged_form_ == LaggedTerms::Form::bounding;
+    lagged_form_ =
+        is_bounding && is_long ? LaggedTerms::Form::bounding : LaggedTerms::Form::derivative;
   }
   report.arrived = arrived;
   return report;

@@ -64,6 +64,7 @@ class WorldMinimiser {
   WorldPoint point_, trial_;
   VertexArray gradient_, right_, direction_, given_, ahead_;
   double shift_ = 0.0;
+  LaggedTerms::Form lagged_form_ = LaggedTerms::Form::derivative;
 };
 
 }  // namespace pneuma::sim

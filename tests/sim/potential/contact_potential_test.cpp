@@ -198,7 +198,7 @@ TEST(LaggedTerms, HaveTheirDifferencesAsForcesAndAreConvex) {
   VertexArray gradient(ahead.size());
   terms.add_gradient(ahead, gradient);
   std::vector<WeightedBlock> blocks;
-  terms.append_hessian(ahead, blocks);
+  terms.append_hessian(ahead, LaggedTerms::Form::derivative, blocks);
   VertexArray along = s.velocities;
   VertexArray product(ahead.size());
   double bend = 0.0;
@@ -224,6 +224,38 @@ TEST(LaggedTerms, HaveTheirDifferencesAsForcesAndAreConvex) {
       (gradient_after.rows() - gradient_before.rows()).cwiseProduct(along.rows()).sum() /
       (2.0 * width);
   EXPECT_NEAR(bend, bend_by_differences, 1e-4 * std::abs(bend));
+}
+
+TEST(LaggedTerms, AreNowhereAboveTheirBounds) {
+  Scattered s(near_world());
+  std::vector<ActiveContact> active;
+  find_active(s.surfaces, s.positions, s.pairs, active);
+  constexpr double h = 1.0 / 60.0;
+  LaggedTerms terms;
+  terms.start(active, s.velocities, s.positions, h, 0.02);
+  // From before what is parting to beyond it, and as far.
+  for (const double start : {-2.0, -0.3, -0.02, 0.001, 0.02, 0.3, 2.0}) {
+    VertexArray from = s.positions;
+    from.rows() += start * h * s.velocities.rows();
+    VertexArray slopes(from.size());
+    terms.add_gradient(from, slopes);
+    std::vector<WeightedBlock> blocks;
+    terms.append_hessian(from, LaggedTerms::Form::bounding, blocks);
+    for (const double length : {-3.0, -0.5, -0.1, -0.01, 0.001, 0.01, 0.1, 0.5, 3.0}) {
+      VertexArray way(from.size()), to(from.size());
+      way.rows() = length * h * s.velocities.rows();
+      to.rows() = from.rows() + way.rows();
+      double bound = terms.energy(from) + slopes.rows().cwiseProduct(way.rows()).sum();
+      for (const WeightedBlock& block : blocks) {
+        Vec3 sum = Vec3::Zero();
+        for (int i = 0; i < block.count; ++i) {
+          sum += block.weights[at(i)] * way[block.vertices[at(i)]];
+        }
+        bound += 0.5 * sum.dot(block.block * sum);
+      }
+      EXPECT_LE(terms.energy(to), bound + 1e-12 * std::abs(bound)) << start << ", " << length;
+    }
+  }
 }
 
 TEST(PairFinder, FindsWhatLookingAtEveryPairFinds) {
