@@ -7,7 +7,7 @@ namespace pneuma::sim {
 namespace {
 
 /// Of a parabola that touches parting_ramp() at q and is nowhere below it: the one that does so of
-/// max(0, q - 1/2), near whose corner the ramp's own greatest curvature is enough.
+/// max(0, q - 1/2), near whose corner the max curvature of the ramp is enough.
 double bounding_ramp_curvature(double q) { return 0.5 / std::max(std::abs(q - 0.5), 1.0 / 3.0); }
 
 }  // namespace
