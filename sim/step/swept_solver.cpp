@@ -93,8 +93,9 @@ void SweptSolver::solve_island(int island, double tolerance) {
 void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   if (iterations_.correct(impulses, of_boxes, few_iterations) <= of_boxes) return;
+  const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
-    if (!newton_.improve(impulses, penalty)) {
+    if (!is_small || !newton_.improve(penalty)) {
       iterations_.correct(impulses, tolerance, many_iterations - few_iterations);
       return;
     }

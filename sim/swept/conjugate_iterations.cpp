@@ -19,13 +19,14 @@ double ConjugateIterations::correct(std::span<SweptImpulse* const> impulses, dou
 }
 
 double ConjugateIterations::iterate(std::span<SweptImpulse* const> impulses) {
-  for (std::size_t i = 0; i < impulses.size(); ++i) corrections_[i] = impulses[i]->impulse();
   double greatest = 0.0;
-  for (SweptImpulse* impulse : impulses) greatest = std::max(greatest, impulse->correct());
   squared_ = 0.0;
   for (std::size_t i = 0; i < impulses.size(); ++i) {
-    corrections_[i] = impulses[i]->impulse() - corrections_[i];
-    squared_ += impulses[i]->mobility() * dot(corrections_[i], corrections_[i]);
+    SweptImpulse& impulse = *impulses[i];
+    const Vec4d before = impulse.impulse();
+    greatest = std::max(greatest, impulse.correct());
+    corrections_[i] = impulse.impulse() - before;
+    squared_ += impulse.mobility() * dot(corrections_[i], corrections_[i]);
   }
   return greatest;
 }

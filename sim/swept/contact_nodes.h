@@ -38,6 +38,9 @@ class ContactNodes {
   std::span<const ContactLever> levers(std::size_t impulse) const {
     return std::span(levers_).subspan(begin_[impulse], begin_[impulse + 1] - begin_[impulse]);
   }
+  /// Of all impulses, one after the other, and where those of one begin.
+  std::span<const ContactLever> levers() const { return levers_; }
+  std::size_t first_lever(std::size_t impulse) const { return begin_[impulse]; }
   std::size_t impulses() const { return begin_.size() - 1; }
   int rows() const { return rows_; }
   /// Of each row of the matrix that couples the nodes of every impulse: the column of the first

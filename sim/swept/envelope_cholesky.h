@@ -26,6 +26,13 @@ class EnvelopeCholesky {
   void solve(std::span<double> right) const;
 
  private:
+  /// Rows from `begin`, so many, which begin in the same column: their entries before that of row
+  /// `begin`, each group of inner products with an earlier row at once.
+  template <std::size_t rows>
+  void reduce(std::size_t begin);
+  void reduce(std::size_t begin, std::size_t rows);
+  /// The entries from column `first` on, and the pivot: false if that is not positive.
+  bool finish_row(std::size_t i, std::size_t first);
   const double* row(std::size_t i) const { return entries_.data() + begin_[i]; }
 
   std::vector<std::size_t> first_;

@@ -21,34 +21,44 @@ Mat3 inertia_of(const BoxChange& box) {
 }
 
 /// The lever's velocity from the unknowns of its node, of which a vertex has the first three.
-Eigen::Matrix<double, 3, 6> jacobian(const ContactLever& lever) {
-  Eigen::Matrix<double, 3, 6> result;
+LeverJacobian jacobian(const ContactLever& lever) {
+  LeverJacobian result;
   result << lever.weight * Mat3::Identity(), -lever.weight * cross_matrix(lever.arm);
   return result;
 }
 
 }  // namespace
 
-bool NewtonSolver::improve(std::span<SweptImpulse* const> impulses, double penalty) {
+bool NewtonSolver::begin(std::span<SweptImpulse* const> impulses) {
+  impulses_ = impulses;
   nodes_.find(impulses);
   if (!is_small()) return false;
+  inertias_.clear();
+  for (const ContactNode& node : nodes_.nodes()) {
+    inertias_.push_back(node.box ? inertia_of(*node.box) : Mat3::Zero());
+  }
+  jacobians_.clear();
+  for (const ContactLever& lever : nodes_.levers()) jacobians_.push_back(jacobian(lever));
+  return true;
+}
+
+bool NewtonSolver::improve(double penalty) {
   read_velocities();
-  double at_first = 0.0;
+  double potential = respond(penalty), at_first = 0.0;
   for (int step = 0; step < max_steps; ++step) {
-    assemble(impulses, penalty);
+    assemble();
     double squared = 0.0;
     for (const double r : residual_) squared += r * r;
     if (step == 0) at_first = squared;
     if (squared <= converged * at_first) {
-      for (std::size_t i = 0; i < impulses.size(); ++i) {
-        const Vec4d change = relative_change(nodes_.levers(i));
-        impulses[i]->replace_given(impulses[i]->respond(change, penalty).given);
+      for (std::size_t i = 0; i < impulses_.size(); ++i) {
+        impulses_[i]->replace_given(responses_[i].given);
       }
       return true;
     }
     if (!matrix_.factor()) return false;
     matrix_.solve(residual_);
-    if (!descend(impulses, penalty)) return false;
+    if (!descend(penalty, potential)) return false;
   }
   return false;
 }
@@ -65,11 +75,9 @@ bool NewtonSolver::is_small() {
 
 void NewtonSolver::read_velocities() {
   velocities_.resize(at(nodes_.rows()));
-  inertias_.clear();
   for (const ContactNode& node : nodes_.nodes()) {
     double* const v = velocities_.data() + node.row;
     for (int k = 0; k < 3; ++k) v[k] = node.box ? node.box->velocity[k] : node.vertex[k];
-    inertias_.push_back(node.box ? inertia_of(*node.box) : Mat3::Zero());
     if (!node.box) continue;
     for (int k = 0; k < 3; ++k) v[3 + k] = node.box->angular_velocity[k];
   }
@@ -89,13 +97,29 @@ Vec4d NewtonSolver::relative_change(std::span<const ContactLever> levers) const 
   return to_vec4d(sum);
 }
 
-void NewtonSolver::assemble(std::span<SweptImpulse* const> impulses, double penalty) {
+double NewtonSolver::respond(double penalty) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes_.nodes().size(); ++i) {
+    const ContactNode& node = nodes_.nodes()[i];
+    const double mass = node.box ? 1.0 / node.box->inverse_mass : node.vertex_mass;
+    sum += 0.5 * mass * part(node, 0).squaredNorm();
+    if (node.box) sum += 0.5 * part(node, 3).dot(inertias_[i] * part(node, 3));
+  }
+  responses_.resize(impulses_.size());
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
+    responses_[i] = impulses_[i]->respond(relative_change(nodes_.levers(i)), penalty);
+    sum += responses_[i].potential;
+  }
+  return sum;
+}
+
+void NewtonSolver::assemble() {
   matrix_.reset(first_columns_);
   residual_.assign(at(nodes_.rows()), 0.0);
   add_masses();
-  for (std::size_t i = 0; i < impulses.size(); ++i) {
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
     const auto levers = nodes_.levers(i);
-    add(impulses[i]->respond(relative_change(levers), penalty), levers);
+    add(responses_[i], levers, std::span(jacobians_).subspan(nodes_.first_lever(i), levers.size()));
   }
 }
 
@@ -115,38 +139,25 @@ void NewtonSolver::add_masses() {
   }
 }
 
-void NewtonSolver::add(const SweptImpulse::Response& response,
-                       std::span<const ContactLever> levers) {
-  for (const ContactLever& a : levers) {
-    const ContactNode& one = nodes_.nodes()[at(a.node)];
-    const Eigen::Matrix<double, 6, 3> to_node = jacobian(a).transpose();
+void NewtonSolver::add(const SweptImpulse::Response& response, std::span<const ContactLever> levers,
+                       std::span<const LeverJacobian> jacobians) {
+  for (std::size_t a = 0; a < levers.size(); ++a) {
+    const ContactNode& one = nodes_.nodes()[at(levers[a].node)];
+    const Eigen::Matrix<double, 6, 3> to_node = jacobians[a].transpose();
     const Eigen::Matrix<double, 6, 1> force = to_node * to_vec3(response.given);
     for (int k = 0; k < one.rows(); ++k) residual_[at(one.row + k)] += force[k];
     const Eigen::Matrix<double, 6, 3> stiffness = to_node * response.stiffness;
-    for (const ContactLever& b : levers) {
-      const ContactNode& other = nodes_.nodes()[at(b.node)];
+    for (std::size_t b = 0; b < levers.size(); ++b) {
+      const ContactNode& other = nodes_.nodes()[at(levers[b].node)];
       if (other.row > one.row) continue;
-      const Eigen::Matrix<double, 6, 6> block = stiffness * jacobian(b);
+      const Eigen::Matrix<double, 6, 6> block = stiffness * jacobians[b];
       for (int k = 0; k < one.rows(); ++k) {
         const int end = std::min(other.rows(), one.row + k - other.row + 1);
-        for (int l = 0; l < end; ++l) matrix_.entry(one.row + k, other.row + l) += block(k, l);
+        double* const entries = &matrix_.entry(one.row + k, other.row);
+        for (int l = 0; l < end; ++l) entries[l] += block(k, l);
       }
     }
   }
-}
-
-double NewtonSolver::potential(std::span<SweptImpulse* const> impulses, double penalty) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < nodes_.nodes().size(); ++i) {
-    const ContactNode& node = nodes_.nodes()[i];
-    const double mass = node.box ? 1.0 / node.box->inverse_mass : node.vertex_mass;
-    sum += 0.5 * mass * part(node, 0).squaredNorm();
-    if (node.box) sum += 0.5 * part(node, 3).dot(inertias_[i] * part(node, 3));
-  }
-  for (std::size_t i = 0; i < impulses.size(); ++i) {
-    sum += impulses[i]->respond(relative_change(nodes_.levers(i)), penalty).potential;
-  }
-  return sum;
 }
 
 void NewtonSolver::move(double fraction) {
@@ -154,12 +165,13 @@ void NewtonSolver::move(double fraction) {
 }
 
 /// The longest of the step, its half, its quarter and so on that the potential falls by.
-bool NewtonSolver::descend(std::span<SweptImpulse* const> impulses, double penalty) {
-  const double before = potential(impulses, penalty);
+bool NewtonSolver::descend(double penalty, double& potential) {
+  const double before = potential;
   move(1.0);
   double fraction = 1.0;
   for (int i = 0; i < max_shortenings; ++i) {
-    if (potential(impulses, penalty) < before) return true;
+    potential = respond(penalty);
+    if (potential < before) return true;
     move(-0.5 * fraction);
     fraction *= 0.5;
   }

@@ -19,31 +19,42 @@
 
 namespace pneuma::sim {
 
+/// Of the change of a lever's velocity by those of its node.
+using LeverJacobian = Eigen::Matrix<double, 3, 6>;
+
 class NewtonSolver {
  public:
-  /// Improves the impulses, the more the greater the `penalty` is: of what each would need if it
-  /// acted alone. False, and nothing is changed, if that would take longer than many Gauss-Seidel
-  /// iterations, or if it does not converge.
-  bool improve(std::span<SweptImpulse* const> impulses, double penalty);
+  /// Finds what the impulses move. False if to improve them would take longer than many
+  /// Gauss-Seidel iterations.
+  bool begin(std::span<SweptImpulse* const> impulses);
+  /// Improves the impulses of the last `begin`, the more the greater the `penalty` is: of what each
+  /// would need if it acted alone. False, and nothing is changed, if that does not converge.
+  bool improve(double penalty);
 
  private:
   bool is_small();
   void read_velocities();
-  /// The residual and the matrix of the system at the velocities.
-  void assemble(std::span<SweptImpulse* const> impulses, double penalty);
+  /// All responses at the velocities. Returns the convex function's value there, J.
+  double respond(double penalty);
+  /// The residual and the matrix of the system at the velocities, from the responses there.
+  void assemble();
   void add_masses();
-  void add(const SweptImpulse::Response& response, std::span<const ContactLever> levers);
-  double potential(std::span<SweptImpulse* const> impulses, double penalty) const;
-  bool descend(std::span<SweptImpulse* const> impulses, double penalty);
+  void add(const SweptImpulse::Response& response, std::span<const ContactLever> levers,
+           std::span<const LeverJacobian> jacobians);
+  /// From velocities at which the function is `potential`, which is then that at the new ones.
+  bool descend(double penalty, double& potential);
   void move(double fraction);
   Vec4d relative_change(std::span<const ContactLever> levers) const;
   Vec3 part(const ContactNode& node, int first) const;
 
+  std::span<SweptImpulse* const> impulses_;
   ContactNodes nodes_;
   std::vector<int> first_columns_;
-  std::vector<double> velocities_;  // V
-  std::vector<double> residual_;    // J^T lambda(J V) - M V, then the step
-  std::vector<Mat3> inertias_;      // of the nodes that are boxes
+  std::vector<double> velocities_;        // V
+  std::vector<double> residual_;          // J^T lambda(J V) - M V, then the step
+  std::vector<Mat3> inertias_;            // of the nodes that are boxes
+  std::vector<LeverJacobian> jacobians_;  // of the levers
+  std::vector<SweptImpulse::Response> responses_;
   EnvelopeCholesky matrix_;
 };
 

@@ -15,6 +15,64 @@ Vec4d within(double limit, Vec4d vector) {
   return size > limit ? limit / size * vector : vector;
 }
 
+/// Two sides that impulses change where they are.
+class Sides {
+ public:
+  Sides(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
+
+  Vec4d relative_change() const { return first_.change() - second_.change(); }
+  void apply(Vec4d impulse) const {
+    first_.apply(impulse);
+    second_.apply(-impulse);
+  }
+
+ private:
+  const SweptSide& first_;
+  const SweptSide& second_;
+};
+
+/// Two boxes whose changes stay in registers until they are kept.
+class SidesOfBoxes {
+ public:
+  SidesOfBoxes(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
+
+  Vec4d relative_change() const { return first_.change() - second_.change(); }
+  void apply(Vec4d impulse) {
+    first_.apply(impulse);
+    second_.apply(-impulse);
+  }
+  void keep() const {
+    first_.keep();
+    second_.keep();
+  }
+
+ private:
+  struct Side {
+    explicit Side(const SweptSide& side)
+        : box(side.box()),
+          velocity(box->velocity),
+          angular_velocity(box->angular_velocity),
+          arm(side.arm()) {}
+
+    Vec4d change() const { return velocity + cross(angular_velocity, arm); }
+    void apply(Vec4d impulse) {
+      velocity += box->inverse_mass * impulse;
+      angular_velocity += box->inverse_inertia * cross(arm, impulse);
+    }
+    void keep() const {
+      box->velocity = velocity;
+      box->angular_velocity = angular_velocity;
+    }
+
+    BoxChange* box;
+    Vec4d velocity, angular_velocity;
+    Vec4d arm;
+  };
+
+  Side first_;
+  Side second_;
+};
+
 }  // namespace
 
 BoxChange make_box_change(const RigidBox& box, const Vec3& position,
@@ -39,8 +97,7 @@ SweptSide::SweptSide(VertexArray& changes, std::span<const int> vertices,
 SweptSide::SweptSide(BoxChange& box, const Vec3& point)
     : box_(&box), arm_(to_vec4d(point) - box.centre) {}
 
-Vec4d SweptSide::change() const {
-  if (box_) return box_->velocity + cross(box_->angular_velocity, arm_);
+Vec4d SweptSide::change_of_vertices() const {
   Vec4d sum{};
   for (std::size_t i = 0; i < at(count_); ++i) {
     sum = fma(weights_[i], load_vec4d(vertices_[i]), sum);
@@ -48,12 +105,7 @@ Vec4d SweptSide::change() const {
   return sum;
 }
 
-void SweptSide::apply(Vec4d impulse) const {
-  if (box_) {
-    box_->velocity += box_->inverse_mass * impulse;
-    box_->angular_velocity += box_->inverse_inertia * cross(arm_, impulse);
-    return;
-  }
+void SweptSide::apply_to_vertices(Vec4d impulse) const {
   const Vec4d change = inverse_vertex_mass_ * impulse;
   for (std::size_t i = 0; i < at(count_); ++i) {
     store_vec4d(fma(weights_[i], change, load_vec4d(vertices_[i])), vertices_[i]);
@@ -175,33 +227,42 @@ void SweptImpulse::apply(Vec4d impulse) const {
   second_.apply(-impulse);
 }
 
-double SweptImpulse::correct_normal() {
-  const double missing = parting_ - dot(normal_, relative_change());
+template <class BothSides>
+double SweptImpulse::correct_normal(BothSides& sides) {
+  const double missing = parting_ - dot(normal_, sides.relative_change());
   const double before = normal_impulse_;
   normal_impulse_ = std::clamp(before + missing * normal_mass_, 0.0, max_normal_);
   const double given = normal_impulse_ - before;
-  if (given != 0.0) apply(given * normal_);
+  if (given != 0.0) sides.apply(given * normal_);
   return std::abs(given) * mobility_;
 }
 
 // A step against the sliding, then the nearest point in the cone: from within the cone it never
 // adds energy, and unlike the impulse that stops the sliding at once, where there is room for it,
 // it does not jump from one iteration to the next.
-double SweptImpulse::correct_friction() {
+template <class BothSides>
+double SweptImpulse::correct_friction(BothSides& sides) {
   const double limit = friction_ * normal_impulse_;
   if (limit == 0.0 && dot(friction_impulse_, friction_impulse_) == 0.0) return 0.0;
-  Vec4d slides = relative_change() + sliding_;
+  Vec4d slides = sides.relative_change() + sliding_;
   slides -= dot(slides, normal_) * normal_;
   const Vec4d after = within(limit, friction_impulse_ - min_tangent_mass_ * slides);
   const Vec4d given = after - friction_impulse_;
   friction_impulse_ = after;
-  apply(given);
+  sides.apply(given);
   return std::sqrt(dot(given, given)) / min_tangent_mass_;
 }
 
 double SweptImpulse::correct() {
-  const double by_normal = correct_normal();
-  return std::max(by_normal, correct_friction());
+  if (first_.box() && second_.box()) {
+    SidesOfBoxes sides(first_, second_);
+    const double by_normal = correct_normal(sides), by_friction = correct_friction(sides);
+    sides.keep();
+    return std::max(by_normal, by_friction);
+  }
+  Sides sides(first_, second_);
+  const double by_normal = correct_normal(sides);
+  return std::max(by_normal, correct_friction(sides));
 }
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }

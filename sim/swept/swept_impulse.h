@@ -41,9 +41,15 @@ class SweptSide {
   SweptSide(BoxChange& box, const Vec3& point);
 
   /// Change of the point's velocity so far, m/s.
-  Vec4d change() const;
+  Vec4d change() const {
+    return box_ ? box_->velocity + cross(box_->angular_velocity, arm_) : change_of_vertices();
+  }
   /// N s.
-  void apply(Vec4d impulse) const;
+  void apply(Vec4d impulse) const {
+    if (!box_) return apply_to_vertices(impulse);
+    box_->velocity += box_->inverse_mass * impulse;
+    box_->angular_velocity += box_->inverse_inertia * cross(arm_, impulse);
+  }
   /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
   Mat3 mobility() const;
 
@@ -58,6 +64,9 @@ class SweptSide {
   double vertex_mass() const { return 1.0 / inverse_vertex_mass_; }
 
  private:
+  Vec4d change_of_vertices() const;
+  void apply_to_vertices(Vec4d impulse) const;
+
   std::array<double*, 3> vertices_{};
   FeatureWeights weights_{};
   int count_ = 0;
@@ -121,8 +130,10 @@ class SweptImpulse {
   double work(const Vec3& before) const;
 
  private:
-  double correct_normal();
-  double correct_friction();
+  template <class BothSides>
+  double correct_normal(BothSides& sides);
+  template <class BothSides>
+  double correct_friction(BothSides& sides);
   Vec4d relative_change() const { return first_.change() - second_.change(); }
   Vec4d start() const { return start_normal_ * normal_ + start_friction_; }
   void respond_along_normal(Vec4d change, double penalty, Response& response) const;
