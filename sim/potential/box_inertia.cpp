@@ -62,12 +62,12 @@ BoxInertia::BoxInertia(const RigidBox& box) : box_(box) {
   box_.name.clear();  // a copy takes no memory
 }
 
-void BoxInertia::set_step(const RigidStart& base, const Vec3& gravity, double beta) {
+void BoxInertia::set_step(const RigidState& base, const Vec3& gravity, double beta) {
   kept_ = std::pow(1.0 - box_.rho_g, 60.0 * beta);
   base_ = base;
   beta_ = beta;
   scale_ = 1.0 / (kept_ * beta * beta);
-  set_motion(box_, base);
+  set_state(box_, base);
   box_.velocity = kept_ * (base.velocity + beta * gravity);
   box_.angular_velocity *= kept_;
   box_.position += beta * box_.velocity;
@@ -105,8 +105,8 @@ Mat6 BoxInertia::hessian(const Pose& pose) const {
   return result;
 }
 
-RigidStart BoxInertia::state_at(const Pose& pose) const {
-  RigidStart state;
+RigidState BoxInertia::state_at(const Pose& pose) const {
+  RigidState state;
   state.position = pose.position;
   state.orientation = pose.orientation;
   state.velocity = box_.velocity + (pose.position - box_.position) / beta_;
@@ -116,16 +116,16 @@ RigidStart BoxInertia::state_at(const Pose& pose) const {
   return state;
 }
 
-RigidStart BoxInertia::extrapolate(const RigidStart& middle, double factor) const {
+RigidState BoxInertia::extrapolate(const RigidState& middle, double factor) const {
   const auto along = [&](const Vec3& from, const Vec3& to) -> Vec3 {
     return from + factor * (to - from);
   };
   RigidBox free = box_;
-  set_motion(free, base_);
+  set_state(free, base_);
   free.angular_velocity *= kept_;
   turn_freely(free, factor * beta_);
   const Eigen::AngleAxisd by_forces(middle.orientation * box_.orientation.conjugate());
-  RigidStart result;
+  RigidState result;
   result.position = along(base_.position, middle.position);
   result.velocity = along(base_.velocity, middle.velocity);
   result.orientation = turned(free.orientation, factor * by_forces.angle() * by_forces.axis());
@@ -134,12 +134,12 @@ RigidStart BoxInertia::extrapolate(const RigidStart& middle, double factor) cons
   return result;
 }
 
-double kinetic_energy(const RigidBox& box, const RigidStart& state) {
+double kinetic_energy(const RigidBox& box, const RigidState& state) {
   return 0.5 * box.mass * state.velocity.squaredNorm() +
          0.5 * state.angular_velocity.dot(spin(box, state));
 }
 
-Vec3 spin(const RigidBox& box, const RigidStart& state) {
+Vec3 spin(const RigidBox& box, const RigidState& state) {
   const Eigen::Quaterniond& q = state.orientation;
   return q * body_inertia(box).cwiseProduct(q.conjugate() * state.angular_velocity);
 }
@@ -149,7 +149,7 @@ Vec3 rate_of(const RigidBox& box, const Eigen::Quaterniond& orientation, const V
          body_inertia(box).cwiseInverse().cwiseProduct(orientation.conjugate() * momentum);
 }
 
-void move_corners(const RigidStart& box, int first_vertex, const VertexArray& positions,
+void move_corners(const RigidState& box, int first_vertex, const VertexArray& positions,
                   VertexArray& velocities) {
   for (int v = first_vertex; v < first_vertex + box_corners; ++v) {
     const Vec3 arm = positions[v] - box.position;

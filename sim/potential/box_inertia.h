@@ -13,8 +13,8 @@
 #pragma once
 
 #include "sim/potential/box_frame.h"
-#include "sim/response/motion_start.h"
 #include "sim/rigid/given_motion.h"
+#include "sim/rigid/rigid_state.h"
 
 namespace pneuma::sim {
 
@@ -24,7 +24,7 @@ class BoxInertia {
   explicit BoxInertia(const RigidBox& box);
 
   /// For a step of `beta` seconds from `base`.
-  void set_step(const RigidStart& base, const Vec3& gravity, double beta);
+  void set_step(const RigidState& base, const Vec3& gravity, double beta);
 
   double energy(const Pose& pose) const;  // J
   /// Force in N and torque in N m, with which it grows as the box moves and turns.
@@ -34,12 +34,12 @@ class BoxInertia {
 
   /// The state at the end of the step, of a pose at which forces balance: the change of momentum
   /// and of angular momentum is beta times force and torque there.
-  RigidStart state_at(const Pose& pose) const;
+  RigidState state_at(const Pose& pose) const;
 
   /// sdirk2's second base: from where the step began by `factor` as far as to `middle`, at which it
   /// ended. Of the turn only what forces added to the free one is multiplied, so that a free box
   /// keeps its energy.
-  RigidStart extrapolate(const RigidStart& middle, double factor) const;
+  RigidState extrapolate(const RigidState& middle, double factor) const;
 
   double per_length() const { return scale_ * box_.mass; }  // N/m
   /// m^2: the mean of the squares of r from the centre along an axis, which compares turns with
@@ -50,21 +50,21 @@ class BoxInertia {
   Vec3 axis_moments() const { return box_.mass / 12.0 * box_.size.cwiseAbs2(); }  // J, kg m^2
 
   RigidBox box_;  // where it would be without forces
-  RigidStart base_;
+  RigidState base_;
   double kept_ = 1.0;  // of velocities, by drag
   double beta_ = 1.0;
   double scale_ = 0.0;  // 1/s^2: 1 / (kept beta^2)
 };
 
 /// J, of motion.
-double kinetic_energy(const RigidBox& box, const RigidStart& state);
+double kinetic_energy(const RigidBox& box, const RigidState& state);
 /// rad/s, of an angular momentum.
 Vec3 rate_of(const RigidBox& box, const Eigen::Quaterniond& orientation, const Vec3& momentum);
 /// Of a box with these positions of its corners, their velocities.
-void move_corners(const RigidStart& box, int first_vertex, const VertexArray& positions,
+void move_corners(const RigidState& box, int first_vertex, const VertexArray& positions,
                   VertexArray& velocities);
 /// kg m^2/s, about its centre.
-Vec3 spin(const RigidBox& box, const RigidStart& state);
+Vec3 spin(const RigidBox& box, const RigidState& state);
 
 /// What the second derivative gains, by dtheta, as turning corners move along curves: of forces
 /// that are the slopes of an energy by the corners' ways.

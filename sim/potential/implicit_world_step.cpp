@@ -17,7 +17,7 @@ constexpr double world_tolerance_fraction = 1e-8;
 constexpr double world_rounding = 1e-13;
 
 WorldState make_state(int vertex_count, std::size_t boxes) {
-  return {VertexArray(vertex_count), VertexArray(vertex_count), std::vector<RigidStart>(boxes)};
+  return {VertexArray(vertex_count), VertexArray(vertex_count), std::vector<RigidState>(boxes)};
 }
 
 /// sdirk2's, as in sim/soft/implicit_step.cpp.
@@ -131,7 +131,7 @@ bool ImplicitWorldStep::sdirk2(const World& world, double step, const WorldState
 void ImplicitWorldStep::extrapolate_boxes() {
   for (std::size_t i = 0; i < middle_.boxes.size(); ++i) {
     const WorldEnergy::Box& box = energy_.boxes()[i];
-    RigidStart& to = extrapolated_.boxes[i];
+    RigidState& to = extrapolated_.boxes[i];
     to = box.energy.extrapolate(middle_.boxes[i], sdirk_extrapolation);
     surfaces_.place_box({to.position, to.orientation}, box.index, extrapolated_.positions);
   }
@@ -270,7 +270,7 @@ bool ImplicitWorldStep::limit_energy(const World& world, WorldState& end) {
     own = factor * (own.colwise() - common).eval();
     own.colwise() += common;
   }
-  for (RigidStart& box : end.boxes) {
+  for (RigidState& box : end.boxes) {
     if (keeps_centres) break;
     box.velocity *= factor;
     box.angular_velocity *= factor;

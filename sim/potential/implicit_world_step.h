@@ -18,7 +18,7 @@ namespace pneuma::sim {
 struct WorldState {
   VertexArray positions;          // m
   VertexArray velocities;         // m/s
-  std::vector<RigidStart> boxes;  // in the order of the world's
+  std::vector<RigidState> boxes;  // in the order of the world's
 };
 
 struct ImplicitWorldReport {

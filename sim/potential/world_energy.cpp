@@ -42,7 +42,7 @@ WorldPoint WorldEnergy::make_point() const {
 }
 
 void WorldEnergy::set_step(const World& world, double beta, const std::vector<EulerBase>& bases,
-                           const std::vector<RigidStart>& box_bases, const VertexArray& targets) {
+                           const std::vector<RigidState>& box_bases, const VertexArray& targets) {
   targets_.rows() = targets.rows();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];

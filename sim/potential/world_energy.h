@@ -66,7 +66,7 @@ class WorldEnergy {
   /// of boxes(); `targets` are those of all vertices that forces do not move. Without friction and
   /// restitution until start_lagged().
   void set_step(const World& world, double beta, const std::vector<EulerBase>& bases,
-                const std::vector<RigidStart>& box_bases, const VertexArray& targets);
+                const std::vector<RigidState>& box_bases, const VertexArray& targets);
   void start_lagged(const std::vector<ActiveContact>& active, const VertexArray& velocities,
                     const VertexArray& base, double beta);
 

@@ -47,7 +47,7 @@ bool has_moved_less(const World& world, const MotionStart& start, int body, doub
     return true;
   }
   const RigidBox& box = world.rigid[at(body - soft_count(world))];
-  const RigidStart& before = start.rigid[at(body - soft_count(world))];
+  const RigidState& before = start.rigid[at(body - soft_count(world))];
   const double angle = box.orientation.angularDistance(before.orientation);
   return (box.position - before.position).norm() + angle * 0.5 * box.size.norm() <= than;
 }

@@ -4,17 +4,6 @@
 
 namespace pneuma::sim {
 
-RigidStart motion_of(const RigidBox& box) {
-  return {box.position, box.orientation, box.velocity, box.angular_velocity};
-}
-
-void set_motion(RigidBox& box, const RigidStart& start) {
-  box.position = start.position;
-  box.orientation = start.orientation;
-  box.velocity = start.velocity;
-  box.angular_velocity = start.angular_velocity;
-}
-
 void keep_soft(const World& world, std::vector<SoftState>& start) {
   start.resize(world.soft.size());
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -23,9 +12,9 @@ void keep_soft(const World& world, std::vector<SoftState>& start) {
   }
 }
 
-void keep_rigid(const World& world, std::vector<RigidStart>& start) {
+void keep_rigid(const World& world, std::vector<RigidState>& start) {
   start.resize(world.rigid.size());
-  for (std::size_t i = 0; i < start.size(); ++i) start[i] = motion_of(world.rigid[i]);
+  for (std::size_t i = 0; i < start.size(); ++i) start[i] = state_of(world.rigid[i]);
 }
 
 void restore_soft(World& world, const std::vector<SoftState>& start) {
@@ -36,8 +25,8 @@ void restore_soft(World& world, const std::vector<SoftState>& start) {
   }
 }
 
-void restore_rigid(World& world, const std::vector<RigidStart>& start) {
-  for (std::size_t i = 0; i < start.size(); ++i) set_motion(world.rigid[i], start[i]);
+void restore_rigid(World& world, const std::vector<RigidState>& start) {
+  for (std::size_t i = 0; i < start.size(); ++i) set_state(world.rigid[i], start[i]);
 }
 
 }  // namespace pneuma::sim

@@ -19,7 +19,7 @@ std::optional<Divergence> integrate(const World& world, RigidBox& box) {
 
 }  // namespace
 
-std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start) {
+std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidState>& start) {
   keep_rigid(world, start);
   const int soft = static_cast<int>(world.soft.size());
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
@@ -29,9 +29,9 @@ std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>&
   return std::nullopt;
 }
 
-std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidStart& start) {
+std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidState& start) {
   RigidBox& moved = world.rigid[at(box)];
-  set_motion(moved, start);
+  set_state(moved, start);
   return integrate(world, moved);
 }
 

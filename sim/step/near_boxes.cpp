@@ -25,7 +25,7 @@ OrientedBox SweptSearch::end_box(int body) const {
 }
 
 OrientedBox SweptSearch::start_box(int body) const {
-  const RigidStart& start = start_.rigid[at(bodies_.box(body))];
+  const RigidState& start = start_.rigid[at(bodies_.box(body))];
   return {start.position, start.orientation.toRotationMatrix(),
           0.5 * world_.rigid[at(bodies_.box(body))].size};
 }

@@ -55,7 +55,7 @@ class PotentialStep {
     if (start.state.positions.size() == 0) start.state = m_.start;
     m_.surfaces.gather(world_, start.state.positions, start.state.velocities);
     start.boxes.clear();
-    for (const RigidBox& box : world_.rigid) start.boxes.push_back(motion_of(box));
+    for (const RigidBox& box : world_.rigid) start.boxes.push_back(state_of(box));
   }
 
   void take_back(const PotentialMemory::Start& start) {
@@ -82,7 +82,7 @@ class PotentialStep {
     for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
       const int box = m_.free_boxes[i];
       m_.start.boxes[i] = w_.motion_start.rigid[at(box)];
-      set_motion(world_.rigid[at(box)], m_.start.boxes[i]);
+      set_state(world_.rigid[at(box)], m_.start.boxes[i]);
     }
     m_.end.positions.rows() = m_.start.positions.rows();
     m_.surfaces.place_boxes(world_, m_.end.positions);
@@ -106,7 +106,7 @@ class PotentialStep {
     if (failure) return failure;
     scatter(m_.end);
     for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
-      set_motion(world_.rigid[at(m_.free_boxes[i])], m_.end.boxes[i]);
+      set_state(world_.rigid[at(m_.free_boxes[i])], m_.end.boxes[i]);
     }
     for (const SoftBody& body : world_.soft) {
       if (auto divergence = find_divergence(world_, body)) {
@@ -243,7 +243,7 @@ PotentialMemory::PotentialMemory(const World& world)
     : surfaces(world),
       free_boxes(find_free_boxes(world)),
       start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count()),
-            std::vector<RigidStart>(free_boxes.size())},
+            std::vector<RigidState>(free_boxes.size())},
       end(start),
       finder(surfaces) {
   if (is_implicit(world.settings.integrator)) {

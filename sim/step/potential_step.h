@@ -32,7 +32,7 @@ struct PotentialMemory {
 
   struct Start {
     WorldState state;
-    std::vector<RigidStart> boxes;  // all
+    std::vector<RigidState> boxes;  // all
   };
 
   ContactSurfaces surfaces;

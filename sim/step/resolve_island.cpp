@@ -60,7 +60,7 @@ Vec3 start_velocity(const World& world, const MotionStart& motion, const Contact
       return to_vec3(sum / static_cast<double>(vertices.size()));
     }
     case SideKind::rigid: {
-      const RigidStart& start = motion.rigid[at(side.body)];
+      const RigidState& start = motion.rigid[at(side.body)];
       const Vec3 arm = point - world.rigid[at(side.body)].position;
       return start.velocity + start.angular_velocity.cross(arm);
     }

@@ -28,8 +28,8 @@ std::optional<Divergence> integrate_group_again(World& world, JoinedStep& group,
                                                 IntegrateSoftMemory& memory, int thread);
 
 /// Moves every box freely (4.1), and keeps what it started from. Returns the first box's failure.
-std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidStart>& start);
-std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidStart& start);
+std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidState>& start);
+std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidState& start);
 
 /// Finds the bodies whose bounding spheres overlap (5.1), of soft ones those that no plane
 /// separates. Of these it sets those aside that overlap deeply, if `plan` has depenetrate, and

@@ -96,7 +96,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       has_pins(std::ranges::any_of(world.soft,
                                    [](const SoftBody& body) { return body.pins != nullptr; })),
       motion_start{std::vector<SoftState>(world.soft.size()),
-                   std::vector<RigidStart>(world.rigid.size())},
+                   std::vector<RigidState>(world.rigid.size())},
       integrate_soft(world, options.threads),
       broad_phase(world, plan.runs(Stage::depenetrate)),
       move_particles{std::vector<ParticleScratch>(at(options.threads))},

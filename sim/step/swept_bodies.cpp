@@ -93,7 +93,7 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
   find_what_is_still(world);
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     if (is_still_[at(soft_count_ + i)] != 0) continue;
-    const RigidStart& box = start.rigid[at(i)];
+    const RigidState& box = start.rigid[at(i)];
     place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
   }
 }
@@ -122,7 +122,7 @@ void SweptBodies::begin_at_start(const World& world, const MotionStart& start) {
 }
 
 void SweptBodies::begin_at_end(const World& world) {
-  begin(world, [&](std::size_t i) { return motion_of(world.rigid[i]); });
+  begin(world, [&](std::size_t i) { return state_of(world.rigid[i]); });
 }
 
 template <class MotionOf>
@@ -134,7 +134,7 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
       box_changes_.emplace_back();
       continue;
     }
-    const RigidStart box = motion(i);
+    const RigidState box = motion(i);
     box_changes_.push_back(make_box_change(world.rigid[i], box.position, box.orientation));
   }
 }
@@ -279,7 +279,7 @@ Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
   if (point.body == swept_ground) return Vec3::Zero();
   if (is_rigid(point.body)) {
     const RigidBox& now = world.rigid[at(box(point.body))];
-    const RigidStart& before = start.rigid[at(box(point.body))];
+    const RigidState& before = start.rigid[at(box(point.body))];
     const Vec3 local = before.orientation.conjugate() * (point.point - before.position);
     return now.position + now.orientation * local - point.point;
   }
@@ -290,7 +290,7 @@ Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
 Vec3 SweptBodies::point_before(const World& world, const MotionStart& start, int body,
                                const Vec3& at_end) const {
   const RigidBox& now = world.rigid[at(box(body))];
-  const RigidStart& before = start.rigid[at(box(body))];
+  const RigidState& before = start.rigid[at(box(body))];
   const Vec3 local = now.orientation.conjugate() * (at_end - now.position);
   return before.position + before.orientation * local;
 }
@@ -298,7 +298,7 @@ Vec3 SweptBodies::point_before(const World& world, const MotionStart& start, int
 Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& point) const {
   if (point.body == swept_ground) return Vec3::Zero();
   if (is_rigid(point.body)) {
-    const RigidStart& before = start.rigid[at(box(point.body))];
+    const RigidState& before = start.rigid[at(box(point.body))];
     return before.velocity + before.angular_velocity.cross(point.point - before.position);
   }
   const VertexArray& velocities = start.soft[at(point.body)].velocities;
@@ -386,7 +386,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     if (is_asleep(world, soft_count_ + static_cast<int>(i))) continue;
-    RigidStart kicked = start.rigid[i];
+    RigidState kicked = start.rigid[i];
     kicked.velocity += to_vec3(box_changes_[i].velocity);
     kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);
     if (auto failed = integrate_rigid_again(world, static_cast<int>(i), kicked)) return failed;

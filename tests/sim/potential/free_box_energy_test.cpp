@@ -41,10 +41,10 @@ struct StepEnergy {
       base.state = {world.soft[at(body.soft)].positions, world.soft[at(body.soft)].velocities};
       edge_lengths(body.mesh->topology, base.state.positions, base.lengths);
     }
-    std::vector<RigidStart> boxes;
+    std::vector<RigidState> boxes;
     for (std::size_t i = 0; i < energy.boxes().size(); ++i) {
       const RigidBox& box = world.rigid[at(energy.boxes()[i].index)];
-      boxes.push_back(motion_of(box));
+      boxes.push_back(state_of(box));
       point.boxes[i] = {box.position, box.orientation};
       move_corners(boxes.back(), energy.boxes()[i].first_vertex, point.positions, velocities);
     }
@@ -118,7 +118,7 @@ TEST(FreeBoxEnergy, SecondDerivativesOfTurningAreThoseOfDifferences) {
   RigidBox box = make_rigid({1.0, 1.5, 0.4}, {0.3, 0.1, 2.0}, 3.0);
   box.angular_velocity = {5, -3, 8};
   BoxInertia inertia(box);
-  inertia.set_step(motion_of(box), {0, 0, -9.81}, 0.02);
+  inertia.set_step(state_of(box), {0, 0, -9.81}, 0.02);
   BoxFrame frame;
   VertexArray slopes(box_corners);
   std::mt19937_64 random(3);

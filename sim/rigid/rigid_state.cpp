@@ -1,0 +1,16 @@
+#include "sim/rigid/rigid_state.h"
+
+namespace pneuma::sim {
+
+RigidState state_of(const RigidBox& box) {
+  return {box.position, box.orientation, box.velocity, box.angular_velocity};
+}
+
+void set_state(RigidBox& box, const RigidState& state) {
+  box.position = state.position;
+  box.orientation = state.orientation;
+  box.velocity = state.velocity;
+  box.angular_velocity = state.angular_velocity;
+}
+
+}  // namespace pneuma::sim
