@@ -57,6 +57,7 @@ class ReadReplay {
   std::vector<Value> series(const std::string& name) const {
     const nlohmann::json& stream = header.at("streams").at(name);
     std::vector<Value> values(stream.at("count").get<std::size_t>());
+    if (values.empty()) return values;
     std::memcpy(values.data(), bytes_.data() + stream.at("offset").get<std::size_t>(),
                 values.size() * sizeof(Value));
     return values;
