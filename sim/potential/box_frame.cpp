@@ -2,13 +2,9 @@
 
 #include <Eigen/Geometry>
 
-namespace pneuma::sim {
+#include "sim/mesh/rotation.h"
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 matrix;
-  matrix << 0.0, -r.z(), r.y(), r.z(), 0.0, -r.x(), -r.y(), r.x(), 0.0;
-  return matrix;
-}
+namespace pneuma::sim {
 
 Mat3x6 BoxFrame::rates(int vertex) const {
   Mat3x6 result;

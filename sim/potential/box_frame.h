@@ -32,9 +32,6 @@ struct BoxFrame {
   Mat3x6 rates(int vertex) const;
 };
 
-/// The matrix of r x.
-Mat3 cross_matrix(const Vec3& r);
-
 void expand(const std::vector<BoxFrame>& frames, VertexArray& values);
 void contract(const BoxFrame& frame, VertexArray& values);
 

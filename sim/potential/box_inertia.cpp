@@ -14,10 +14,6 @@ constexpr double max_part = 0.1;
 constexpr int max_parts = 10'000;
 constexpr int max_fixed_point_iterations = 100;
 
-bool is_cube(const RigidBox& box) {
-  return box.size.x() == box.size.y() && box.size.y() == box.size.z();
-}
-
 /// Body rates times h at the middle of a part, from the momentum in body axes where it starts:
 /// r = h I^-1 (P + P') / 2 with P' - P = (P + P') / 2 x r.
 Vec3 middle_turn(const Vec3& momentum, const Vec3& inertia, double step) {

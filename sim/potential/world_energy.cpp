@@ -189,11 +189,12 @@ void WorldEnergy::add_boxes(const WorldPoint& point, WorldMatrix& matrix) const 
     const BoxInertia& inertia = boxes_[i].energy;
     const BoxFrame frame = frame_of(point, i);
     Mat6 own = inertia.hessian(point.boxes[i]);
-    const double least = min_turning_fraction * inertia.per_length() * inertia.squared_radius();
+    const double min_turning =
+        min_turning_fraction * inertia.per_length() * inertia.squared_radius();
     const Mat3 turning = own.bottomRightCorner<3, 3>() + turning_hessian(frame, slopes_);
     const Eigen::SelfAdjointEigenSolver<Mat3> parts(turning);
     own.bottomRightCorner<3, 3>() = parts.eigenvectors() *
-                                    parts.eigenvalues().cwiseMax(least).asDiagonal() *
+                                    parts.eigenvalues().cwiseMax(min_turning).asDiagonal() *
                                     parts.eigenvectors().transpose();
     matrix.add_box(frame, own, inertia.squared_radius());
   }

@@ -5,11 +5,12 @@
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
-namespace {
 
 bool is_cube(const RigidBox& box) {
   return box.size.x() == box.size.y() && box.size.y() == box.size.z();
 }
+
+namespace {
 
 /// Torque-free rotation: the angular momentum L stays, omega = I^-1 L follows the orientation. The
 /// kinetic energy is a sum over the body's axes, L_x^2 / (2 I_x) and so on, and under one term

@@ -10,6 +10,9 @@ namespace pneuma::sim {
 /// 9).
 Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rotation);
 
+/// A cube turns freely about any axis.
+bool is_cube(const RigidBox& box);
+
 /// Euler-Cromer: alternately v += a t and p += v t, the same for the orientation. A step begins
 /// with p, so that contacts act on a velocity between the force that changed it and the motion it
 /// makes: what they bring to rest does not move at all. Beginning with v, as the paper writes it,
