@@ -144,4 +144,20 @@ void SweptSearch::find_contacts_of_boxes() {
   }
 }
 
+/// Of soft bodies the side does not give way: they are not shifted.
+void SweptSearch::find_contacts_beside_boxes(double reach) {
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const auto [first, second] = candidate.bodies;
+    if (second == swept_ground || bodies_.is_rigid(first) == bodies_.is_rigid(second)) continue;
+    if (candidate.start.distance >= distance_wanted(first, second) + reach) continue;
+    if (!stands(candidate, candidate.start, Moment::start)) continue;
+    const SweptContact contact = place(candidate, candidate.start, Moment::start);
+    const auto side = [&](const SurfacePoint& point) {
+      return bodies_.is_rigid(point.body) ? bodies_.side(world_, point) : SweptSide();
+    };
+    m_.contacts.push_back(contact);
+    m_.impulses.push_back({side(contact.first), side(contact.second), contact.normal, 0.0});
+  }
+}
+
 }  // namespace pneuma::sim

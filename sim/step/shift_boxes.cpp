@@ -24,6 +24,12 @@ bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, do
     greatest = std::max(greatest, shift);
   }
   if (greatest < min_shift * memory.bodies.thinnest_skin()) return false;
+  const std::size_t of_boxes = memory.contacts.size();
+  search.find_contacts_beside_boxes(fraction * max_shift);
+  for (std::size_t i = of_boxes; i < memory.contacts.size(); ++i) {
+    const SweptContact& contact = memory.contacts[i];
+    memory.impulses[i].aim(std::min(0.0, contact.wanted - contact.distance), Vec3::Zero());
+  }
   memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
   memory.bodies.take_as_shifts();
   memory.bodies.shift_boxes(world);

@@ -92,6 +92,8 @@ class SweptSearch {
   /// Fills the memory's contacts and impulses with those that keep boxes from being shifted into
   /// each other or into the ground.
   void find_contacts_of_boxes();
+  /// Adds to these what keeps boxes from being shifted, by `reach` (m) at most, into soft bodies.
+  void find_contacts_beside_boxes(double reach);
   /// Adds to the contacts what bodies would pass through on their ways as they came out. Whether
   /// there is any.
   bool find_collisions();

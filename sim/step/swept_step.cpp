@@ -140,23 +140,30 @@ class SweptStep {
   double step() const { return time_step(world_.settings); }
 
   /// What the impulses at the start must still change, with the motion as it came out: what moved
-  /// the sides other than the impulses stays.
+  /// the sides other than the impulses stays. Shifts are no motion: impulses do not resist them.
   void aim_at_distances() {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
-      const Vec3 free = search_.displacement(contact) / step() - m_.impulses[i].change();
-      m_.impulses[i].aim(may_move(contact) / step() - contact.normal.dot(free), free);
+      const Vec3 shift = bodies_.shift(contact.first) - bodies_.shift(contact.second);
+      const Vec3 moved = (search_.displacement(contact) - shift) / step();
+      const Vec3 free = moved - m_.impulses[i].change();
+      const double parting = may_move(contact, contact.normal.dot(shift)) / step();
+      m_.impulses[i].aim(parting - contact.normal.dot(free), free);
     }
   }
 
-  /// m, along the normal in this step, at least: negative if there is room.
-  double may_move(const SweptContact& contact) const {
-    if (contact.distance > contact.wanted) return contact.wanted - contact.distance;
-    if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
+  /// m, along the normal in this step and besides the `shift` (m) along it, at least: negative if
+  /// there is room.
+  double may_move(const SweptContact& contact, double shift) const {
+    const double closer = std::max(0.0, -shift);
+    if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
+    if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
     if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
-      return std::min(0.0, -contact.distance);  // shifts do the rest
+      // Shifts do the rest. What presses boxes together must not take them back.
+      const double room = shift > 0.0 ? -missing_distance(contact) : contact.distance;
+      return closer - std::max(0.0, room);
     }
-    return made_up_per_step * std::max(0.0, missing_distance(contact));
+    return closer + made_up_per_step * std::max(0.0, missing_distance(contact));
   }
 
   bool on_ground_as_box(const SweptContact& contact) const {
