@@ -162,13 +162,6 @@ class Checks {
   void check_potential(const BodyScene& body, Origin header) {
     const sim::ContactMethod& contact = scene_.settings.contact;
     if (contact != sim::ContactMethod::potential) return;
-    const sim::Integrator& integrator = scene_.settings.integrator;
-    if (body.kind == BodyKind::rigid && !sim::is_implicit(integrator)) {
-      report_.add(reader_.origin({&integrator, &body.kind, &contact}, header),
-                  "a rigid body moves freely, which under contact = \"potential\" only implicit "
-                  "integrators step; set simulation.integrator = \"implicit_euler\" or \"sdirk2\", "
-                  "make it static, moved or soft, or set simulation.contact = \"swept\"");
-    }
     if (body.kind == BodyKind::soft && body.material.damping == sim::Damping::literal) {
       report_.add(reader_.origin({&body.material.damping, &contact}, header),
                   "damping = \"literal\" acts between steps, while contact = \"potential\" is a "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace pneuma::sim {
 namespace {
@@ -16,23 +15,38 @@ constexpr double max_contact_stiffness = 1.0;
 constexpr double ways_around = 2.0;
 /// Of the reach, likewise at least.
 constexpr double reaches_around = 0.5;
+/// rad, by which a box turns at most in a step: integrators follow it, and it is nowhere turned
+/// inside out on the straight ways of its corners.
+constexpr double max_turn_per_step = 1.0;
 
 double max_distance(const VertexArray& one, const VertexArray& other) {
   return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
 }
 
+/// -1: none.
+int find_fast_box(const std::vector<RigidState>& start, const std::vector<RigidState>& end,
+                  double step) {
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    const double rate = std::max(start[i].angular_velocity.norm(), end[i].angular_velocity.norm());
+    if (rate * step > max_turn_per_step) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+BoxCoordinates::Form form_for(Integrator integrator) {
+  return integrator == Integrator::rk4 ? BoxCoordinates::Form::quaternion
+                                       : BoxCoordinates::Form::momentum;
+}
+
 }  // namespace
 
-WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& surfaces)
+WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& surfaces,
+                                     BoxCoordinates::Form form)
     : surfaces_(surfaces),
+      gravity_(world.settings.gravity),
       finder_(surfaces),
       searched_(surfaces.vertex_count()),
       forces_(surfaces.vertex_count()) {
-  for (const RigidBox& box : world.rigid) {
-    if (box.is_kinematic) continue;
-    throw std::invalid_argument(
-        box.name + ": explicit integrators step no free boxes where contact is a potential");
-  }
   scratch_.reserve(world.soft.size());  // which the equations refer to
   for (int b = 0; b < static_cast<int>(world.soft.size()); ++b) {
     const SoftBody& body = world.soft[at(b)];
@@ -49,6 +63,47 @@ WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& 
          VertexArray(count), VertexArray(count), VertexArray(count)});
   }
   inverse_mass_.resize(at(surfaces.vertex_count()), 0.0);
+  for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
+    const RigidBox& box = world.rigid[at(i)];
+    if (box.is_kinematic) continue;
+    const int first = surfaces.of_box(i).first_vertex;
+    boxes_.push_back({i, static_cast<int>(world.soft.size()) + i, BoxCoordinates(box, first, form),
+                      state_of(box), BoxFrame{first, {}}});
+  }
+  if (boxes_.empty()) return;
+  corners_ = VertexArray(surfaces.vertex_count());
+  corner_velocities_ = VertexArray(surfaces.vertex_count());
+}
+
+void WorldAcceleration::start_boxes(const std::vector<RigidState>& boxes, VertexArray& positions,
+                                    VertexArray& velocities) {
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    boxes_[i].coordinates.start(boxes[i], positions, velocities);
+  }
+}
+
+void WorldAcceleration::end_boxes(VertexArray& positions, VertexArray& velocities,
+                                  std::vector<RigidState>& boxes) const {
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    boxes[i] = boxes_[i].coordinates.state(positions, velocities);
+    surfaces_.place_box({boxes[i].position, boxes[i].orientation}, boxes_[i].index, positions);
+    move_corners(boxes[i], boxes_[i].frame.first_vertex, positions, velocities);
+  }
+}
+
+/// Into corners_ and corner_velocities_.
+void WorldAcceleration::place_boxes(const VertexArray& positions,
+                                    const VertexArray& velocities) const {
+  corners_.rows() = positions.rows();
+  corner_velocities_.rows() = velocities.rows();
+  for (Box& box : boxes_) {
+    box.state = box.coordinates.state(positions, velocities);
+    surfaces_.place_box({box.state.position, box.state.orientation}, box.index, corners_);
+    move_corners(box.state, box.frame.first_vertex, corners_, corner_velocities_);
+    for (int i = 0; i < box_corners; ++i) {
+      box.frame.arms[at(i)] = corners_[box.frame.first_vertex + i] - box.state.position;
+    }
+  }
 }
 
 bool WorldAcceleration::covers(const VertexArray& positions) const {
@@ -66,20 +121,27 @@ double WorldAcceleration::operator()(const VertexArray& positions, const VertexA
   acceleration.rows().setZero();
   MinVolume min_volume;
   min_volume.meet(1.0);
-  if (!covers(positions)) search(positions);
-  find_active(surfaces_, positions, pairs_, active_);
+  if (!boxes_.empty()) place_boxes(positions, velocities);
+  const VertexArray& x = boxes_.empty() ? positions : corners_;
+  const VertexArray& v = boxes_.empty() ? velocities : corner_velocities_;
+  if (!covers(x)) search(x);
+  find_active(surfaces_, x, pairs_, active_);
   forces_.rows().setZero();
-  add_forces(active_, positions, velocities, surfaces_.regularisation_speed(), forces_);
+  add_forces(active_, x, v, surfaces_.regularisation_speed(), forces_);
   for (Body& body : bodies_) {
     const int count = body.positions.size();
     body.positions.rows() = positions.rows().middleCols(body.first_vertex, count);
     body.velocities.rows() = velocities.rows().middleCols(body.first_vertex, count);
     min_volume.meet(body.equation(body.positions, body.velocities, body.acceleration));
-    for (int v = 0; v < count; ++v) {
-      const int i = body.first_vertex + v;
-      if (!surfaces_.is_mobile(i)) continue;
-      acceleration[i] = body.acceleration[v] + forces_[i] / body.vertex_mass;
+    for (int i = 0; i < count; ++i) {
+      const int vertex = body.first_vertex + i;
+      if (!surfaces_.is_mobile(vertex)) continue;
+      acceleration[vertex] = body.acceleration[i] + forces_[vertex] / body.vertex_mass;
     }
+  }
+  for (const Box& box : boxes_) {
+    contract(box.frame, forces_);
+    box.coordinates.accelerate(box.state, six_of(box.frame, forces_), gravity_, acceleration);
   }
   return min_volume.value();
 }
@@ -91,12 +153,34 @@ const std::vector<ContactPair>& WorldAcceleration::pairs_between(const VertexArr
   return between_;
 }
 
-double WorldAcceleration::contact_stiffness(const VertexArray& positions, double step) const {
+/// 1/kg, of a force between the sides of a contact along its normal.
+double WorldAcceleration::mobility_of_boxes(const ActiveContact& contact,
+                                            const WorldState& state) const {
+  double mobility = 0.0;
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    const Box& box = boxes_[b];
+    if (box.surface != contact.first && box.surface != contact.second) continue;
+    Vec6 force = Vec6::Zero();
+    for (int i = 0; i < contact.count; ++i) {
+      const int vertex = contact.vertices[at(i)];
+      if (!box.frame.has(vertex)) continue;
+      const Vec3 arm = state.positions[vertex] - state.boxes[b].position;
+      const Vec3 part = contact.point.weights[at(i)] * contact.point.normal();
+      force.head<3>() += part;
+      force.tail<3>() += arm.cross(part);
+    }
+    mobility += box.coordinates.mobility(state.boxes[b], force);
+  }
+  return mobility;
+}
+
+double WorldAcceleration::contact_stiffness(const WorldState& state, double step) const {
+  const VertexArray& positions = state.positions;
   if (!covers(positions)) search(positions);
   find_active(surfaces_, positions, pairs_, active_);
   double most = 0.0;
   for (const ActiveContact& contact : active_) {
-    double mobility = 0.0;  // 1/kg
+    double mobility = boxes_.empty() ? 0.0 : mobility_of_boxes(contact, state);  // 1/kg
     for (int i = 0; i < contact.count; ++i) {
       const double weight = contact.point.weights[at(i)];
       mobility += weight * weight * inverse_mass_[at(contact.vertices[at(i)])];
@@ -108,7 +192,7 @@ double WorldAcceleration::contact_stiffness(const VertexArray& positions, double
 
 ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
     : surfaces_(surfaces),
-      acceleration_(world, surfaces),
+      acceleration_(world, surfaces, form_for(world.settings.integrator)),
       scratch_(surfaces.vertex_count()),
       start_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())} {}
 
@@ -120,20 +204,24 @@ ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState
   const double speed = std::sqrt(start.velocities.rows().colwise().squaredNorm().maxCoeff());
   acceleration_.set_margin(std::max(reaches_around * reach, ways_around * h * speed));
   ExplicitWorldReport report;
-  if (acceleration_.contact_stiffness(start.positions, h) > max_contact_stiffness) {
+  if (acceleration_.contact_stiffness(start, h) > max_contact_stiffness) {
     report.is_too_stiff = true;
     return report;
   }
   start_.positions.rows() = start.positions.rows();
   start_.velocities.rows() = start.velocities.rows();
+  acceleration_.start_boxes(start.boxes, start_.positions, start_.velocities);
   report.min_volume = explicit_step(world.settings.integrator, acceleration_, h, start_,
                                     end.positions, end.velocities, scratch_);
+  acceleration_.end_boxes(end.positions, end.velocities, end.boxes);
   for (int v = 0; v < end.positions.size(); ++v) {
     if (surfaces_.is_mobile(v)) continue;
     end.positions[v] = start.positions[v] + h * start.velocities[v];
     end.velocities[v] = start.velocities[v];
   }
   if (!std::isfinite(end.positions.rows().sum())) return report;
+  report.fast_box = find_fast_box(start.boxes, end.boxes, h);
+  if (report.fast_box >= 0) return report;
   const std::vector<ContactPair>& pairs =
       acceleration_.pairs_between(start.positions, end.positions);
   report.limit =

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sim/potential/box_coordinates.h"
 #include "sim/potential/contact_potential.h"
 #include "sim/potential/continuous_collision.h"
 #include "sim/potential/implicit_world_step.h"
@@ -14,12 +15,11 @@ namespace pneuma::sim {
 
 /// The model's equation of all bodies of a world with contact (acceleration.h,
 /// contact_potential.h), for explicit_step and for reference solvers. What forces do not move has
-/// no acceleration.
+/// no acceleration. Free boxes have coordinates in the places of their corners (box_coordinates.h).
 class WorldAcceleration {
  public:
-  /// Refers to both; of the world its meshes, materials and gravity. Throws std::invalid_argument
-  /// if a box of it can move freely.
-  WorldAcceleration(const World& world, const ContactSurfaces& surfaces);
+  /// Refers to both; of the world its meshes, materials and gravity.
+  WorldAcceleration(const World& world, const ContactSurfaces& surfaces, BoxCoordinates::Form form);
 
   /// Writes dv/dt in m/s^2. Returns the least volume of a body with gas in m^3, or 1: not above
   /// zero, or not a number, where the force means nothing. Pairs are looked for again when a vertex
@@ -27,13 +27,20 @@ class WorldAcceleration {
   double operator()(const VertexArray& positions, const VertexArray& velocities,
                     VertexArray& acceleration) const;
 
+  /// The coordinates of free boxes, in the order of the world's.
+  void start_boxes(const std::vector<RigidState>& boxes, VertexArray& positions,
+                   VertexArray& velocities);
+  /// The boxes, and their corners in the place of their coordinates.
+  void end_boxes(VertexArray& positions, VertexArray& velocities,
+                 std::vector<RigidState>& boxes) const;
+
   /// m, around every vertex, from the next search on.
   void set_margin(double margin) { margin_ = margin; }
-  /// All pairs that may meet on straight ways.
+  /// All pairs that may meet on straight ways of all vertices, those of boxes included.
   const std::vector<ContactPair>& pairs_between(const VertexArray& from,
                                                 const VertexArray& to) const;
-  /// The greatest of h^2 K / m over the contacts at some positions, K their stiffness.
-  double contact_stiffness(const VertexArray& positions, double step) const;
+  /// The greatest of h^2 K / m over the contacts of a state, K their stiffness.
+  double contact_stiffness(const WorldState& state, double step) const;
 
  private:
   struct Body {
@@ -43,17 +50,29 @@ class WorldAcceleration {
     SoftAcceleration equation;
     VertexArray positions, velocities, acceleration;
   };
+  struct Box {
+    int index;    // of the world's
+    int surface;  // its surface
+    BoxCoordinates coordinates;
+    RigidState state;
+    BoxFrame frame;
+  };
   bool covers(const VertexArray& positions) const;
   void search(const VertexArray& positions) const;
+  void place_boxes(const VertexArray& positions, const VertexArray& velocities) const;
+  double mobility_of_boxes(const ActiveContact& contact, const WorldState& state) const;
 
   const ContactSurfaces& surfaces_;
   std::vector<AccelerationScratch> scratch_;
   mutable std::vector<Body> bodies_;
-  std::vector<double> inverse_mass_;  // 1/kg, per vertex; 0: forces do not move it
+  Vec3 gravity_;
+  mutable std::vector<Box> boxes_;
+  std::vector<double> inverse_mass_;  // 1/kg, per vertex of soft bodies; 0: no force moves it
   mutable PairFinder finder_;
   mutable std::vector<ContactPair> pairs_, between_;
   mutable std::vector<ActiveContact> active_;
   mutable VertexArray searched_, forces_;
+  mutable VertexArray corners_, corner_velocities_;  // of all vertices, if there are free boxes
   mutable double searched_margin_ = -1.0;
   double margin_ = 0.0;
 };
@@ -63,6 +82,7 @@ struct ExplicitWorldReport {
   WayLimit limit;           // a pair that came too near, or met, on straight ways
   ContactPair limiting_pair;
   bool is_too_stiff = false;  // a contact, for the step
+  int fast_box = -1;          // of the free ones, one that turns too far in the step
 };
 
 class ExplicitWorldStep {

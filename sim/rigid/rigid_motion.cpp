@@ -12,29 +12,14 @@ bool is_cube(const RigidBox& box) {
 
 namespace {
 
-/// Torque-free rotation: the angular momentum L stays, omega = I^-1 L follows the orientation. The
-/// kinetic energy is a sum over the body's axes, L_x^2 / (2 I_x) and so on, and under one term
-/// alone the body turns evenly about that axis, by t L_x / I_x. These turns, made one after the
-/// other and back, are a step of second order that is symplectic: the error of the energy does not
-/// add up (Touma and Wisdom 1994, "Lie-Poisson integrators for rigid body dynamics in the solar
-/// system").
+/// The angular momentum stays, and the angular velocity follows the orientation.
 void rotate_freely(RigidBox& box, double step) {
   if (is_cube(box)) {
     box.orientation = turned(box.orientation, box.angular_velocity * step);
     return;
   }
   const Vec3 angular_momentum = spin(box);
-  const Vec3 inertia = body_inertia(box);
-  const auto turn = [&](int axis, double duration) {
-    const Vec3 direction = box.orientation * Vec3::Unit(axis);
-    const double rate = angular_momentum.dot(direction) / inertia[axis];
-    box.orientation = turned(box.orientation, duration * rate * direction);
-  };
-  turn(0, 0.5 * step);
-  turn(1, 0.5 * step);
-  turn(2, step);
-  turn(1, 0.5 * step);
-  turn(0, 0.5 * step);
+  box.orientation = turned_freely(box, box.orientation, angular_momentum, step);
   box.angular_velocity = world_inverse_inertia(box) * angular_momentum;
 }
 
@@ -45,6 +30,24 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rot
   if (angle == 0.0) return orientation;
   return (Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle)) * orientation)
       .normalized();
+}
+
+Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& orientation,
+                                 const Vec3& angular_momentum, double duration) {
+  const Vec3 inertia = body_inertia(box);
+  if (is_cube(box)) return turned(orientation, duration / inertia.x() * angular_momentum);
+  Eigen::Quaterniond result = orientation;
+  const auto turn = [&](int axis, double part) {
+    const Vec3 direction = result * Vec3::Unit(axis);
+    const double rate = angular_momentum.dot(direction) / inertia[axis];
+    result = turned(result, part * rate * direction);
+  };
+  turn(0, 0.5 * duration);
+  turn(1, 0.5 * duration);
+  turn(2, duration);
+  turn(1, 0.5 * duration);
+  turn(0, 0.5 * duration);
+  return result;
 }
 
 void move_freely(RigidBox& box, const Vec3& gravity, double step) {

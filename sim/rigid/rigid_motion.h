@@ -13,6 +13,15 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rot
 /// A cube turns freely about any axis.
 bool is_cube(const RigidBox& box);
 
+/// The orientation after `duration` s without a torque, of a box with this size and mass and an
+/// angular momentum in world axes, kg m^2/s. The kinetic energy is a sum over the body's axes,
+/// L_x^2 / (2 I_x) and so on, and under one term alone the body turns evenly about that axis, by
+/// t L_x / I_x. These turns, made one after the other and back, are a step of second order that is
+/// symplectic and the same backwards: the error of the energy does not add up (Touma and Wisdom
+/// 1994, "Lie-Poisson integrators for rigid body dynamics in the solar system"). Of a cube exact.
+Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& orientation,
+                                 const Vec3& angular_momentum, double duration);
+
 /// Euler-Cromer: alternately v += a t and p += v t, the same for the orientation. A step begins
 /// with p, so that contacts act on a velocity between the force that changed it and the motion it
 /// makes: what they bring to rest does not move at all. Beginning with v, as the paper writes it,

@@ -106,7 +106,12 @@ class PotentialStep {
     if (failure) return failure;
     scatter(m_.end);
     for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
-      set_state(world_.rigid[at(m_.free_boxes[i])], m_.end.boxes[i]);
+      RigidBox& box = world_.rigid[at(m_.free_boxes[i])];
+      set_state(box, m_.end.boxes[i]);
+      if (auto divergence = find_divergence(world_, box)) {
+        divergence->stage = Stage::integrate_soft;
+        return divergence;
+      }
     }
     for (const SoftBody& body : world_.soft) {
       if (auto divergence = find_divergence(world_, body)) {
@@ -129,6 +134,10 @@ class PotentialStep {
 
   std::optional<Divergence> step_explicitly(int halvings, bool& may_be_halved) {
     const ExplicitWorldReport report = m_.explicit_step->step(world_, m_.start, m_.end);
+    if (report.fast_box >= 0) {
+      may_be_halved = true;
+      return spinning(m_.free_boxes[at(report.fast_box)], halvings);
+    }
     if (report.is_too_stiff || report.limit.is_limited) {
       may_be_halved = true;
       return blocked(report.limit, report.limiting_pair,
@@ -169,6 +178,13 @@ class PotentialStep {
                        "th of the step; a step of 1/" +
                        std::to_string(2 * world_.settings.steps_per_second) +
                        " s or an implicit integrator may do");
+  }
+
+  Divergence spinning(int box, int halvings) const {
+    if (halvings < max_halvings()) return failure("", "");
+    return failure(world_.rigid[at(box)].name, "it turns by more than a radian even in a " +
+                                                   std::to_string(1 << max_halvings()) +
+                                                   "th of the step");
   }
 
   static std::string features(const WayLimit& limit, const ContactPair& pair) {

@@ -1,10 +1,10 @@
 // A step of the equation of a whole world in which contact is a potential (ERRATA row 73). Private
 // to sim/step.
 //
-// All bodies are stepped together (sim/potential/explicit_world_step.h, implicit_world_step.h):
-// boxes that move freely by the implicit integrators only. A step that would bring a pair through
-// each other, or too near for an explicit integrator to follow the barrier, is done in two halves,
-// and these again, and ends as a divergence where that does not help.
+// All bodies are stepped together (sim/potential/explicit_world_step.h, implicit_world_step.h). A
+// step that would bring a pair through each other, or too near for an explicit integrator to follow
+// the barrier, is done in two halves, and these again, and ends as a divergence where that does not
+// help.
 #pragma once
 
 #include <array>
@@ -26,8 +26,6 @@ inline constexpr int max_potential_halvings = 10;
 inline constexpr int max_implicit_halvings = 4;
 
 struct PotentialMemory {
-  /// Throws std::invalid_argument if a box of the world moves freely and the integrator is
-  /// explicit.
   explicit PotentialMemory(const World& world);
 
   struct Start {

@@ -126,17 +126,7 @@ TEST(ContactKeys, OfOtherFormsAreRefusedBesideThePotential) {
 
 TEST(ContactKeys, WhatThePotentialCannotStepIsRefusedWithWhatToDo) {
   const std::string start = "simulation.contact = \"potential\"\n[[body]]\n";
-  const std::string rigid = refusal(start + "kind = \"rigid\"\n");
-  EXPECT_TRUE(rigid.starts_with("x.toml:3:")) << rigid;
-  EXPECT_NE(rigid.find("make it static, moved or soft"), std::string::npos) << rigid;
-  EXPECT_NE(rigid.find("set simulation.integrator = \"implicit_euler\" or \"sdirk2\""),
-            std::string::npos)
-      << rigid;
-  for (const std::string implicit : {"implicit_euler", "sdirk2"}) {
-    EXPECT_EQ(
-        refusal("simulation.integrator = \"" + implicit + "\"\n" + start + "kind = \"rigid\"\n"),
-        "");
-  }
+  EXPECT_EQ(refusal(start + "kind = \"rigid\"\n"), "");
   const std::string literal = refusal(start + "damping = \"literal\"\n");
   EXPECT_NE(literal.find("use damping = \"dashpot\""), std::string::npos) << literal;
   EXPECT_EQ(refusal(start + "kind = \"static\"\n"), "");

@@ -216,11 +216,7 @@ Scene any_scene() {
     set_at_random(body_section(body), true);
     const bool by_impulses = scene.settings.contact == sim::ContactMethod::impulses ||
                              sim::is_as_printed(scene.settings);
-    const bool by_potential =
-        scene.settings.contact == sim::ContactMethod::potential && !by_impulses;
     if (body.kind != BodyKind::soft && by_impulses) body.kind = BodyKind::rigid;
-    const bool has_free_boxes = !by_potential || sim::is_implicit(scene.settings.integrator);
-    if (body.kind == BodyKind::rigid && !has_free_boxes) body.kind = BodyKind::soft;
     if (body.kind == BodyKind::rigid) body.shape = Shape::box;
     set_at_random(body_section(body), false);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "app/study/error/error_meter.h"
@@ -63,13 +64,15 @@ class FastEquation {
   std::size_t values_ = 0;                    // of all positions
 };
 
-/// The same of a world in which contact is a potential. What is static stays where it is.
+/// The same of a world in which contact is a potential. What is static stays where it is. Numbers
+/// are those of the soft bodies and then nine of each free box (sim/potential/box_coordinates.h),
+/// positions before velocities.
 class ContactEquation {
  public:
   explicit ContactEquation(const sim::World& world)
       : world_(world),
         surfaces_(world_),
-        equation_(world_, surfaces_),
+        equation_(world_, surfaces_, sim::BoxCoordinates::Form::quaternion),
         positions_(surfaces_.vertex_count()),
         velocities_(surfaces_.vertex_count()),
         acceleration_(surfaces_.vertex_count()) {
@@ -79,28 +82,92 @@ class ContactEquation {
     }
     equation_.set_margin(reach);
     surfaces_.place_boxes(world_, positions_);
-    for (const sim::SoftBody& body : world_.soft) vertices_ += body.positions.size();
+    for (const sim::SoftBody& body : world_.soft) {
+      parts_.push_back({vertices_, body.positions.size()});
+      vertices_ += body.positions.size();
+    }
+    count_ = vertices_;
+    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
+      if (world_.rigid[sim::at(i)].is_kinematic) continue;
+      parts_.push_back({surfaces_.of_box(i).first_vertex, columns_of_box});
+      boxes_.push_back(sim::state_of(world_.rigid[sim::at(i)]));
+      free_.push_back(i);
+      count_ += columns_of_box;
+    }
+  }
+
+  std::vector<double> start() {
+    int first = 0;
+    for (const sim::SoftBody& body : world_.soft) {
+      positions_.rows().middleCols(first, body.positions.size()) = body.positions.rows();
+      velocities_.rows().middleCols(first, body.positions.size()) = body.velocities.rows();
+      first += body.positions.size();
+    }
+    equation_.start_boxes(boxes_, positions_, velocities_);
+    std::vector<double> state(6 * sim::at(count_));
+    write(positions_, state.data());
+    write(velocities_, state.data() + values());
+    return state;
   }
 
   bool operator()(const double* state, double* derivative) {
-    using Columns = Eigen::Map<const Eigen::Matrix3Xd>;
-    const std::ptrdiff_t values = std::ptrdiff_t{3} * vertices_;
-    std::copy(state + values, state + 2 * values, derivative);
-    positions_.rows().topLeftCorner(3, vertices_) = Columns(state, 3, vertices_);
-    velocities_.rows().topLeftCorner(3, vertices_) = Columns(state + values, 3, vertices_);
+    std::copy(state + values(), state + 2 * values(), derivative);
+    read(state, positions_);
+    read(state + values(), velocities_);
     if (!(equation_(positions_, velocities_, acceleration_) > 0.0)) return false;
     if (!std::isfinite(acceleration_.rows().sum())) return false;
-    Eigen::Map<Eigen::Matrix3Xd>(derivative + values, 3, vertices_) =
-        acceleration_.rows().topLeftCorner(3, vertices_);
+    write(acceleration_, derivative + values());
     return true;
   }
 
+  /// The bodies of a world of the same bodies.
+  void set(const double* state, sim::World& world) {
+    read(state, positions_);
+    read(state + values(), velocities_);
+    int first = 0;
+    for (sim::SoftBody& body : world.soft) {
+      body.positions.rows() = positions_.rows().middleCols(first, body.positions.size());
+      body.velocities.rows() = velocities_.rows().middleCols(first, body.positions.size());
+      first += body.positions.size();
+    }
+    equation_.end_boxes(positions_, velocities_, boxes_);
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      sim::set_state(world.rigid[sim::at(free_[i])], boxes_[i]);
+    }
+  }
+
  private:
+  /// Vertices, or the coordinates of a box in their places.
+  struct Part {
+    int first = 0;
+    int count = 0;
+  };
+  static constexpr int columns_of_box = 3;
+
+  std::ptrdiff_t values() const { return std::ptrdiff_t{3} * count_; }
+
+  void read(const double* from, sim::VertexArray& to) const {
+    for (const auto& [first, count] : parts_) {
+      to.rows().block(0, first, 3, count) = Eigen::Map<const Eigen::Matrix3Xd>(from, 3, count);
+      from += std::ptrdiff_t{3} * count;
+    }
+  }
+  void write(const sim::VertexArray& from, double* to) const {
+    for (const auto& [first, count] : parts_) {
+      Eigen::Map<Eigen::Matrix3Xd>(to, 3, count) = from.rows().block(0, first, 3, count);
+      to += std::ptrdiff_t{3} * count;
+    }
+  }
+
   sim::World world_;
   sim::ContactSurfaces surfaces_;
   sim::WorldAcceleration equation_;
   sim::VertexArray positions_, velocities_, acceleration_;
-  int vertices_ = 0;  // of soft bodies
+  std::vector<Part> parts_;
+  std::vector<sim::RigidState> boxes_;  // of the free ones
+  std::vector<int> free_;               // which these are
+  int vertices_ = 0;                    // of soft bodies
+  int count_ = 0;                       // columns of all parts
 };
 
 /// Without springs a body has no frequency of its own, and a second is as good as any time.
@@ -120,14 +187,23 @@ std::vector<double> absolute_tolerances(const sim::World& world, double toleranc
       result.insert(result.end(), 3 * static_cast<std::size_t>(body.positions.size()),
                     tolerance * scale);
     }
+    if (world.settings.contact != sim::ContactMethod::potential) continue;
+    for (const sim::RigidBox& box : world.rigid) {
+      if (box.is_kinematic) continue;
+      result.insert(result.end(), 3, tolerance * 0.5 * box.size.norm());
+      result.insert(result.end(), 6, tolerance);  // of the quaternion
+    }
   }
   return result;
 }
 
 class CvodeSolver final : public Solver {
  public:
-  CvodeSolver(sim::World world, Cvode solver)
-      : world_(std::move(world)), solver_(std::move(solver)) {}
+  /// Gives a world the bodies of a state.
+  using Read = std::function<void(std::span<const double>, sim::World&)>;
+
+  CvodeSolver(sim::World world, Cvode solver, Read read)
+      : world_(std::move(world)), solver_(std::move(solver)), read_(std::move(read)) {}
 
   bool advance(std::size_t i) override {
     reached_ = sample_time(i);
@@ -137,7 +213,7 @@ class CvodeSolver final : public Solver {
 
   Sample sample() const override {
     sim::World world = world_;
-    read_flat_state(solver_.state(), world.soft);
+    read_(solver_.state(), world);
     return take_sample(world);
   }
 
@@ -150,9 +226,14 @@ class CvodeSolver final : public Solver {
  private:
   sim::World world_;
   Cvode solver_;
+  Read read_;
   double reached_ = 0.0;
   bool failed_ = false;
 };
+
+void read_soft(std::span<const double> state, sim::World& world) {
+  read_flat_state(state, world.soft);
+}
 
 }  // namespace
 
@@ -164,17 +245,24 @@ std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod me
     const auto evaluate = [equation](const double* state, double* derivative) {
       return (*equation)(state, derivative);
     };
+    const auto read = [equation](std::span<const double> state, sim::World& into) {
+      equation->set(state.data(), into);
+    };
     return std::make_unique<CvodeSolver>(
-        world, Cvode(method, evaluate, flat_state(world.soft),
-                     {0.0, absolute_tolerances(world, tolerance, frequency)}));
+        world,
+        Cvode(method, evaluate, equation->start(),
+              {0.0, absolute_tolerances(world, tolerance, frequency)}),
+        read);
   }
   const auto equation = std::make_shared<FastEquation>(world.soft, world.settings.gravity);
   const auto evaluate = [equation](const double* state, double* derivative) {
     return (*equation)(state, derivative);
   };
   return std::make_unique<CvodeSolver>(
-      world, Cvode(method, evaluate, flat_state(world.soft),
-                   {0.0, absolute_tolerances(world, tolerance, frequency)}));
+      world,
+      Cvode(method, evaluate, flat_state(world.soft),
+            {0.0, absolute_tolerances(world, tolerance, frequency)}),
+      read_soft);
 }
 
 std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double tolerance) {
@@ -190,8 +278,10 @@ std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double to
     return problem->equation(state, derivative);
   };
   return std::make_unique<CvodeSolver>(
-      world, Cvode(CvodeMethod::adams, evaluate, flat_state(world.soft),
-                   {tolerance, absolute_tolerances(world, tolerance, one_per_second)}));
+      world,
+      Cvode(CvodeMethod::adams, evaluate, flat_state(world.soft),
+            {tolerance, absolute_tolerances(world, tolerance, one_per_second)}),
+      read_soft);
 }
 
 }  // namespace pneuma::app

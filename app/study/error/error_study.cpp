@@ -226,7 +226,9 @@ ErrorStudy study_errors(const scenes::Scene& scene, const ErrorOptions& options,
   study.title = scene.title;
   say("what touches");
   study.flight = prepare_flight(scene, options.flight);
-  study.rest_radius = rest_radius(study.flight.world.soft.front());
+  const sim::World& world = study.flight.world;
+  study.rest_radius =
+      world.soft.empty() ? 0.5 * world.rigid.front().size.norm() : rest_radius(world.soft.front());
   for (const sim::SoftBody& body : study.flight.world.soft) study.vertices += body.positions.size();
   say("the reference");
   study.reference = make_reference(study.flight, options.steps_per_second.back());

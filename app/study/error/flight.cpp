@@ -36,23 +36,18 @@ void keep_body(sim::World& world, const std::string& name) {
 }
 
 void check(const scenes::Scene& scene, const sim::World& world) {
-  if (world.soft.empty()) {
+  const bool has_boxes = world.settings.contact == sim::ContactMethod::potential &&
+                         !std::ranges::all_of(world.rigid, &sim::RigidBox::is_kinematic);
+  if (world.soft.empty() && !has_boxes) {
     throw UsageError(fmt::format(
-        "{}: no soft body is left to study; name one with --body, or leave that option out",
+        "{}: no soft body is left to study; name one with --body, leave that option out, or set "
+        "simulation.contact = \"potential\", which free boxes alone can be studied under",
         scene.name));
   }
   if (!world.valves.empty() || !world.springs.empty()) {
     throw UsageError(fmt::format(
         "{}: valves or springs join its bodies, which the solutions to compare with know nothing "
         "of: name one body with --body, which then is alone",
-        scene.name));
-  }
-  const bool by_potential = world.settings.contact == sim::ContactMethod::potential;
-  if (by_potential && !std::ranges::all_of(world.rigid, &sim::RigidBox::is_kinematic)) {
-    throw UsageError(fmt::format(
-        "{}: a rigid body moves freely, which explicit integrators and the solutions to compare "
-        "with do not step under contact = \"potential\": name a soft body with --body, or set "
-        "simulation.contact = \"swept\"",
         scene.name));
   }
   for (const sim::SoftBody& body : world.soft) {
@@ -111,7 +106,9 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
     flight.world.rigid.clear();
   }
   check(scene, flight.world);
-  const bool has_contacts = !options.free_flight && touches(flight.world, flight.seconds);
+  // Boxes alone turn by their own equation, which only the contact potential's solutions have.
+  const bool has_contacts =
+      !options.free_flight && (flight.world.soft.empty() || touches(flight.world, flight.seconds));
   // Its search for contacts is no part of a free flight.
   if (!has_contacts && flight.world.settings.contact == sim::ContactMethod::potential) {
     flight.world.settings.contact = sim::ContactMethod::swept;

@@ -229,13 +229,6 @@ TEST(PotentialStep, IsTheSameForAnyThreadsAndAfterAResume) {
   }
 }
 
-TEST(PotentialStep, RefusesFreeBoxesOfExplicitIntegrators) {
-  World world = potential_world(Integrator::rk4, 60);
-  world.soft.push_back(soft_ball({0, 0, 2}, Vec3::Zero()));
-  world.rigid.push_back(make_rigid({1, 1, 1}, {5, 0, 2}));
-  EXPECT_THROW(Stepper{world}, std::invalid_argument);
-}
-
 TEST(PotentialStep, PinnedVerticesStayAndObstaclesAreMetFromAllSides) {
   World world = potential_world(Integrator::implicit_euler, 60);
   world.settings.ground.reset();
