@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/accuracy/choose_step.h"
 #include "app/check/check_model.h"
 #include "app/check/check_report.h"
 #include "app/check/judge_run.h"
@@ -19,7 +20,6 @@
 #include "app/world/build_world.h"
 #include "app/world/find_model.h"
 #include "app/world/model_scene.h"
-#include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -32,6 +32,7 @@ namespace {
 struct CheckOptions {
   std::string scene;
   std::vector<std::string> overrides;
+  std::optional<Accuracy> accuracy;
   ModelChoice model;
   bool run = false;
   bool keys = false;
@@ -74,10 +75,13 @@ ExitCode check(const CheckOptions& options) {
   if (options.scene.empty()) {
     throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
   }
-  const bool as_scene = options.run || !options.overrides.empty();
+  const bool as_scene = options.run || !options.overrides.empty() || options.accuracy;
   if (assets::has_model_ending(options.scene) && !as_scene) return check_model_file(options);
   CheckReport report;
-  report.scene = open_scene(options.scene, options.overrides, options.model);
+  const AccurateScene opened =
+      open_scene(options.scene, options.overrides, options.model, options.accuracy);
+  if (!opened.choice.empty()) fmt::print(stderr, "{}\n", opened.choice);
+  report.scene = opened.scene;
   const sim::World world = build_world(report.scene);
   refuse_start_overlap(report.scene, world);
   report.plan = sim::make_plan(world);
@@ -107,6 +111,7 @@ void add_check_command(CLI::App& app, Action& action) {
                        assets::model_endings() + ")")
       ->type_name("SCENE|MODEL");
   add_override_option(*command, options->overrides);
+  add_accuracy_option(*command, options->accuracy);
   add_model_options(*command, options->model);
   command->add_flag(
       "--run", options->run,

@@ -38,6 +38,7 @@ void add_export_command(CLI::App& app, Action& action) {
                     "it (Blender's Mesh Cache)");
   command->add_option("--out", request.out, "Folder for the files [out/NAME]")->type_name("DIR");
   add_override_option(*command, request.overrides);
+  add_accuracy_option(*command, request.accuracy);
   add_model_options(*command, request.model);
   add_frames_option(*command, typed->frames);
   command->add_flag("--overwrite", request.overwrite, "Replace such files in the folder");

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <regex>
 
+#include "app/accuracy/choose_step.h"
 #include "app/host/clock.h"
 #include "app/host/errors.h"
 #include "app/host/interrupt.h"
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
 #include "app/world/build_world.h"
-#include "app/world/open_scene.h"
 #include "app/world/simulation.h"
 #include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
@@ -100,7 +100,9 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
 }  // namespace
 
 ExitCode export_scene(const ExportRequest& request) {
-  const scenes::Scene scene = open_scene(request.scene, request.overrides, request.model);
+  const auto [scene, choice] =
+      open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  if (!choice.empty() && !request.quiet) fmt::print(stderr, "{}\n", choice);
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);

@@ -1,9 +1,11 @@
 // `pneuma export`: a run as files that other programs show.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/accuracy/accuracy.h"
 #include "app/export/export_formats.h"
 #include "app/host/exit_code.h"
 #include "app/terminal/frame_range.h"
@@ -16,6 +18,7 @@ struct ExportRequest {
   ExportFormat format = export_formats()[0];
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
+  std::optional<Accuracy> accuracy;
   ModelChoice model;
   FrameRange frames;
   bool overwrite = false;

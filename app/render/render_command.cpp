@@ -65,6 +65,7 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   add_scene_option(*command, request.scene);
   command->add_option("--out", request.out, "Folder for the frames [out/NAME]")->type_name("DIR");
   add_override_option(*command, request.overrides);
+  add_accuracy_option(*command, request.accuracy);
   add_model_options(*command, request.model);
   add_frames_option(*command, typed->frames);
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accuracy/accuracy.h"
 #include "app/picture/build_frame.h"
 #include "app/render/log/resume.h"
 #include "app/render/reference_pictures.h"
@@ -20,6 +21,7 @@ struct RenderRequest {
   std::string scene;                   // a path or a name
   std::string out;                     // folder; empty: out/NAME
   std::vector<std::string> overrides;  // "PATH=VALUE"
+  std::optional<Accuracy> accuracy;
   ModelChoice model;
   FrameRange frames;
   Pictures pictures;

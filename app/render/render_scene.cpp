@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/accuracy/choose_step.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/find_program.h"
@@ -20,7 +21,6 @@
 #include "app/render/turntable.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
-#include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -206,7 +206,9 @@ ExitCode make_more(const RenderRequest& request, const scenes::Scene& scene,
 
 ExitCode render_scene(const RenderRequest& request) {
   Progress progress(progress_style(request.quiet));
-  const scenes::Scene scene = open_scene(request.scene, request.overrides, request.model);
+  const auto [scene, choice] =
+      open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  if (!choice.empty()) progress.say(choice);
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);
   try {

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 
 #include "assets/model_file.h"
 
@@ -23,6 +24,20 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);  // or each would take all words up to the next option
+}
+
+void add_accuracy_option(CLI::App& command, std::optional<Accuracy>& accuracy) {
+  const std::vector<std::string> names(accuracy_names.begin(), accuracy_names.end());
+  command
+      .add_option_function<std::string>(
+          "--accuracy",
+          [&accuracy, names](const std::string& name) {
+            accuracy = static_cast<Accuracy>(std::ranges::find(names, name) - names.begin());
+          },
+          "Choose contact, integrator and step for a picture, or for an error of 1e-2 or 1e-3 of a "
+          "body's radius; what --set says stays")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names));
 }
 
 void add_model_options(CLI::App& command, ModelChoice& choice) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accuracy/accuracy.h"
 #include "app/world/model_scene.h"
 #include "render/context/backend.h"
 
@@ -20,6 +21,9 @@ void add_scene_option(CLI::App& command, std::string& scene);
 
 /// --set PATH=VALUE, as often as wanted.
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides);
+
+/// --accuracy: picture, 1e-2 or 1e-3.
+void add_accuracy_option(CLI::App& command, std::optional<Accuracy>& accuracy);
 
 /// --component and --repair, of a model file.
 void add_model_options(CLI::App& command, ModelChoice& choice);
