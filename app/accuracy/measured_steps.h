@@ -1,4 +1,4 @@
-// The steps that an error needs, as measured: plain data.
+// The steps that an error needs, measured or estimated from measurements: plain data.
 #pragma once
 
 #include <span>
