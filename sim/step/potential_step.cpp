@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include "sim/base/text.h"
 #include "sim/inspect/closed_surface.h"
@@ -159,12 +160,12 @@ class PotentialStep {
   }
 
   /// Without words, which need memory, where the step can still be halved.
-  Divergence blocked(const WayLimit& limit, const ContactPair& pair, const std::string& why,
+  Divergence blocked(const WayLimit& limit, const ContactPair& pair, std::string_view why,
                      int halvings) const {
     if (halvings < max_halvings()) return failure("", "");
     const std::string parts = std::to_string(1 << max_halvings());
     if (!limit.is_limited) {
-      return failure(first_body(), why + ", even in " + parts +
+      return failure(first_body(), std::string(why) + ", even in " + parts +
                                        " parts; a smaller "
                                        "simulation.potential.stiffness or an implicit "
                                        "integrator does");

@@ -130,8 +130,9 @@ TEST(FreeBoxes, FastTurnsCrossNothing) {
 }
 
 TEST(FreeBoxes, AreTheSameForAnyThreadsAndAfterAResume) {
-  for (const Integrator integrator : implicit_integrators) {
-    World world = falling_pile(integrator, 60);
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::sdirk2,
+                                      Integrator::rk4, Integrator::velocity_verlet}) {
+    World world = falling_pile(integrator, is_implicit(integrator) ? 60 : 480);
     const std::uint64_t expected = state_hash_after(world, 1.0, 1);
     EXPECT_EQ(state_hash_after(world, 1.0, 3), expected);
     World resumed = world;
@@ -141,10 +142,9 @@ TEST(FreeBoxes, AreTheSameForAnyThreadsAndAfterAResume) {
   }
 }
 
-// Under implicit steps as long as a contact lasts restitution is not seen; in short ones it is.
-TEST(FreeBoxes, BounceWithTheirRestitution) {
+void expect_bounce(Integrator integrator) {
   for (const double restitution : {0.0, 0.5, 1.0}) {
-    World world = world_of_boxes(Integrator::sdirk2, 4000, {undamped_box({1, 1, 1}, {0, 0, 0.52})});
+    World world = world_of_boxes(integrator, 4000, {undamped_box({1, 1, 1}, {0, 0, 0.52})});
     world.settings.gravity.setZero();
     world.settings.ground = ContactMaterial{0.0, 0.0};
     world.rigid[0].surface = {restitution, 0.0};
@@ -152,6 +152,12 @@ TEST(FreeBoxes, BounceWithTheirRestitution) {
     ASSERT_FALSE(run(world, 0.1));
     EXPECT_NEAR(world.rigid[0].velocity.z(), 2.0 * restitution, 0.1) << restitution;
   }
+}
+
+// Under implicit steps as long as a contact lasts restitution is not seen; in short ones it is.
+TEST(FreeBoxes, BounceWithTheirRestitution) {
+  expect_bounce(Integrator::sdirk2);
+  expect_bounce(Integrator::rk4);
 }
 
 }  // namespace
