@@ -287,6 +287,10 @@ Vec3 SweptSearch::displacement(const SweptContact& contact) const {
          bodies_.displacement(world_, start_, contact.second);
 }
 
+Vec3 SweptSearch::shift(const SweptContact& contact) const {
+  return bodies_.shift(contact.first) - bodies_.shift(contact.second);
+}
+
 Vec3 SweptSearch::start_velocity(const SweptContact& contact) const {
   const auto [first, second] = where_impulses_act(contact);
   return bodies_.start_velocity(start_, first) - bodies_.start_velocity(start_, second);
@@ -326,8 +330,7 @@ bool SweptSearch::is_rigid(const SweptContact& contact) const {
 /// How the sides meet: with an even acceleration over the step, after the fraction of it in which
 /// the distance is used up. `kicked`: by impulses since the start.
 void SweptSearch::find_approach(SweptContact& contact, const Vec3& kicked) const {
-  const Vec3 shift = bodies_.shift(contact.first) - bodies_.shift(contact.second);
-  const Vec3 moved_by = displacement(contact) - shift;
+  const Vec3 moved_by = displacement(contact) - shift(contact);
   const double mean = contact.normal.dot(moved_by) / time_step(world_.settings);
   const double before = contact.normal.dot(start_velocity(contact) + kicked);
   if (contact.is_near || mean >= 0.0) {

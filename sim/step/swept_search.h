@@ -108,6 +108,8 @@ class SweptSearch {
 
   /// Of the first side against the second, m.
   Vec3 displacement(const SweptContact& contact) const;
+  /// The part of it by which boxes were moved apart, m.
+  Vec3 shift(const SweptContact& contact) const;
   /// m/s, where impulses act.
   Vec3 start_velocity(const SweptContact& contact) const;
   Vec3 end_velocity(const SweptContact& contact) const;

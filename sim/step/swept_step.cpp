@@ -144,7 +144,7 @@ class SweptStep {
   void aim_at_distances() {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
-      const Vec3 shift = bodies_.shift(contact.first) - bodies_.shift(contact.second);
+      const Vec3 shift = search_.shift(contact);
       const Vec3 moved = (search_.displacement(contact) - shift) / step();
       const Vec3 free = moved - m_.impulses[i].change();
       const double parting = may_move(contact, contact.normal.dot(shift)) / step();
