@@ -12,15 +12,6 @@ namespace {
 
 using sim::Vec3;
 
-double radius(const sim::VertexArray& positions) {
-  const Vec3 centre = sim::mean(positions);
-  double greatest = 0.0;
-  for (int v = 0; v < positions.size(); ++v) {
-    greatest = std::max(greatest, (Vec3(positions[v]) - centre).norm());
-  }
-  return greatest;
-}
-
 double root_mean_square(const sim::VertexArray& values) {
   double sum = 0.0;
   for (int v = 0; v < values.size(); ++v) sum += Vec3(values[v]).squaredNorm();
@@ -74,7 +65,7 @@ MotionTime motion_time(const sim::World& world, double seconds) {
   const double speed = highest_speed(world, seconds);
   for (const sim::SoftBody& body : world.soft) {
     if (!is_free(body)) continue;
-    shorten(time, radius(body.mesh->rest_positions),
+    shorten(time, sim::radius(body.mesh->rest_positions),
             start_acceleration(body, world.settings.gravity), speed, body.name);
   }
   for (const sim::RigidBox& box : world.rigid) {

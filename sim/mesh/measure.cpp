@@ -1,5 +1,7 @@
 #include "sim/mesh/measure.h"
 
+#include <algorithm>
+
 #include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
@@ -21,6 +23,15 @@ Vec3 mean(const VertexArray& values) {
 }
 
 // Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
+double radius(const VertexArray& positions) {
+  const Vec3 centre = mean(positions);
+  double greatest = 0.0;
+  for (int v = 0; v < positions.size(); ++v) {
+    greatest = std::max(greatest, (Vec3(positions[v]) - centre).norm());
+  }
+  return greatest;
+}
+
 double volume(const MeshTopology& topology, const VertexArray& positions) {
   const double* const rows = positions.rows().data();
   const Vec4d origin = load_vec4d(rows);

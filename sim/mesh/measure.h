@@ -30,6 +30,9 @@ Bounds bounds(const VertexArray& positions);
 /// Mean of the vertices: the centre of mass of a body of equal point masses.
 Vec3 mean(const VertexArray& values);
 
+/// m, from there to the farthest vertex.
+double radius(const VertexArray& positions);
+
 /// Signed volume in m^3, positive for outward triangles (paper 3.1.2 with the sign of ERRATA row
 /// 2), summed about one of the body's vertices so that a body far from the origin keeps its digits.
 double volume(const MeshTopology& topology, const VertexArray& positions);

@@ -83,10 +83,9 @@ class ContactEquation {
     equation_.set_margin(reach);
     surfaces_.place_boxes(world_, positions_);
     for (const sim::SoftBody& body : world_.soft) {
-      parts_.push_back({vertices_, body.positions.size()});
-      vertices_ += body.positions.size();
+      parts_.push_back({count_, body.positions.size()});
+      count_ += body.positions.size();
     }
-    count_ = vertices_;
     for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
       if (world_.rigid[sim::at(i)].is_kinematic) continue;
       parts_.push_back({surfaces_.of_box(i).first_vertex, columns_of_box});
@@ -166,7 +165,6 @@ class ContactEquation {
   std::vector<Part> parts_;
   std::vector<sim::RigidState> boxes_;  // of the free ones
   std::vector<int> free_;               // which these are
-  int vertices_ = 0;                    // of soft bodies
   int count_ = 0;                       // columns of all parts
 };
 

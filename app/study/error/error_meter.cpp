@@ -36,15 +36,7 @@ double mass(const sim::World& world) {
 
 }  // namespace
 
-double rest_radius(const sim::SoftBody& body) {
-  const sim::VertexArray& rest = body.mesh->rest_positions;
-  const Vec3 centre = sim::mean(rest);
-  double greatest = 0.0;
-  for (int v = 0; v < rest.size(); ++v) {
-    greatest = std::max(greatest, (Vec3(rest[v]) - centre).norm());
-  }
-  return greatest;
-}
+double rest_radius(const sim::SoftBody& body) { return sim::radius(body.mesh->rest_positions); }
 
 ErrorMeter::ErrorMeter(sim::World world, const Trajectory& reference) : world_(std::move(world)) {
   for (const sim::SoftBody& body : world_.soft) radii_.push_back(rest_radius(body));
