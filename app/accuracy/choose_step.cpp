@@ -1,11 +1,11 @@
 #include "app/accuracy/choose_step.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "app/accuracy/measured_steps.h"
 #include "app/accuracy/motion_time.h"
@@ -14,21 +14,17 @@
 #include "app/world/distinct_bodies.h"
 #include "app/world/open_scene.h"
 #include "scenes/loader/integrator_names.h"
+#include "scenes/loader/overrides.h"
 #include "sim/soft/stability_limit.h"
 #include "sim/step/plan.h"
 
 namespace pneuma::app {
 namespace {
 
-constexpr double most_steps_per_second = 1e6;  // what a scene may ask for
-
-bool sets(std::span<const std::string> overrides, std::string_view key) {
-  return std::ranges::any_of(overrides, [&](const std::string& text) {
-    std::string path = text.substr(0, text.find('='));
-    std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
-    return path == key;
-  });
-}
+/// Of the predicted limit of stability: the longest explicit step that is taken. What a body does
+/// when it is hit is stiffer than the small motions of the prediction.
+constexpr double fraction_of_limit = 0.8;
+constexpr double highest_rate = 1e6;  // 1/s, that a scene may ask for
 
 Situation situation_of(const sim::World& world) {
   if (!std::ranges::all_of(world.rigid, &sim::RigidBox::is_kinematic)) return Situation::boxes;
@@ -53,9 +49,9 @@ struct Candidate {
   std::string why;
 };
 
-class Choice {
+class StepChooser {
  public:
-  Choice(const scenes::Scene& scene, Accuracy accuracy, std::span<const std::string> overrides)
+  StepChooser(const scenes::Scene& scene, Accuracy accuracy, std::span<const std::string> overrides)
       : scene_(scene),
         accuracy_(accuracy),
         given_(overrides),
@@ -66,7 +62,7 @@ class Choice {
   StepChoice make() {
     refuse_what_has_no_choice();
     std::vector<Candidate> candidates = all_candidates();
-    const bool given_step = sets(given_, "simulation.steps_per_second");
+    const bool given_step = scenes::is_overridden(given_, "simulation.steps_per_second");
     if (given_step) {
       std::erase_if(candidates, [&](const Candidate& candidate) {
         return candidate.rate > scene_.settings.steps_per_second;
@@ -75,10 +71,7 @@ class Choice {
     if (candidates.empty()) refuse_step();
     const Candidate best = *std::ranges::min_element(candidates, {}, &Candidate::cost);
     StepChoice choice{{}, best.why};
-    if (!sets(given_, "simulation.contact")) {
-      choice.overrides.emplace_back("simulation.contact=swept");
-    }
-    if (!sets(given_, "simulation.integrator")) {
+    if (!scenes::is_overridden(given_, "simulation.integrator")) {
       choice.overrides.push_back("simulation.integrator=" +
                                  scenes::integrator_name(best.integrator));
     }
@@ -96,7 +89,9 @@ class Choice {
           "two out, or add --set simulation.method=corrected");
     }
     if (scene_.settings.contact != sim::ContactMethod::swept) {
-      refuse("only swept contacts have measured steps; leave out --set simulation.contact");
+      refuse(
+          "only swept contacts have measured steps; leave out --set simulation.contact, or set "
+          "simulation.contact=swept if the scene has another");
     }
     for (const sim::SoftBody& body : world_.soft) {
       if (body.material.damping != sim::Damping::literal) continue;
@@ -112,19 +107,19 @@ class Choice {
     for (const MeasuredStep& row : measured_steps()) {
       const double steps = row.steps[static_cast<std::size_t>(accuracy_)];
       if (row.situation != situation_ || steps == 0.0 || !allowed(row.integrator)) continue;
-      const double stable = safe_fraction * stable_step(world_, row.integrator);
+      const double stable = fraction_of_limit * stable_step(world_, row.integrator);
       const double step = std::min(time_.seconds / steps, stable);
       const double frames = scene_.picture.frames_per_second;
       const double rate = frames * std::max(1.0, std::ceil(1.0 / (step * frames) - 1e-9));
-      if (!(rate <= most_steps_per_second)) continue;
+      if (!(rate <= highest_rate)) continue;
       candidates.push_back({row.integrator, rate, rate * row.cost, why(steps, stable)});
     }
     return candidates;
   }
 
   bool allowed(sim::Integrator integrator) const {
-    const bool other =
-        sets(given_, "simulation.integrator") && integrator != scene_.settings.integrator;
+    const bool other = scenes::is_overridden(given_, "simulation.integrator") &&
+                       integrator != scene_.settings.integrator;
     return !other && std::ranges::all_of(world_.soft, [&](const sim::SoftBody& body) {
       return sim::can_integrate(integrator, body.material);
     });
@@ -133,7 +128,7 @@ class Choice {
   std::string why(double steps, double stable) const {
     if (stable < time_.seconds / steps) {
       return fmt::format("{}; {:g} of the predicted limit of stability", to_string(situation_),
-                         safe_fraction);
+                         fraction_of_limit);
     }
     return fmt::format("{}; {:g} steps in the {:.2g} s in which '{}' moves by its radius",
                        to_string(situation_), steps, time_.seconds, time_.body);
@@ -169,7 +164,7 @@ class Choice {
 
 StepChoice choose_step(const scenes::Scene& scene, Accuracy accuracy,
                        std::span<const std::string> overrides) {
-  return Choice(scene, accuracy, overrides).make();
+  return StepChooser(scene, accuracy, overrides).make();
 }
 
 std::string choice_text(Accuracy accuracy, const StepChoice& choice) {
@@ -180,15 +175,11 @@ std::string choice_text(Accuracy accuracy, const StepChoice& choice) {
 
 AccurateScene open_scene(const std::string& name, const std::vector<std::string>& overrides,
                          const ModelChoice& model, std::optional<Accuracy> accuracy) {
-  if (!accuracy) return {open_scene(name, overrides, model), ""};
+  scenes::Scene scene = open_scene(name, overrides, model);
+  if (!accuracy) return {std::move(scene), ""};
+  const StepChoice choice = choose_step(scene, *accuracy, overrides);
   std::vector<std::string> all = overrides;
-  const bool paper = sim::is_as_printed(open_scene(name, overrides, model).settings);
-  if (!paper && !sets(overrides, "simulation.contact")) {
-    all.insert(all.begin(), "simulation.contact=swept");
-  }
-  const StepChoice choice = choose_step(open_scene(name, all, model), *accuracy, overrides);
-  all = choice.overrides;
-  all.insert(all.end(), overrides.begin(), overrides.end());
+  all.insert(all.end(), choice.overrides.begin(), choice.overrides.end());
   return {open_scene(name, all, model), choice_text(*accuracy, choice)};
 }
 

@@ -19,9 +19,9 @@ struct StepChoice {
 
 /// The cheapest integrator and longest step that the table has for what the scene contains, within
 /// the predicted limit of stability, as many whole steps a frame. Keys that the overrides set stay
-/// as they are, and the rest is chosen to fit. Contact is swept, unless the overrides say
-/// otherwise. Throws UsageError when nothing fits: with a step that is too long, with another
-/// contact than swept for an error, with the paper's method or with literal damping.
+/// as they are, and the rest is chosen to fit. Throws UsageError, with what to do, when nothing
+/// fits: with a step that is too long, another contact than swept, the paper's method or literal
+/// damping.
 StepChoice choose_step(const scenes::Scene& scene, Accuracy accuracy,
                        std::span<const std::string> overrides);
 

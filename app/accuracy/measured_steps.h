@@ -30,8 +30,4 @@ struct MeasuredStep {
 /// Of swept contacts.
 std::span<const MeasuredStep> measured_steps();
 
-/// Of the predicted limit of stability: the longest explicit step that is taken. What a body does
-/// when it is hit is stiffer than the small motions of the prediction.
-inline constexpr double safe_fraction = 0.8;
-
 }  // namespace pneuma::app

@@ -221,6 +221,12 @@ void apply_overrides(std::span<const std::string> overrides, Table& document, Re
   }
 }
 
+bool is_overridden(std::span<const std::string> overrides, std::string_view path) {
+  return std::ranges::any_of(overrides, [&](const std::string& text) {
+    return trimmed(std::string_view(text).substr(0, text.find('='))) == path;
+  });
+}
+
 std::optional<double> number_override(std::span<const std::string> overrides,
                                       std::string_view path) {
   std::optional<double> number;
