@@ -72,10 +72,13 @@ constexpr const char* shadow_fragment_source = R"(
 in vec2 from_centre;
 in vec2 in_map;
 uniform sampler2D shadow;
+uniform float fading;
 out vec4 fraction;  // of the ground's colour that is left
 
 void main() {
-  fraction = vec4(mix(vec3(1.0), texture(shadow, in_map).rgb, nearness(from_centre)), 1.0);
+  float near = max(1.0 - length(in_map - clamp(in_map, 0.0, 1.0)) / fading, 0.0);
+  float seen = near * near * nearness(from_centre);
+  fraction = vec4(mix(vec3(1.0), texture(shadow, in_map).rgb, seen), 1.0);
 }
 )";
 
@@ -154,6 +157,7 @@ GroundPlane::GroundPlane()
   set_attribute(0, 2, sizeof(Eigen::Vector2f), 0);
   shadow_.use();
   set_uniform(shadow_.uniform("shadow"), 0);
+  set_uniform(shadow_.uniform("fading"), GroundShadow::fading);
 }
 
 void GroundPlane::draw_triangles(const std::vector<Eigen::Vector2f>& vertices) {

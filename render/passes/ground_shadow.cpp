@@ -84,8 +84,8 @@ GroundShadow::GroundShadow()
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  // The map's margin is free of casters, so that its edge says: no shadow. Four bytes a texel that
-  // are clamped to the edge are what llvmpipe reads fastest.
+  // The map's margin is free of casters: what is clamped to its edge is what bodies take of the
+  // sky. Four bytes a texel that are clamped to the edge are what llvmpipe reads fastest.
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glSamplerParameteri(sampler_.name(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
@@ -278,13 +278,21 @@ void GroundShadow::average_down() {
 float GroundShadow::left_below(const Vec3f& position) const {
   const Eigen::Vector4f foot(position.x(), position.y(), 0.0f, 1.0f);
   const Eigen::Vector2f at = (world_to_picture_ * foot).head<2>();
-  if ((at.array() <= 0.0f).any() || (at.array() >= 1.0f).any()) return 1.0f;
+  const float fraction = fraction_beyond(at);
+  if (fraction <= 0.0f) return 1.0f;
   // Half of what a surface that faces the ground sees of it lies within its height.
   const float level = std::clamp(std::log2(std::max(2.0f * position.z() / texel_, 1.0f)), 0.0f,
                                  static_cast<float>(left_.size()) - 1.001f);
   const auto whole = static_cast<std::size_t>(level);
-  return std::lerp(left_at_level(whole, at), left_at_level(whole + 1, at),
-                   level - static_cast<float>(whole));
+  const float left = std::lerp(left_at_level(whole, at), left_at_level(whole + 1, at),
+                               level - static_cast<float>(whole));
+  return std::lerp(1.0f, left, fraction);
+}
+
+float GroundShadow::fraction_beyond(const Eigen::Vector2f& at) {
+  const Eigen::Vector2f nearest = at.cwiseMax(0.0f).cwiseMin(1.0f);
+  const float near = std::max(0.0f, 1.0f - (at - nearest).norm() / fading);
+  return near * near;
 }
 
 float GroundShadow::left_at_level(std::size_t level, const Eigen::Vector2f& at) const {
@@ -311,23 +319,28 @@ void GroundShadow::upload() {
 }
 
 void GroundShadow::find_dark_cells() {
-  constexpr int side = size / cells;
-  constexpr std::array<std::uint8_t, 4> light = {255, 255, 255, 255};
+  constexpr auto reach = static_cast<int>(fading * cells);
   dark_cells_.clear();
-  for (int row = 0; row < cells; ++row) {
-    for (int column = 0; column < cells; ++column) {
-      // What is read between texels also comes from the nearest one outside.
-      const auto begin = [](int cell) { return std::max(0, cell * side - 1); };
-      const auto end = [](int cell) { return std::min(size, (cell + 1) * side + 1); };
-      bool dark = false;
-      for (int y = begin(row); y < end(row); ++y) {
-        for (int x = begin(column); x < end(column); ++x) {
-          dark = dark || bytes_[static_cast<std::size_t>(y * size + x)] != light;
-        }
-      }
-      if (dark) dark_cells_.push_back({column, row});
+  for (int row = -reach; row < cells + reach; ++row) {
+    for (int column = -reach; column < cells + reach; ++column) {
+      if (is_dark(column, row)) dark_cells_.push_back({column, row});
     }
   }
+}
+
+bool GroundShadow::is_dark(int column, int row) const {
+  constexpr int side = size / cells;
+  constexpr std::array<std::uint8_t, 4> light = {255, 255, 255, 255};
+  // What is read between texels also comes from the nearest one outside, and what is read beyond
+  // the border from there.
+  const auto begin = [](int cell) { return std::clamp(cell * side - 1, 0, size - 1); };
+  const auto end = [](int cell) { return std::clamp((cell + 1) * side + 1, 1, size); };
+  for (int y = begin(row); y < end(row); ++y) {
+    for (int x = begin(column); x < end(column); ++x) {
+      if (bytes_[static_cast<std::size_t>(y * size + x)] != light) return true;
+    }
+  }
+  return false;
 }
 
 void GroundShadow::bind(GLuint unit) const {

@@ -48,8 +48,14 @@ class GroundShadow {
   /// wide as the point is high.
   float left_below(const Vec3f& position) const;
 
+  /// What a crowd takes of the sky reaches further than the picture: beyond its border the darkness
+  /// there goes on and falls to none over half the picture's width, as what a ball takes does with
+  /// its distance. `at` is in the picture's coordinates.
+  static constexpr float fading = 0.5f;
+  static float fraction_beyond(const Eigen::Vector2f& at);
+
   /// Cells on a side into which the picture is divided, and those that hold any shadow, each by its
-  /// column and row.
+  /// column and row. Where its border is dark, cells beyond it are among them.
   static constexpr int cells = 16;
   const std::vector<std::array<int, 2>>& dark_cells() const { return dark_cells_; }
 
@@ -67,6 +73,7 @@ class GroundShadow {
   float left_at_level(std::size_t level, const Eigen::Vector2f& at) const;
   void upload();
   void find_dark_cells();
+  bool is_dark(int column, int row) const;
 
   Mat4f picture_to_map_;
   Mat4f map_to_world_;

@@ -212,6 +212,41 @@ TEST(BetweenBodies, TheGroundDarkensAroundABallThatStandsOnIt) {
   EXPECT_EQ(darkness({6, 0, 0}), 0);
 }
 
+/// Seen from above: what a pixel of the ground has lost must be close to what its neighbours have.
+TEST(BetweenBodies, TheGroundsDarknessAroundACrowdHasNoEdge) {
+  for (const int rows : {4, 12, 24}) {
+    const float half = 1.5f * static_cast<float>(rows);
+    Frame frame;
+    frame.camera = {{0, 0, 12.0f * half}, Vec3f::Zero(), 40.0f};
+    frame.ground->grid_spacing = 1e4f;
+    frame.light.direction = {0, 0, -1};
+    for (int i = 0; i < rows * rows; ++i) {
+      const Vec3f corner(3.0f * static_cast<float>(i % rows), 3.0f * static_cast<float>(i / rows),
+                         0.0f);
+      frame.meshes.push_back(make_box(corner + Vec3f(1.5f - half, 1.5f - half, 0.5f * half),
+                                      {2.0f, 2.0f, half}, {0.8f, 0.5f, 0.3f}));
+    }
+    const Image image = draw_once(frame, small_picture());
+    frame.light.between_bodies = false;
+    const Image alone = draw_once(frame, small_picture());
+    const auto lost = [&](int x, int y) {
+      return pixel_at(alone, x, y)[1] - pixel_at(image, x, y)[1];
+    };
+    int most_lost = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 1; x < image.width; ++x) {
+        const double scale = 12.0 * half * std::tan(pi / 9.0) / (0.5 * image.height);
+        const double right = scale * (x - 0.5 * image.width);
+        const double up = scale * (y - 0.5 * image.height);
+        if (std::max(std::abs(right), std::abs(up)) < 1.3 * half) continue;  // beside the boxes
+        most_lost = std::max(most_lost, lost(x, y));
+        EXPECT_NEAR(lost(x, y), lost(x - 1, y), 2) << rows << " rows, at " << x << ' ' << y;
+      }
+    }
+    EXPECT_GT(most_lost, 4) << rows;
+  }
+}
+
 /// Ten texels to a metre, the origin in the middle.
 GroundPicture ten_to_a_metre(float reach) {
   Mat4f to_picture = Mat4f::Identity();

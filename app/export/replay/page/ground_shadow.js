@@ -7,6 +7,7 @@ const groundInner = groundSize - 2 * groundMargin;  // the shadow map's
 const groundLevels = Math.floor(Math.log2(groundSize)) + 1;  // each of half as many texels a side
 const opennessSize = groundSize / 4;
 const contactSize = groundSize / 2;
+const groundFading = 0.5;  // widths of the picture over which its border's darkness falls to none beyond it
 
 // Red: how much of the light is blocked. Green: that times how soft the shadow is to be.
 const coverFragment = `uniform sampler2D depths;
@@ -104,9 +105,9 @@ uniform float texel;  // m; 0 without a shadow on the ground
 float left_below(vec3 position) {
   if (texel == 0.0) return 1.0;
   vec2 at = (world_to_picture * vec4(position.xy, 0.0, 1.0)).xy;
-  if (any(lessThanEqual(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))) return 1.0;
+  float near = max(1.0 - length(at - clamp(at, 0.0, 1.0)) / ${groundFading}, 0.0);
   float level = clamp(log2(max(2.0 * position.z / texel, 1.0)), 0.0, ${groundLevels - 2}.0);
-  return textureLod(ground_left, at, level).a;
+  return mix(1.0, textureLod(ground_left, at, level).a, near * near);
 }
 `;
 
@@ -210,7 +211,9 @@ class GroundShadow {
     gl.disable(gl.DEPTH_TEST);
     bindTexture(gl, 0, this.result.texture, this.sharp);
     this.onGround.use({ view_projection: view.viewProjection, world_to_map: this.worldToPicture, shadow: 0,
-      centre: view.target.slice(0, 2), radius: view.groundRadius });
-    this.quad.draw(gl.TRIANGLE_STRIP, [[0, 0], [1, 0], [0, 1], [1, 1]].flatMap(([u, v]) => this.corner(u, v)));
+      fading: groundFading, centre: view.target.slice(0, 2), radius: view.groundRadius });
+    const [low, high] = [-groundFading, 1 + groundFading];
+    this.quad.draw(gl.TRIANGLE_STRIP, [[low, low], [high, low], [low, high], [high, high]].flatMap(([u, v]) =>
+      this.corner(u, v)));
   }
 }
