@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "sim/inspect/inspect.h"
 #include "sim/joints/body_springs.h"
@@ -17,12 +16,6 @@ constexpr double quiet_time = 0.5;
 
 int quiet_steps(const Settings& settings) {
   return static_cast<int>(std::ceil(quiet_time * settings.steps_per_second));
-}
-
-int soft_count(const World& world) { return static_cast<int>(world.soft.size()); }
-
-int body_count(const World& world) {
-  return soft_count(world) + static_cast<int>(world.rigid.size());
 }
 
 /// Handles may move whenever their keys say so, gas may come or go, and what is at the other end of
@@ -71,24 +64,16 @@ double halt(World& world, int body) {
 }  // namespace
 
 FallAsleep::FallAsleep(const World& world)
-    : parents_(at(body_count(world))),
-      never_sleeps_(parents_.size()),
-      is_touched_(parents_.size()),
-      stays_awake_(parents_.size()) {
+    : islands_(at(body_count(world))),
+      never_sleeps_(islands_.size()),
+      is_touched_(islands_.size()),
+      stays_awake_(islands_.size()) {
   for (int i = 0; i < body_count(world); ++i) never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
-}
-
-int FallAsleep::root(int body) {
-  while (parents_[at(body)] != body) {
-    parents_[at(body)] = parents_[at(parents_[at(body)])];
-    body = parents_[at(body)];
-  }
-  return body;
 }
 
 bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   if (world.settings.sleep_speed == 0.0) return false;
-  world.rest.resize(parents_.size());
+  world.rest.resize(islands_.size());
   const int enough = quiet_steps(world.settings);
   const double least = world.settings.sleep_speed * time_step(world.settings);
   bool any = false;
@@ -104,13 +89,12 @@ bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
 
 /// Nothing reaches through what stands still or is moved.
 void FallAsleep::find_islands(const World& world, std::span<const BodyPair> pairs) {
-  std::iota(parents_.begin(), parents_.end(), 0);
+  islands_.part();
   for (const BodyPair& pair : pairs) {
     if (pair.second < 0 || is_kinematic(world, pair.first) || is_kinematic(world, pair.second)) {
       continue;
     }
-    const int one = root(pair.first), other = root(pair.second);
-    parents_[at(std::max(one, other))] = std::min(one, other);
+    islands_.join(pair.first, pair.second);
   }
 }
 
@@ -120,7 +104,7 @@ void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contac
   const auto touch = [&](const ContactSide& side) {
     if (side.kind == SideKind::ground) return;
     const int body = side.kind == SideKind::soft ? side.body : soft_count(world) + side.body;
-    is_touched_[at(root(body))] = 1;
+    is_touched_[at(islands_.first(body))] = 1;
   };
   for (const Contact& contact : contacts) {
     touch(contact.first);
@@ -128,7 +112,7 @@ void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contac
   }
   const int enough = quiet_steps(world.settings);
   for (int i = 0; i < body_count(world); ++i) {
-    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(root(i))] = 1;
+    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(islands_.first(i))] = 1;
   }
 }
 
@@ -138,7 +122,7 @@ double FallAsleep::put_to_sleep(World& world, std::span<const BodyPair> pairs,
   find_who_stays_awake(world, contacts);
   double energy = 0.0;
   for (int i = 0; i < body_count(world); ++i) {
-    const int first = root(i);
+    const int first = islands_.first(i);
     if (is_asleep(world, i) || stays_awake_[at(first)] != 0 || is_touched_[at(first)] == 0) {
       continue;
     }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/collision/contact.h"
 #include "sim/collision/packed_spheres.h"
 #include "sim/response/motion_start.h"
@@ -29,12 +30,11 @@ class FallAsleep {
  private:
   void find_islands(const World& world, std::span<const BodyPair> pairs);
   void find_who_stays_awake(const World& world, std::span<const Contact> contacts);
-  int root(int body);
 
-  std::vector<int> parents_;                // per body
+  base::DisjointSets islands_;              // of bodies
   std::vector<std::uint8_t> never_sleeps_;  // per body
-  std::vector<std::uint8_t> is_touched_;    // per root
-  std::vector<std::uint8_t> stays_awake_;   // per root
+  std::vector<std::uint8_t> is_touched_;    // per island's first body
+  std::vector<std::uint8_t> stays_awake_;   // per island's first body
 };
 
 /// Bodies that sleep with a velocity, which someone has given them, wake.

@@ -74,6 +74,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
   kicked_.resize(world.soft.size());
+  falls_.assign(world.rigid.size(), Vec3::Zero());
   allowances_.resize(surfaces_.size());
   searched_ends_.resize(surfaces_.size());
 }
@@ -343,6 +344,21 @@ void SweptBodies::shift_boxes(World& world) const {
   }
 }
 
+bool SweptBodies::let_carried_fall(World& world, const CarriedBoxes& carried, const Vec3& way) {
+  bool any = false;
+  for (std::size_t i = 0; i < falls_.size(); ++i) {
+    const bool falls = carried.is_carried(static_cast<int>(i));
+    falls_[i] = falls ? way : Vec3::Zero();
+    any = any || falls;
+  }
+  if (any) add_falls(world);
+  return any;
+}
+
+void SweptBodies::add_falls(World& world) const {
+  for (std::size_t i = 0; i < falls_.size(); ++i) world.rigid[i].position += falls_[i];
+}
+
 bool SweptBodies::is_to_move_again(int soft) const {
   return moved_again_[at(soft)] != 0 || !changes_[at(soft)].rows().isZero(0.0);
 }
@@ -391,6 +407,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
     kicked.angular_velocity += to_vec3(box_changes_[i].angular_velocity);
     if (auto failed = integrate_rigid_again(world, static_cast<int>(i), kicked)) return failed;
   }
+  add_falls(world);
   shift_boxes(world);
   return std::nullopt;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/collision/sweep_and_prune.h"
+#include "sim/response/carried_boxes.h"
 #include "sim/step/stage_memory.h"
 #include "sim/swept/moving_surface.h"
 #include "sim/swept/swept_impulse.h"
@@ -89,6 +90,10 @@ class SweptBodies {
   /// Gives the boxes their shifts.
   void shift_boxes(World& world) const;
 
+  /// Moves the boxes that soft bodies carry, at the end of their free motion, by `way` (m) as part
+  /// of it; in this step, also where they are moved again. Whether there is any.
+  bool let_carried_fall(World& world, const CarriedBoxes& carried, const Vec3& way);
+
   /// Moves the bodies that impulses have changed once more, from their start with other velocities.
   std::optional<Divergence> move_again(World& world, const MotionStart& start,
                                        IntegrateSoftMemory& integrate_soft);
@@ -118,6 +123,7 @@ class SweptBodies {
   const SoftState& kick(const MotionStart& start, int soft);
   std::optional<Divergence> move_again(World& world, const MotionStart& start, JoinedStep& group,
                                        IntegrateSoftMemory& integrate_soft);
+  void add_falls(World& world) const;
   void place_corners(int box, const Vec3& position, const Eigen::Quaterniond& orientation,
                      VertexArray& corners) const;
 
@@ -138,6 +144,7 @@ class SweptBodies {
   std::vector<VertexArray> changes_;                        // m/s, per soft body
   std::vector<BoxChange> box_changes_;
   std::vector<BoxChange> shifts_;          // of the boxes, or empty
+  std::vector<Vec3> falls_;                // m, of the boxes, within the step
   std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
   std::vector<SoftState> kicked_;          // per soft body
   std::vector<Bounds> ways_;               // per body, with what it keeps around it

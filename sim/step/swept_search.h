@@ -9,6 +9,7 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
+#include "sim/response/carried_boxes.h"
 #include "sim/response/fall_asleep.h"
 #include "sim/step/swept_solver.h"
 
@@ -47,6 +48,7 @@ struct SweptMemory {
       : bodies(world),
         solver(bodies.count(), static_cast<int>(world.soft.size())),
         starts(max_halvings + 1),
+        carried_boxes(world),
         fall_asleep(world) {}
 
   SweptBodies bodies;
@@ -68,12 +70,13 @@ struct SweptMemory {
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
   ReturnedEnergyMemory returned_energy;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
+  CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
-  std::vector<BodyPair> islands;  // pairs of bodies with candidates
-  std::vector<BodyRest> rest;     // as the step found it
-  VertexArray before_ground;      // of a soft body that meets nothing else
-  double work = 0.0;              // J, of all contacts of the last step
-  double driven_work = 0.0;       // J, of the bodies that are moved
+  std::vector<BodyPair> paired;  // bodies with candidates
+  std::vector<BodyRest> rest;    // as the step found it
+  VertexArray before_ground;     // of a soft body that meets nothing else
+  double work = 0.0;             // J, of all contacts of the last step
+  double driven_work = 0.0;      // J, of the bodies that are moved
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.

@@ -28,28 +28,19 @@ int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impu
   return island_of(moved_body(contact, impulse));
 }
 
-int SweptSolver::root(int body) {
-  while (parents_[at(body)] != body) {
-    parents_[at(body)] = parents_[at(parents_[at(body)])];
-    body = parents_[at(body)];
-  }
-  return body;
-}
-
 void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses) {
-  std::iota(parents_.begin(), parents_.end(), 0);
+  sets_.part();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const SweptContact& contact = contacts[i];
     if (!impulses[i].first().moves() || !impulses[i].second().moves()) continue;
-    const int one = root(contact.first.body), other = root(contact.second.body);
-    parents_[at(std::max(one, other))] = std::min(one, other);
+    sets_.join(contact.first.body, contact.second.body);
   }
-  islands_.assign(parents_.size(), -1);
+  islands_.assign(sets_.size(), -1);
   begin_.assign(1, 0);
   has_boxes_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const SweptContact& contact = contacts[i];
-    int& island = islands_[at(root(moved_body(contact, impulses[i])))];
+    int& island = islands_[at(sets_.first(moved_body(contact, impulses[i])))];
     if (island < 0) {
       island = static_cast<int>(begin_.size()) - 1;
       begin_.push_back(0);

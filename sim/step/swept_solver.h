@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/step/swept_contact.h"
 #include "sim/swept/conjugate_iterations.h"
 #include "sim/swept/newton_solver.h"
@@ -14,7 +15,7 @@ namespace pneuma::sim {
 class SweptSolver {
  public:
   /// `bodies`: how many there are, of which the first are soft.
-  SweptSolver(int bodies, int soft_bodies) : soft_bodies_(soft_bodies), parents_(at(bodies)) {}
+  SweptSolver(int bodies, int soft_bodies) : soft_bodies_(soft_bodies), sets_(at(bodies)) {}
 
   /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`,
   /// in the unit of what they aim at, or 50 times, by Gauss-Seidel iterations. Where a box is on a
@@ -33,7 +34,7 @@ class SweptSolver {
   }
   /// -1: in none. `body` has been in a contact of the last call, or in none at all. What nothing
   /// moves is in none.
-  int island_of(int body) { return islands_[at(root(body))]; }
+  int island_of(int body) { return islands_[at(sets_.first(body))]; }
   /// Of the body or bodies that the contact's impulse moves.
   int island_of(const SweptContact& contact, const SweptImpulse& impulse);
 
@@ -41,14 +42,13 @@ class SweptSolver {
   /// Contacts that share a body that they move, and those that share one with these, are an island:
   /// nothing travels through boxes that stand still or keep their velocity.
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses);
-  int root(int body);
   void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
 
   bool is_box(int body) const { return body >= soft_bodies_; }
 
   int soft_bodies_ = 0;
-  std::vector<int> parents_;             // per body
-  std::vector<int> islands_;             // of each root, or -1
+  base::DisjointSets sets_;              // of bodies
+  std::vector<int> islands_;             // of the first body of each set, or -1
   std::vector<std::uint8_t> is_new_;     // per island
   std::vector<std::uint8_t> has_boxes_;  // per island: one on another, or on the ground
   std::vector<std::size_t> begin_;

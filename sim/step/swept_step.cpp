@@ -27,6 +27,16 @@ constexpr double closing_rate = 0.3;
 /// Of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_contact = 0.05;
 
+/// Of bodies that have candidates.
+void find_pairs(SweptMemory& memory) {
+  memory.paired.clear();
+  for (const SweptCandidate& candidate : memory.candidates) {
+    if (memory.paired.empty() || memory.paired.back() != candidate.bodies) {
+      memory.paired.push_back(candidate.bodies);
+    }
+  }
+}
+
 class SweptStep {
  public:
   SweptStep(World& world, StepWorkspace& workspace)
@@ -86,7 +96,9 @@ class SweptStep {
       bodies_.set_end(world_);
       search_.find_candidates();
       bodies_.begin_at_start(world_, start());
-      if (shift_near_boxes(world_, m_, search_, fraction_)) search_.follow_ends();
+      const bool fell = let_carried_boxes_fall();
+      const bool shifted = shift_near_boxes(world_, m_, search_, fraction_);
+      if (fell || shifted) search_.follow_ends();
       search_.start();
     });
     if (!m_.touched_asleep.empty()) return touched_asleep();
@@ -116,6 +128,15 @@ class SweptStep {
       }
     }
     return blocked();
+  }
+
+  /// Soft bodies press within the step: what they carry must weigh on them within it too.
+  bool let_carried_boxes_fall() {
+    find_pairs(m_);
+    m_.carried_boxes.find(world_, m_.paired);
+    return bodies_.let_carried_fall(
+        world_, m_.carried_boxes,
+        fall_within(step(), world_.settings.integrator, world_.settings.gravity));
   }
 
   /// What sleeps must wake before the step can be done.
@@ -160,10 +181,15 @@ class SweptStep {
     if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
     if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
       // Shifts do the rest. What presses boxes together must not take them back.
-      const double room = shift > 0.0 ? -missing_distance(contact) : contact.distance;
+      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
+      const double room = is_held ? -missing_distance(contact) : contact.distance;
       return closer - std::max(0.0, room);
     }
     return closer + made_up_per_step * std::max(0.0, missing_distance(contact));
+  }
+
+  bool is_carried(const SurfacePoint& box) const {
+    return box.body != swept_ground && m_.carried_boxes.is_carried(bodies_.box(box.body));
   }
 
   bool on_ground_as_box(const SweptContact& contact) const {
@@ -378,13 +404,8 @@ bool wake_what_was_touched(World& world, SweptMemory& memory) {
 void put_to_sleep(World& world, const MotionStart& start, StepWorkspace& workspace) {
   SweptMemory& m = *workspace.swept;
   if (!m.fall_asleep.count_quiet_steps(world, start)) return;
-  m.islands.clear();
-  for (const SweptCandidate& candidate : m.candidates) {
-    if (m.islands.empty() || m.islands.back() != candidate.bodies) {
-      m.islands.push_back(candidate.bodies);
-    }
-  }
-  m.work -= m.fall_asleep.put_to_sleep(world, m.islands, workspace.contacts);
+  find_pairs(m);
+  m.work -= m.fall_asleep.put_to_sleep(world, m.paired, workspace.contacts);
 }
 
 }  // namespace

@@ -60,10 +60,16 @@ struct World {
   std::int64_t steps = 0;      // done so far; time is steps / steps_per_second
 };
 
-/// Whether nothing changes how a body moves; soft bodies come first, then boxes. How such bodies
+/// Where bodies of both kinds are numbered, the soft ones come first, then the boxes.
+inline int soft_count(const World& world) { return static_cast<int>(world.soft.size()); }
+inline int body_count(const World& world) {
+  return soft_count(world) + static_cast<int>(world.rigid.size());
+}
+
+/// Whether nothing changes how a body moves. How such bodies
 /// lie to each other and to the ground is no matter of contacts.
 inline bool is_kinematic(const World& world, int body) {
-  const int box = body - static_cast<int>(world.soft.size());
+  const int box = body - soft_count(world);
   if (box >= 0) return world.rigid[at(box)].is_kinematic;
   const SoftBody& soft = world.soft[at(body)];
   return soft.pins && soft.pins->are_all;
