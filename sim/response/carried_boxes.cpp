@@ -12,7 +12,6 @@ CarriedBoxes::CarriedBoxes(const World& world)
 /// Nothing reaches through what stands still, sleeps or is moved.
 void CarriedBoxes::find(const World& world, std::span<const BodyPair> pairs) {
   std::ranges::fill(is_carried_, std::uint8_t{0});
-  if (world.soft.empty() || world.rigid.empty()) return;
   near_.part();
   for (const auto& [first, second] : pairs) {
     if (second < 0 || is_fixed(world, first) || is_fixed(world, second)) continue;

@@ -132,6 +132,7 @@ class SweptStep {
 
   /// Soft bodies press within the step: what they carry must weigh on them within it too.
   bool let_carried_boxes_fall() {
+    if (world_.soft.empty() || world_.rigid.empty()) return false;
     find_pairs(m_);
     m_.carried_boxes.find(world_, m_.paired);
     return bodies_.let_carried_fall(
