@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+
+#include "sim/base/disjoint_sets.h"
 
 namespace pneuma::sim {
 
 std::vector<std::vector<int>> joined_bodies(const World& world) {
-  std::vector<int> parents(world.soft.size());
-  std::iota(parents.begin(), parents.end(), 0);
-  const auto root = [&](int body) {
-    while (parents[at(body)] != body) body = parents[at(body)];
-    return body;
-  };
-  for (const BodySpring& spring : world.springs) {
-    const int one = root(spring.first.body), other = root(spring.second.body);
-    parents[at(std::max(one, other))] = std::min(one, other);
-  }
+  base::DisjointSets joined(world.soft.size());
+  for (const BodySpring& spring : world.springs) joined.join(spring.first.body, spring.second.body);
   std::map<int, std::vector<int>> groups;  // by first body
-  for (int i = 0; i < static_cast<int>(parents.size()); ++i) groups[root(i)].push_back(i);
+  for (int i = 0; i < soft_count(world); ++i) groups[joined.first(i)].push_back(i);
   std::vector<std::vector<int>> result;
   for (auto& [first, bodies] : groups) result.push_back(std::move(bodies));
   return result;
