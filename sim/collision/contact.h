@@ -28,6 +28,11 @@ struct Contact {
   // Speculative margin, m: by how much the sides may still approach within the step. Above 0 only
   // between boxes, and boxes and the ground, which rest by touching.
   double speculative_margin = 0.0;
+  // N s on `first` in the step, friction included; `second` gets the opposite. Known once the
+  // contact is resolved. Where contact is a potential it is the force at the end of the step times
+  // the step: not the whole story where an explicit integrator divides the step. What an implicit
+  // integrator keeps on the ground itself has none.
+  Vec3 impulse = Vec3::Zero();
 };
 
 }  // namespace pneuma::sim

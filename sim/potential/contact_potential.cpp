@@ -180,14 +180,17 @@ Vec3 relative_velocity(const ActiveContact& contact, const VertexArray& velociti
   return velocity;
 }
 
+Vec3 contact_force(const ActiveContact& contact, const Vec3& velocity,
+                   double regularisation_speed) {
+  return contact.push() * contact.point.normal() +
+         dissipative_force(contact, velocity, regularisation_speed);
+}
+
 void add_forces(const std::vector<ActiveContact>& active, const VertexArray& positions,
                 const VertexArray& velocities, double regularisation_speed, VertexArray& forces) {
   for (const ActiveContact& contact : active) {
     const Vec3 velocity = relative_velocity(contact, velocities);
-    add_weighted(contact,
-                 contact.push() * contact.point.normal() +
-                     dissipative_force(contact, velocity, regularisation_speed),
-                 forces);
+    add_weighted(contact, contact_force(contact, velocity, regularisation_speed), forces);
     if (!contact.is_mollified()) continue;
     const Vec12 by_mollifier =
         contact.barrier.value *

@@ -65,6 +65,10 @@ void add_gradient(const std::vector<ActiveContact>& active, const VertexArray& p
 /// d^2B/dx^2 of one contact of four vertices, as it is.
 Mat12 contact_hessian(const ActiveContact& contact, const VertexArray& positions);
 
+/// N on the first side, without what a mollifier adds to it: at `velocity` (m/s) of that side
+/// against the second.
+Vec3 contact_force(const ActiveContact& contact, const Vec3& velocity, double regularisation_speed);
+
 /// Adds all of the above's forces in N.
 void add_forces(const std::vector<ActiveContact>& active, const VertexArray& positions,
                 const VertexArray& velocities, double regularisation_speed, VertexArray& forces);

@@ -11,7 +11,7 @@ bool is_between_boxes(const Contact& contact) {
   return contact.first.kind == SideKind::rigid && contact.second.kind == SideKind::rigid;
 }
 
-void apply_impulse(World& world, std::span<const BoxMass> masses, const Contact& contact) {
+void apply_impulse(World& world, std::span<const BoxMass> masses, Contact& contact) {
   const SolverSide first(world, masses, contact.first, contact.point);
   const SolverSide second(world, masses, contact.second, contact.point);
   const ContactMaterial pair =
@@ -24,11 +24,14 @@ void apply_impulse(World& world, std::span<const BoxMass> masses, const Contact&
   if (!is_between_boxes(contact)) impulse = std::max(0.0, impulse);
   first.apply(impulse * normal);
   second.apply(-impulse * normal);
+  contact.impulse = impulse * contact.normal;
   if (!is_soft_ground(contact)) return;
-  VertexArray& velocities = world.soft[at(contact.first.body)].velocities;
+  SoftBody& body = world.soft[at(contact.first.body)];
   const int v = contact.first.feature.index;
-  const Vec3 velocity = velocities[v];
-  velocities[v] = velocity + printed_friction(velocity, contact.normal, pair.friction, impulse);
+  const Vec3 velocity = body.velocities[v];
+  const Vec3 change = printed_friction(velocity, contact.normal, pair.friction, impulse);
+  body.velocities[v] = velocity + change;
+  contact.impulse += body.material.vertex_mass * change;
 }
 
 /// Both sides' centre stays (ERRATA row 62).
@@ -71,8 +74,8 @@ Vec3 printed_friction(const Vec3& velocity, const Vec3& normal, double friction,
 }
 
 void apply_printed_impulses(World& world, std::span<const BoxMass> masses,
-                            std::span<const Contact> contacts) {
-  for (const Contact& contact : contacts) apply_impulse(world, masses, contact);
+                            std::span<Contact> contacts) {
+  for (Contact& contact : contacts) apply_impulse(world, masses, contact);
 }
 
 void separate_as_printed(World& world, std::span<const Vec3> box_positions,

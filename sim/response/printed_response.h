@@ -9,10 +9,10 @@
 namespace pneuma::sim {
 
 /// One impulse with the factor epsilon + 1 for each contact. Between boxes it may have either sign;
-/// elsewhere it only pushes. Vertices on the ground, and no others, get friction. `masses` has one
-/// entry per box of the world.
+/// elsewhere it only pushes. Vertices on the ground, and no others, get friction. The contacts get
+/// their impulses. `masses` has one entry per box of the world.
 void apply_printed_impulses(World& world, std::span<const BoxMass> masses,
-                            std::span<const Contact> contacts);
+                            std::span<Contact> contacts);
 
 /// Moves vertices back to the ground, intersecting ones away from the triangle by the contact's
 /// depth, and boxes away from each other. A box of which several corners intersect has moved from

@@ -30,19 +30,26 @@ ContactMaterial with_ground(const World& world, int soft) {
   return combine(world.soft[at(soft)].material.surface, *world.settings.ground);
 }
 
-void rest_on_ground(World& world, const SoftState& start, const Contact& contact,
-                    const ContactMaterial& pair) {
-  VertexArray& velocities = world.soft[at(contact.first.body)].velocities;
+/// Gives the vertex of a contact the velocity, m/s.
+void set_velocity(World& world, const Vec3& velocity, Contact& contact) {
+  SoftBody& body = world.soft[at(contact.first.body)];
   const int v = contact.first.feature.index;
-  Vec3 velocity = velocities[v];
+  contact.impulse = body.material.vertex_mass * (velocity - body.velocities[v]);
+  body.velocities[v] = velocity;
+}
+
+void rest_on_ground(World& world, const SoftState& start, Contact& contact,
+                    const ContactMaterial& pair) {
+  const int v = contact.first.feature.index;
+  Vec3 velocity = world.soft[at(contact.first.body)].velocities[v];
   const bool sticks = meet_ground(-start.velocities[v].z(), pair, velocity);
-  velocities[v] = velocity;
+  set_velocity(world, velocity, contact);
   put_onto_ground(world, start, contact, sticks);
 }
 
 }  // namespace
 
-void resolve_alone(World& world, const SoftState& start, const Contact& contact) {
+void resolve_alone(World& world, const SoftState& start, Contact& contact) {
   rest_on_ground(world, start, contact, with_ground(world, contact.first.body));
 }
 
@@ -73,26 +80,25 @@ std::optional<Bounce> bounce_of(const World& world, const SoftState& start, cons
   return Bounce{velocity, *height};
 }
 
-void bounce_or_rest(World& world, int soft, const SoftState& start,
-                    std::span<const Contact> contacts) {
+void bounce_or_rest(World& world, int soft, const SoftState& start, std::span<Contact> contacts) {
   SoftBody& body = world.soft[at(soft)];
   const ContactMaterial pair = with_ground(world, soft);
   const bool any = std::ranges::any_of(contacts, [&](const Contact& contact) {
     return bounce_of(world, start, contact, pair).has_value();
   });
   if (!any) {
-    for (const Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
+    for (Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
     return;
   }
   const Vec3& gravity = world.settings.gravity;
   const double before = energy(body, gravity).total();
-  for (const Contact& contact : contacts) {
+  for (Contact& contact : contacts) {
     const auto bounced = bounce_of(world, start, contact, pair);
     if (!bounced) {
       rest_on_ground(world, start, contact, pair);
       continue;
     }
-    body.velocities[contact.first.feature.index] = bounced->velocity;
+    set_velocity(world, bounced->velocity, contact);
     body.positions[contact.first.feature.index].z() = bounced->height;
   }
   take_from_vibration(body, energy(body, gravity).total() - before);
@@ -100,14 +106,14 @@ void bounce_or_rest(World& world, int soft, const SoftState& start,
 
 }  // namespace
 
-void resolve_on_ground(World& world, int soft, const SoftState& start,
-                       std::span<const Contact> contacts, VertexArray& before) {
+void resolve_on_ground(World& world, int soft, const SoftState& start, std::span<Contact> contacts,
+                       VertexArray& before) {
   if (contacts.empty()) return;
   if (!is_implicit(world.settings.integrator)) return bounce_or_rest(world, soft, start, contacts);
   SoftBody& body = world.soft[at(soft)];
   before = body.positions;
   const ContactMaterial pair = with_ground(world, soft);
-  for (const Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
+  for (Contact& contact : contacts) rest_on_ground(world, start, contact, pair);
   keep_volume(body, before);
 }
 

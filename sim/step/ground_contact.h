@@ -15,14 +15,15 @@ namespace pneuma::sim {
 /// the vertex's body.
 void put_onto_ground(World& world, const SoftState& start, const Contact& contact, bool sticks);
 
-/// Resolves the contact of a vertex that touches the ground and nothing else (ERRATA row 31).
-void resolve_alone(World& world, const SoftState& start, const Contact& contact);
+/// Resolves the contact of a vertex that touches the ground and nothing else (ERRATA row 31), which
+/// gets its impulse.
+void resolve_alone(World& world, const SoftState& start, Contact& contact);
 
 /// Resolves all contacts of a soft body that touches the ground and nothing else: as resolve_alone,
 /// but of explicit integrators what bounces does so when it meets the ground, and adds no energy
 /// (ERRATA row 70). `before`: memory.
-void resolve_on_ground(World& world, int soft, const SoftState& start,
-                       std::span<const Contact> contacts, VertexArray& before);
+void resolve_on_ground(World& world, int soft, const SoftState& start, std::span<Contact> contacts,
+                       VertexArray& before);
 
 /// What an implicit integrator promises, contacts keep: a body that holds gas has a volume
 /// (sim/response/keep_volume.h). `before`: the positions before its contacts were resolved.

@@ -216,6 +216,9 @@ class PotentialStep {
       const int second_side = side_vertex(contact, false);
       result.second = side(surface_of(second_side), second_side);
     }
+    result.impulse = time_step(world_.settings) *
+                     contact_force(contact, relative_velocity(contact, m_.end.velocities),
+                                   m_.surfaces.regularisation_speed());
     return result;
   }
 

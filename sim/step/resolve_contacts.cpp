@@ -19,18 +19,22 @@ void prepare(const World& world, std::span<const Contact> contacts, ResolveConta
 }
 
 /// No island touches what another does.
-void resolve_all(World& world, const MotionStart& start, std::span<const Contact> contacts,
+void resolve_all(World& world, const MotionStart& start, std::span<Contact> contacts,
                  ResolveContactsMemory& memory, Workers& workers) {
   const std::span<const int> alone = memory.islands.alone();
   workers.for_blocks(static_cast<int>(alone.size()), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
-      const Contact& contact = contacts[at(alone[at(i)])];
+      Contact& contact = contacts[at(alone[at(i)])];
       resolve_alone(world, start.soft[at(contact.first.body)], contact);
     }
   });
   workers.for_blocks(memory.islands.count(), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) resolve_island(world, start, contacts, i, memory);
   });
+  const std::span<const int> ordered = memory.islands.ordered();
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    contacts[at(ordered[i])].impulse = memory.impulses[i].total();
+  }
 }
 
 void keep_positions(const World& world, std::vector<VertexArray>& before_contacts) {
@@ -61,7 +65,7 @@ void remember(World& world, std::span<const Contact> contacts, ResolveContactsMe
 }
 
 /// In the order in which they were found, by one thread: each changes what the next one meets.
-std::optional<Divergence> resolve_as_printed(World& world, std::span<const Contact> contacts,
+std::optional<Divergence> resolve_as_printed(World& world, std::span<Contact> contacts,
                                              ResolveContactsMemory& memory, Workers& workers) {
   memory.box_masses.clear();
   memory.box_positions.clear();
@@ -77,7 +81,7 @@ std::optional<Divergence> resolve_as_printed(World& world, std::span<const Conta
 }  // namespace
 
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
-                                           std::span<const Contact> contacts,
+                                           std::span<Contact> contacts,
                                            ResolveContactsMemory& memory, Workers& workers) {
   if (contacts.empty()) {
     world.warm_start_impulses.clear();

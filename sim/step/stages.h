@@ -45,11 +45,12 @@ void move_particles(World& world, const NearBodies& near_bodies, MoveParticlesMe
 void find_contacts(const World& world, const Plan& plan, const NearBodies& near_bodies,
                    std::vector<Contact>& contacts, FindContactsMemory& memory, Workers& workers);
 
-/// Applies impulses and friction and separates bodies (5.3), island by island. Returns the first
-/// body that this left with a value that is not finite, with a vertex faster than max_speed
-/// (find_divergence.h), or, of a body that holds gas, with a volume that is not above zero.
+/// Applies impulses and friction and separates bodies (5.3), island by island; the contacts get
+/// their impulses. Returns the first body that this left with a value that is not finite, with a
+/// vertex faster than max_speed (find_divergence.h), or, of a body that holds gas, with a volume
+/// that is not above zero.
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
-                                           std::span<const Contact> contacts,
+                                           std::span<Contact> contacts,
                                            ResolveContactsMemory& memory, Workers& workers);
 
 /// Moves soft bodies apart that overlap deeply (sim/response/depenetrate_pairs.h). Returns the

@@ -351,7 +351,8 @@ class SweptStep {
       w_.contacts.push_back({.first = side(contact.first),
                              .second = side(contact.second),
                              .point = contact.first.point,
-                             .normal = contact.normal});
+                             .normal = contact.normal,
+                             .impulse = to_vec3(m_.impulses[i].impulse())});
     }
   }
 

@@ -112,14 +112,15 @@ TEST(PrintedImpulse, PartsFeaturesOnceWithTheRestitution) {
                         {SideKind::soft, 1, {FeatureKind::vertex, 7}},
                         Vec3::Zero(),
                         -Vec3::UnitX()};
+  std::vector contacts = {contact};
   const Vec3 momentum_before = momentum(world).linear;
-  apply_printed_impulses(world, {}, std::vector{contact});
+  apply_printed_impulses(world, {}, contacts);
   const SolverSide first(world, {}, contact.first, contact.point);
   const SolverSide second(world, {}, contact.second, contact.point);
   EXPECT_NEAR(first.velocity()[0] - second.velocity()[0], -0.5 * 6.0, 1e-12);
   EXPECT_NEAR((momentum(world).linear - momentum_before).norm(), 0.0, 1e-12);
   const std::uint64_t parted = state_hash(world);
-  apply_printed_impulses(world, {}, std::vector{contact});  // j is never negative
+  apply_printed_impulses(world, {}, contacts);  // j is never negative
   EXPECT_EQ(state_hash(world), parted);
 }
 
@@ -130,7 +131,8 @@ TEST(PrintedImpulse, PullsBoxesThatPartBackTogether) {
   const std::vector<BoxMass> masses = {box_mass(world.rigid[0]), box_mass(world.rigid[1])};
   const Contact contact{
       {SideKind::rigid, 0, {}}, {SideKind::rigid, 1, {}}, {0.95, 0, 0}, -Vec3::UnitX(), 0.1};
-  apply_printed_impulses(world, masses, std::vector{contact});
+  std::vector contacts = {contact};
+  apply_printed_impulses(world, masses, contacts);
   EXPECT_NEAR(world.rigid[0].velocity.x(), 2.0, 1e-12);
   EXPECT_NEAR(world.rigid[1].velocity.x(), 2.0, 1e-12);
 }
