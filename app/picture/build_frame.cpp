@@ -7,6 +7,7 @@
 #include "app/picture/body_colours.h"
 #include "app/picture/colour_field.h"
 #include "app/picture/ghost.h"
+#include "app/picture/impulse_arrows.h"
 #include "app/picture/overlay.h"
 #include "app/picture/rounding_room.h"
 #include "sim/mesh/measure.h"
@@ -108,6 +109,11 @@ void add_overlays(const sim::World& world, std::span<const sim::Contact> contact
   if (show.ghost) add_ghosts(world, frame);
   if (show.particles) add_particles(world, contacts, frame);
   if (show.contacts) add_contacts(contacts, frame);
+  if (show.impulses) {
+    const double scale = show.arrow_scale.value_or(arrow_scale(contacts, frame.camera));
+    add_impulses(contacts, scale, frame);
+    if (frame.caption) frame.caption->text += arrow_legend(scale);
+  }
   if (show.labels) add_labels(world, frame);
   frame.scale_bar = show.scale;
 }
@@ -154,11 +160,11 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
     frame.meshes.back().roughness = rigid_looks_[i].roughness;
   }
   // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
-  const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts;
+  const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts && !show.impulses;
   if (rounded_ && only_surfaces) set_rounding_room(frame.meshes);
   joints_.add(world, frame);
-  add_overlays(world, contacts, show, frame);
   if (caption_) frame.caption = caption(title_, world, pressures_);
+  add_overlays(world, contacts, show, frame);
   return frame;
 }
 

@@ -56,13 +56,6 @@ void add_body_particles(const sim::World& world, std::span<const sim::Contact> c
   }
 }
 
-Colour contact_colour(const sim::Contact& contact) {
-  if (contact.second.kind == sim::SideKind::ground) return {0.15f, 0.15f, 0.20f};
-  if (contact.first.kind != contact.second.kind) return {1.0f, 0.55f, 0.0f};
-  return contact.first.kind == sim::SideKind::soft ? Colour(0.9f, 0.1f, 0.8f)
-                                                   : Colour(0.1f, 0.3f, 1.0f);
-}
-
 }  // namespace
 
 void add_particles(const sim::World& world, std::span<const sim::Contact> contacts,
@@ -72,6 +65,13 @@ void add_particles(const sim::World& world, std::span<const sim::Contact> contac
     add_body_particles(world, contacts, pair.first, pair.second, pair.first_features, frame);
     add_body_particles(world, contacts, pair.second, pair.first, pair.second_features, frame);
   }
+}
+
+Colour contact_colour(const sim::Contact& contact) {
+  if (contact.second.kind == sim::SideKind::ground) return {0.15f, 0.15f, 0.20f};
+  if (contact.first.kind != contact.second.kind) return {1.0f, 0.55f, 0.0f};
+  return contact.first.kind == sim::SideKind::soft ? Colour(0.9f, 0.1f, 0.8f)
+                                                   : Colour(0.1f, 0.3f, 1.0f);
 }
 
 void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame) {

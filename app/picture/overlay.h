@@ -14,6 +14,9 @@ namespace pneuma::app {
 void add_particles(const sim::World& world, std::span<const sim::Contact> contacts,
                    render::Frame& frame);
 
+/// By the kinds of bodies.
+render::Colour contact_colour(const sim::Contact& contact);
+
 /// For each contact a disc where the bodies touch and a line along the normal, in a colour of the
 /// kinds of bodies.
 void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame);

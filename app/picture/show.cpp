@@ -15,24 +15,24 @@ namespace pneuma::app {
 namespace {
 
 using ShowName = std::pair<std::string_view, bool Show::*>;
-constexpr std::array<ShowName, 6> show_names = {
+constexpr std::array<ShowName, 7> show_names = {
     ShowName{"wireframe", &Show::wireframe}, ShowName{"particles", &Show::particles},
-    ShowName{"contacts", &Show::contacts},   ShowName{"ghost", &Show::ghost},
-    ShowName{"labels", &Show::labels},       ShowName{"scale", &Show::scale}};
+    ShowName{"contacts", &Show::contacts},   ShowName{"impulses", &Show::impulses},
+    ShowName{"ghost", &Show::ghost},         ShowName{"labels", &Show::labels},
+    ShowName{"scale", &Show::scale}};
 
 using FieldName = std::pair<std::string_view, ColourField>;
 constexpr std::array<FieldName, 3> field_names = {FieldName{"strain", ColourField::strain},
                                                   FieldName{"velocity", ColourField::velocity},
                                                   FieldName{"pressure", ColourField::pressure}};
 
-double parse_end(const std::string& option, const std::string& item, std::string_view text) {
+double parse_number(const std::string& option, const std::string& item, std::string_view text,
+                    std::string_view wrong) {
   double end = 0.0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), end);
   if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(end) ||
       end <= 0.0) {
-    throw UsageError(
-        fmt::format("{}: '{}' ends its colours nowhere; write a number above zero, as velocity=5",
-                    option, item));
+    throw UsageError(fmt::format("{}: '{}' {}", option, item, wrong));
   }
   return end;
 }
@@ -42,10 +42,11 @@ void add_field(const std::string& option, const std::string& item, Show& show) {
   const auto known =
       std::ranges::find(field_names, std::string_view(item).substr(0, sign), &FieldName::first);
   if (known == field_names.end()) {
-    throw UsageError(fmt::format(
-        "{}: '{}' is not known; allowed are wireframe, particles, contacts, ghost, labels, scale, "
-        "strain, velocity and pressure",
-        option, item));
+    throw UsageError(
+        fmt::format("{}: '{}' is not known; allowed are wireframe, particles, contacts, impulses, "
+                    "ghost, labels, "
+                    "scale, strain, velocity and pressure",
+                    option, item));
   }
   if (show.field != ColourField::none) {
     throw UsageError(fmt::format(
@@ -55,16 +56,23 @@ void add_field(const std::string& option, const std::string& item, Show& show) {
   }
   show.field = known->second;
   if (sign < item.size()) {
-    show.field_end = parse_end(option, item, std::string_view(item).substr(sign + 1));
+    show.field_end =
+        parse_number(option, item, std::string_view(item).substr(sign + 1),
+                     "ends its colours nowhere; write a number above zero, as velocity=5");
   }
 }
+
+constexpr std::string_view impulses_equal = "impulses=";
 
 }  // namespace
 
 std::vector<std::string> shown_names(const Show& show) {
   std::vector<std::string> names;
   for (const auto& [name, member] : show_names) {
-    if (show.*member) names.emplace_back(name);
+    if (!(show.*member)) continue;
+    const bool has_scale = member == &Show::impulses && show.arrow_scale;
+    names.push_back(has_scale ? fmt::format("{}{}", impulses_equal, *show.arrow_scale)
+                              : std::string(name));
   }
   for (const auto& [name, field] : field_names) {
     if (show.field != field) continue;
@@ -80,7 +88,12 @@ Show parse_show(const std::string& option, const std::string& list) {
     const std::size_t end = std::min(list.find(',', begin), list.size());
     const std::string item = list.substr(begin, end - begin);
     const auto known = std::ranges::find(show_names, item, &ShowName::first);
-    if (known == show_names.end()) {
+    if (item.starts_with(impulses_equal)) {
+      show.impulses = true;
+      show.arrow_scale = parse_number(
+          option, item, std::string_view(item).substr(impulses_equal.size()),
+          "gives arrows no length; write the N s of one metre, above zero, as impulses=0.5");
+    } else if (known == show_names.end()) {
       add_field(option, item, show);
     } else {
       show.*known->second = true;

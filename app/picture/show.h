@@ -19,9 +19,11 @@ struct Show {
   bool wireframe = false;
   bool particles = false;  // collision particles
   bool contacts = false;   // contact points and normals
+  bool impulses = false;   // of contacts, as arrows
   bool ghost = false;      // soft bodies' rest shapes as lines, where the bodies are
   bool labels = false;     // names of bodies
   bool scale = false;      // a scale bar
+  std::optional<double> arrow_scale = std::nullopt;  // N s per metre; none: of each picture its own
   ColourField field = ColourField::none;
   std::optional<double> field_end = std::nullopt;  // of its colours; none: of each picture its own
 };
@@ -36,7 +38,8 @@ struct Pictures {
 std::vector<std::string> shown_names(const Show& show);
 
 /// Reads the list of `option`, --show or --overlay: names separated by commas; a field may have the
-/// end of its colours, as velocity=5. Throws UsageError.
+/// end of its colours, as velocity=5, and impulses the N s of an arrow of one metre. Throws
+/// UsageError.
 Show parse_show(const std::string& option, const std::string& list);
 
 }  // namespace pneuma::app

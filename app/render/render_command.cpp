@@ -71,11 +71,11 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   command->add_option("--size", typed->size, "Size of the pictures in pixels, as 640x480")
       ->type_name("WxH");
   command
-      ->add_option(
-          "--show", typed->show,
-          "What else to draw: wireframe, particles, contacts, ghost (rest shapes), labels, "
-          "scale; one of strain, velocity, pressure as colours, which end at the "
-          "picture's largest value or, as velocity=5, at a number")
+      ->add_option("--show", typed->show,
+                   "What else to draw: wireframe, particles, contacts, impulses (arrows; "
+                   "impulses=0.5: of 0.5 N s a metre), ghost (rest shapes), labels, "
+                   "scale; one of strain, velocity, pressure as colours, which end at the "
+                   "picture's largest value or, as velocity=5, at a number")
       ->type_name("LIST");
   command
       ->add_option("--overlay", typed->overlay,

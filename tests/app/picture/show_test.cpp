@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/host/errors.h"
 #include "app/picture/build_frame.h"
 #include "app/picture/colour_field.h"
@@ -25,14 +27,15 @@ TEST(ParseShow, TakesAListOfKnownNames) {
   EXPECT_EQ(show.field_end, 2.5);
   for (const char* wrong :
        {"", "wire", "wireframe,", ",wireframe", "wireframe particles", "strain,velocity",
-        "strain=", "strain=0", "strain=-1", "strain=x", "strain=1x", "strain=inf", "labels=1"}) {
+        "impulses=", "impulses=0", "impulses=-1", "impulses=x", "strain=", "strain=0", "strain=-1",
+        "strain=x", "strain=1x", "strain=inf", "labels=1"}) {
     EXPECT_THROW(parse_show("--show", wrong), UsageError) << wrong;
   }
 }
 
 TEST(ShownNames, AreWhatParseShowTakes) {
-  for (const char* list :
-       {"wireframe,particles,contacts,ghost,labels,scale", "strain", "scale,pressure=0.125"}) {
+  for (const char* list : {"wireframe,particles,contacts,impulses,ghost,labels,scale", "strain",
+                           "impulses=0.25,scale,pressure=0.125"}) {
     std::string names;
     for (const std::string& name : shown_names(parse_show("--show", list))) {
       names += (names.empty() ? "" : ",") + name;
@@ -149,6 +152,37 @@ TEST(Ghost, FindsHowABodyWasTurnedAndMoved) {
   const Eigen::Isometry3d pose = pose_of(ball);
   EXPECT_LT((pose.linear() - turn.toRotationMatrix()).norm(), 1e-12);
   EXPECT_LT((pose * centre - (shift + turn * centre)).norm(), 1e-12);
+}
+
+TEST(Impulses, AreArrowsFromTheirContactsByTheScaleInTheCaption) {
+  const Made made;
+  std::vector<sim::Contact> contacts(2);
+  for (sim::Contact& contact : contacts) contact.normal = Vec3::UnitZ();
+  contacts[0].point = {1.0, 2.0, 0.5};
+  contacts[0].impulse = {0.0, 0.0, 3.0};
+  contacts[1].impulse = {0.0, 0.75, 0.0};
+  render::Camera camera;
+  camera.eye = {0.0f, -20.0f, 5.0f};
+  const FrameBuilder builder(made.scene, made.world, camera);
+  const render::Frame frame =
+      builder.build(made.world, contacts, parse_show("--show", "impulses=1.5"));
+  EXPECT_NO_THROW(render::check_frame(frame));
+  EXPECT_EQ(frame.points.size(), 2u);
+  ASSERT_EQ(frame.lines.size(), 6u) << "a shaft and two sides of a head each";
+  EXPECT_LT((frame.lines[0].from - render::Vec3f(1.0f, 2.0f, 0.5f)).norm(), 1e-6f);
+  EXPECT_LT((frame.lines[0].to - render::Vec3f(1.0f, 2.0f, 2.5f)).norm(), 1e-6f);
+  EXPECT_LT((frame.lines[3].to - render::Vec3f(0.0f, 0.5f, 0.0f)).norm(), 1e-6f);
+  for (const std::size_t side : {1u, 2u}) EXPECT_EQ(frame.lines[side].to, frame.lines[0].to);
+  ASSERT_TRUE(frame.caption);
+  EXPECT_NE(frame.caption->text.find("1 m is an impulse of 1.5 N s"), std::string::npos);
+  // Without a scale the picture's own, a round one that keeps the longest within a fifth.
+  const render::Frame own = builder.build(made.world, contacts, parse_show("--show", "impulses"));
+  const float longest = (own.lines[0].to - own.lines[0].from).norm();
+  const float height =
+      2.0f * std::tan(camera.field_of_view * 0.5f * 0.0174533f) * camera.eye.norm();
+  EXPECT_LE(longest, 0.2f * height * 1.0001f);
+  EXPECT_GE(longest, 0.2f * height / 2.5001f);
+  EXPECT_TRUE(builder.build(made.world, {}, parse_show("--show", "impulses")).lines.empty());
 }
 
 TEST(Ghost, IsDrawnAsTheEdgesOfTheRestShape) {
