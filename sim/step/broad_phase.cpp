@@ -14,7 +14,7 @@ namespace {
 /// half of it each (ERRATA row 10). Boxes are in contact when something is inside them or
 /// within the speculative margin.
 void make_spheres(const World& world, std::vector<BoundingSphere>& spheres,
-                  std::vector<Bounds>& soft_bounds, Workers& workers) {
+                  std::vector<Bounds>& soft_bounds, base::Workers& workers) {
   const bool as_printed = is_as_printed(world.settings);
   spheres.resize(world.soft.size());
   soft_bounds.resize(world.soft.size());
@@ -41,7 +41,7 @@ constexpr double steps_ahead = 4.0;
 
 /// Leaves only the pairs of soft bodies that no plane separates.
 void leave_out_separate(const World& world, NearBodies& near_bodies,
-                        std::vector<std::uint8_t>& is_separate, Workers& workers) {
+                        std::vector<std::uint8_t>& is_separate, base::Workers& workers) {
   std::vector<BodyPair>& pairs = near_bodies.soft_pairs;
   is_separate.resize(pairs.size());
   const auto block = [&](int begin, int end, int) {
@@ -146,7 +146,7 @@ void sort_by_kind(std::span<const BodyPair> pairs, int soft, NearBodies& near_bo
 }  // namespace
 
 void broad_phase(World& world, const Plan& plan, PairStart& start, NearBodies& near_bodies,
-                 BroadPhaseMemory& memory, Workers& workers) {
+                 BroadPhaseMemory& memory, base::Workers& workers) {
   start.particles = world.particles;
   start.depenetrating = world.depenetrating;
   start.warm_start_impulses = world.warm_start_impulses;

@@ -10,7 +10,7 @@ namespace {
 class ContactSearch {
  public:
   ContactSearch(const World& world, const NearBodies& near_bodies, std::vector<Contact>& contacts,
-                FindContactsMemory& memory, Workers& workers)
+                FindContactsMemory& memory, base::Workers& workers)
       : world_(world),
         near_(near_bodies),
         contacts_(contacts),
@@ -91,13 +91,14 @@ class ContactSearch {
   const NearBodies& near_;
   std::vector<Contact>& contacts_;
   FindContactsMemory& memory_;
-  Workers& workers_;
+  base::Workers& workers_;
 };
 
 }  // namespace
 
 void find_contacts(const World& world, const Plan& plan, const NearBodies& near_bodies,
-                   std::vector<Contact>& contacts, FindContactsMemory& memory, Workers& workers) {
+                   std::vector<Contact>& contacts, FindContactsMemory& memory,
+                   base::Workers& workers) {
   contacts.clear();
   memory.boxes.clear();
   for (const RigidBox& box : world.rigid) memory.boxes.push_back(placed_box(box));

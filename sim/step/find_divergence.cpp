@@ -215,7 +215,7 @@ std::optional<Divergence> find_divergence(const World& world, const RigidBox& bo
 
 std::optional<Divergence> find_first_divergence(const World& world,
                                                 std::vector<std::optional<Divergence>>& outcomes,
-                                                Workers& workers) {
+                                                base::Workers& workers) {
   outcomes.resize(world.soft.size());
   workers.for_blocks(static_cast<int>(world.soft.size()), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {

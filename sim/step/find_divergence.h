@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "sim/base/workers.h"
 #include "sim/soft/soft_state.h"
 #include "sim/step/stepper.h"
-#include "sim/step/workers.h"
 
 namespace pneuma::sim {
 
@@ -39,6 +39,6 @@ std::optional<Divergence> find_divergence(const World& world, const RigidBox& bo
 /// The first of all bodies. `outcomes`: memory.
 std::optional<Divergence> find_first_divergence(const World& world,
                                                 std::vector<std::optional<Divergence>>& outcomes,
-                                                Workers& workers);
+                                                base::Workers& workers);
 
 }  // namespace pneuma::sim

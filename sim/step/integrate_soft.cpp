@@ -85,7 +85,7 @@ std::optional<Divergence> integrate(World& world, JoinedStep& group,
 }
 
 void integrate_groups(World& world, std::vector<SoftState>& start, IntegrateSoftMemory& memory,
-                      Workers& workers) {
+                      base::Workers& workers) {
   const bool keep = is_implicit(world.settings.integrator);
   const auto block = [&](int begin, int end, int thread) {
     for (int i = begin; i < end; ++i) {
@@ -105,7 +105,7 @@ void integrate_groups(World& world, std::vector<SoftState>& start, IntegrateSoft
 }  // namespace
 
 std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& start,
-                                         IntegrateSoftMemory& memory, Workers& workers) {
+                                         IntegrateSoftMemory& memory, base::Workers& workers) {
   const auto block = [&](int begin, int end, int thread) {
     for (int i = begin; i < end; ++i) {
       const int mesh = memory.mesh_of_body[at(i)];

@@ -4,7 +4,7 @@
 namespace pneuma::sim {
 
 void move_particles(World& world, const NearBodies& near_bodies, MoveParticlesMemory& memory,
-                    Workers& workers) {
+                    base::Workers& workers) {
   if (near_bodies.soft_pairs.empty()) return;
   const auto block = [&](int begin, int end, int thread) {
     const double min_distance = min_particle_distance(world.settings.skin_thickness);

@@ -20,7 +20,7 @@ void prepare(const World& world, std::span<const Contact> contacts, ResolveConta
 
 /// No island touches what another does.
 void resolve_all(World& world, const MotionStart& start, std::span<Contact> contacts,
-                 ResolveContactsMemory& memory, Workers& workers) {
+                 ResolveContactsMemory& memory, base::Workers& workers) {
   const std::span<const int> alone = memory.islands.alone();
   workers.for_blocks(static_cast<int>(alone.size()), [&](int begin, int end, int) {
     for (int i = begin; i < end; ++i) {
@@ -66,7 +66,8 @@ void remember(World& world, std::span<const Contact> contacts, ResolveContactsMe
 
 /// In the order in which they were found, by one thread: each changes what the next one meets.
 std::optional<Divergence> resolve_as_printed(World& world, std::span<Contact> contacts,
-                                             ResolveContactsMemory& memory, Workers& workers) {
+                                             ResolveContactsMemory& memory,
+                                             base::Workers& workers) {
   memory.box_masses.clear();
   memory.box_positions.clear();
   for (const RigidBox& box : world.rigid) {
@@ -82,7 +83,7 @@ std::optional<Divergence> resolve_as_printed(World& world, std::span<Contact> co
 
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
                                            std::span<Contact> contacts,
-                                           ResolveContactsMemory& memory, Workers& workers) {
+                                           ResolveContactsMemory& memory, base::Workers& workers) {
   if (contacts.empty()) {
     world.warm_start_impulses.clear();
     return std::nullopt;

@@ -8,15 +8,15 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/workers.h"
 #include "sim/step/stage_memory.h"
-#include "sim/step/workers.h"
 
 namespace pneuma::sim {
 
 /// Integrates the forces on every soft body (sections 3.1, 3.2), and keeps what it started from.
 /// Returns the first body's failure.
 std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& start,
-                                         IntegrateSoftMemory& memory, Workers& workers);
+                                         IntegrateSoftMemory& memory, base::Workers& workers);
 
 /// The same for one body from another start than it has, by one of the threads.
 std::optional<Divergence> integrate_soft_again(World& world, int body, const SoftState& start,
@@ -35,15 +35,16 @@ std::optional<Divergence> integrate_rigid_again(World& world, int box, const Rig
 /// separates. Of these it sets those aside that overlap deeply, if `plan` has depenetrate, and
 /// gives the others their particles, if they are searched by them.
 void broad_phase(World& world, const Plan& plan, PairStart& start, NearBodies& near_bodies,
-                 BroadPhaseMemory& memory, Workers& workers);
+                 BroadPhaseMemory& memory, base::Workers& workers);
 
 /// Lets the particles of all near pairs walk (5.2.1).
 void move_particles(World& world, const NearBodies& near_bodies, MoveParticlesMemory& memory,
-                    Workers& workers);
+                    base::Workers& workers);
 
 /// Finds the contacts, kind by kind and body by body, so that their order is fixed (5.2).
 void find_contacts(const World& world, const Plan& plan, const NearBodies& near_bodies,
-                   std::vector<Contact>& contacts, FindContactsMemory& memory, Workers& workers);
+                   std::vector<Contact>& contacts, FindContactsMemory& memory,
+                   base::Workers& workers);
 
 /// Applies impulses and friction and separates bodies (5.3), island by island; the contacts get
 /// their impulses. Returns the first body that this left with a value that is not finite, with a
@@ -51,7 +52,7 @@ void find_contacts(const World& world, const Plan& plan, const NearBodies& near_
 /// that is not above zero.
 std::optional<Divergence> resolve_contacts(World& world, const MotionStart& start,
                                            std::span<Contact> contacts,
-                                           ResolveContactsMemory& memory, Workers& workers);
+                                           ResolveContactsMemory& memory, base::Workers& workers);
 
 /// Moves soft bodies apart that overlap deeply (sim/response/depenetrate_pairs.h). Returns the
 /// first body that this moved by what is not a finite number.

@@ -5,11 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "sim/base/workers.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/step/potential_step.h"
 #include "sim/step/stage_memory.h"
 #include "sim/step/swept_search.h"
-#include "sim/step/workers.h"
 
 namespace pneuma::sim {
 
@@ -18,7 +18,7 @@ struct StepWorkspace {
 
   StepperOptions options;
   Plan plan;
-  Workers workers;
+  base::Workers workers;
   bool has_given_motions;
   bool has_inputs;  // these, or gas that comes and goes
   bool has_pins;

@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
 
 #include "sim/inspect/checkpoint.h"
 #include "sim/inspect/inspect.h"
-#include "sim/step/workers.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 
@@ -136,26 +133,6 @@ TEST(Step, ProfilesTheStagesThatRun) {
   for (int i = 0; i < 100; ++i) ASSERT_FALSE(stepper.step(world));
   EXPECT_GT(stepper.stage_times()[static_cast<std::size_t>(Stage::integrate_soft)], 0.0);
   EXPECT_EQ(stepper.stage_times()[static_cast<std::size_t>(Stage::integrate_rigid)], 0.0);
-}
-
-TEST(Workers, EachPieceIsDoneOncePerCallInConsecutiveBlocks) {
-  for (const int threads : {1, 2, 5}) {
-    Workers workers(threads);
-    for (const int count : {0, 1, 2, 7, 1000}) {
-      for (int round = 0; round < 50; ++round) {
-        std::vector<int> done(static_cast<std::size_t>(count), 0);
-        std::vector<std::array<int, 2>> blocks(static_cast<std::size_t>(threads), {0, 0});
-        workers.for_blocks(count, [&](int begin, int end, int thread) {
-          for (int i = begin; i < end; ++i) ++done[at(i)];
-          blocks[at(thread)] = {begin, end};
-        });
-        EXPECT_EQ(std::ranges::count(done, 1), count);
-        std::erase_if(blocks, [](const auto& block) { return block[0] == block[1]; });
-        std::ranges::sort(blocks);
-        for (std::size_t b = 1; b < blocks.size(); ++b) EXPECT_EQ(blocks[b][0], blocks[b - 1][1]);
-      }
-    }
-  }
 }
 
 }  // namespace

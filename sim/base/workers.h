@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace pneuma::sim {
+namespace pneuma::base {
 
 class Workers {
  public:
@@ -48,4 +48,4 @@ class Workers {
   bool stopping_ = false;
 };
 
-}  // namespace pneuma::sim
+}  // namespace pneuma::base

@@ -1,6 +1,6 @@
-#include "sim/step/workers.h"
+#include "sim/base/workers.h"
 
-namespace pneuma::sim {
+namespace pneuma::base {
 namespace {
 
 /// Sleeping and being woken takes as long as many a piece of a step (tests/benchmarks/README.md):
@@ -58,4 +58,4 @@ void Workers::help(int thread) {
   }
 }
 
-}  // namespace pneuma::sim
+}  // namespace pneuma::base
