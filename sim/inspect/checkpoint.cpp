@@ -9,7 +9,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x34414d55454e50ULL;  // "PNEUMA4" as little-endian bytes
+constexpr std::uint64_t magic = 0x35414d55454e50ULL;  // "PNEUMA5" as little-endian bytes
 
 /// Appends plain values; the format is this machine's own byte order.
 class Writer {
@@ -79,6 +79,14 @@ void get(Reader& reader, VertexArray& values) {
   }
 }
 
+void put(Writer& writer, bool value) { writer.put(static_cast<std::uint8_t>(value)); }
+
+void get(Reader& reader, bool& value) {
+  std::uint8_t byte = 0;
+  reader.get(byte);
+  value = byte != 0;
+}
+
 void put(Writer& writer, const std::vector<int>& values) {
   writer.put(values.size());
   for (const int value : values) writer.put(value);
@@ -109,9 +117,7 @@ void get(Reader& reader, const World& world, ParticlePair& pair) {
   get_bodies(reader, world, pair);
   get(reader, pair.first_features, world.soft[at(pair.first)].mesh->topology.feature_count());
   get(reader, pair.second_features, world.soft[at(pair.second)].mesh->topology.feature_count());
-  std::uint8_t near = 0;
-  reader.get(near);
-  pair.near = near != 0;
+  get(reader, pair.near);
 }
 
 void get_rest(Reader& reader, World& world) {
@@ -156,7 +162,7 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(pair.second);
     put(writer, pair.first_features);
     put(writer, pair.second_features);
-    writer.put(static_cast<std::uint8_t>(pair.near));
+    put(writer, pair.near);
   }
   writer.put(world.warm_start_impulses.size());
   for (const WarmStartImpulse& impulse : world.warm_start_impulses) {
@@ -164,6 +170,7 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(impulse.second);
     writer.put(impulse.point);
     writer.put(impulse.impulse);
+    put(writer, impulse.is_of_start);
   }
   writer.put(world.depenetrating.size());
   for (const DepenetratingPair& pair : world.depenetrating) {
@@ -210,6 +217,7 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
     reader.get(impulse.second);
     reader.get(impulse.point);
     reader.get(impulse.impulse);
+    get(reader, impulse.is_of_start);
   }
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);

@@ -126,6 +126,7 @@ std::uint64_t state_hash(const World& world) {
     add_list(hash, {impulse.first, impulse.second});
     add(hash, impulse.point);
     add(hash, impulse.impulse);
+    if (impulse.is_of_start) hash.add(std::uint64_t{1});
   }
   for (const DepenetratingPair& pair : world.depenetrating)
     add_list(hash, {pair.first, pair.second});

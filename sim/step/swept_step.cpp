@@ -13,6 +13,7 @@
 #include "sim/step/shift_boxes.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
+#include "sim/step/swept_warm_start.h"
 
 namespace pneuma::sim {
 namespace {
@@ -23,9 +24,6 @@ constexpr int max_rounds = 4;
 constexpr double solver_tolerance = 1e-3;
 /// 1/s: boxes in contact close what they are further apart than they should be at this rate.
 constexpr double closing_rate = 0.3;
-
-/// Of the shortest side of a box: points nearer than this are one, a step later.
-constexpr double same_contact = 0.05;
 
 /// Of bodies that have candidates.
 void find_pairs(SweptMemory& memory) {
@@ -45,6 +43,7 @@ class SweptStep {
         m_(*workspace.swept),
         bodies_(m_.bodies),
         search_(world, workspace.motion_start, m_),
+        warm_start_(world, workspace.motion_start, m_),
         run_(workspace) {}
 
   /// Half steps, if the whole one fails.
@@ -109,6 +108,7 @@ class SweptStep {
         std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
           aim_at_distances();
+          if (round == 0) warm_start_.apply(Moment::start);
           solve_since(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);
         });
@@ -206,7 +206,7 @@ class SweptStep {
     m_.end_velocities.clear();
     bodies_.begin_at_end(world_);
     for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
-    warm_start();
+    warm_start_.apply(Moment::end);
     solve_since(0);
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
@@ -215,7 +215,7 @@ class SweptStep {
     }
     bodies_.add_changes(world_);
     m_.work -= take_back_excess_work(world_, m_);
-    remember();
+    warm_start_.remember();
     report();
     if (world_.settings.ground) meet_ground();
     if (w_.has_pins) hold_pins(world_, start().soft);
@@ -293,49 +293,6 @@ class SweptStep {
     }
   }
 
-  /// Gives the impulse that held a point of a box in the last step to the nearest contact of the
-  /// same boxes (ERRATA row 59).
-  void warm_start() {
-    const auto bodies = [](const SweptContact& contact) {
-      return in_order(contact.first.body, contact.second.body);
-    };
-    for (const WarmStartImpulse& resting : world_.warm_start_impulses) {
-      const RigidBox& first = world_.rigid[at(resting.first)];
-      const Vec3 point = first.position + first.orientation * resting.point;
-      double nearest = same_contact * first.size.minCoeff();
-      SweptImpulse* found = nullptr;
-      const auto pair = in_order(bodies_.of_box(resting.first), bodies_.of_box(resting.second));
-      for (auto i = std::ranges::lower_bound(m_.contacts, pair, {}, bodies);
-           i != m_.contacts.end() && bodies(*i) == pair; ++i) {
-        const double distance = (i->first.point - point).norm();
-        if (distance >= nearest) continue;
-        nearest = distance;
-        found = &m_.impulses[static_cast<std::size_t>(i - m_.contacts.begin())];
-      }
-      if (found) found->warm_start(resting.impulse);
-    }
-  }
-
-  /// Those of boxes that sleep are kept.
-  void remember() {
-    std::erase_if(world_.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
-      return !is_asleep(world_, bodies_.of_box(impulse.first)) &&
-             !(impulse.second >= 0 && is_asleep(world_, bodies_.of_box(impulse.second)));
-    });
-    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      const SweptContact& contact = m_.contacts[i];
-      const SweptImpulse& impulse = m_.impulses[i];
-      if (!search_.is_rigid(contact) || impulse.normal_impulse() == 0.0) continue;
-      const int first = bodies_.box(contact.first.body);
-      const int second =
-          contact.second.body == swept_ground ? -1 : bodies_.box(contact.second.body);
-      const RigidBox& box = world_.rigid[at(first)];
-      world_.warm_start_impulses.push_back(
-          {first, second, box.orientation.conjugate() * (contact.first.point - box.position),
-           impulse.given()});
-    }
-  }
-
   /// The contacts that pressed, for those who ask the stepper.
   void report() {
     const auto side = [&](const SurfacePoint& point) {
@@ -392,6 +349,7 @@ class SweptStep {
   SweptMemory& m_;
   SweptBodies& bodies_;
   SweptSearch search_;
+  SweptWarmStart warm_start_;
   StageRunner run_;
   double fraction_ = 1.0;  // of a whole step
   bool was_halved_ = false;

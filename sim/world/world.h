@@ -19,6 +19,7 @@ struct WarmStartImpulse {
   int second = 0;               // box, or -1 for the ground
   Vec3 point = Vec3::Zero();    // where it acts, in the first box's own axes, m from its centre
   Vec3 impulse = Vec3::Zero();  // on the first box, N s; the second gets the opposite
+  bool is_of_start = false;     // given at the start of the step (ERRATA row 67), not at its end
 };
 
 /// The collision particles of one pair of soft bodies: the features they rest on, first < second.
