@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-
 #include "sim/inspect/checkpoint.h"
 #include "sim/inspect/inspect.h"
 #include "tests/support/count_allocations.h"
