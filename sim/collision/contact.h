@@ -29,9 +29,11 @@ struct Contact {
   // between boxes, and boxes and the ground, which rest by touching.
   double speculative_margin = 0.0;
   // N s on `first` in the step, friction included; `second` gets the opposite. Known once the
-  // contact is resolved. Where contact is a potential it is the force at the end of the step times
-  // the step: not the whole story where an explicit integrator divides the step. What an implicit
-  // integrator keeps on the ground itself has none.
+  // contact is resolved; where a step is divided, a contact is listed with each part. Where contact
+  // is a potential it is the force at the end of the step times the step, which is what acts on
+  // bodies at rest; not what acted in an impact, where integrators weigh the forces of several
+  // moments and take restitution and friction from those of the start. What an implicit integrator
+  // keeps on the ground itself has none.
   Vec3 impulse = Vec3::Zero();
 };
 

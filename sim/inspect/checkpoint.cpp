@@ -3,13 +3,19 @@
 #include <cstring>
 #include <type_traits>
 
-#include "sim/inspect/inspect.h"
+#include "sim/base/hash.h"
 #include "sim/joints/gas_flow.h"
 
 namespace pneuma::sim {
 namespace {
 
 constexpr std::uint64_t magic = 0x35414d55454e50ULL;  // "PNEUMA5" as little-endian bytes
+
+std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
+  base::Hash hash;
+  hash.add({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return hash.value();
+}
 
 /// Appends plain values; the format is this machine's own byte order.
 class Writer {
@@ -23,7 +29,11 @@ class Writer {
   void put(const Vec3& vector) {
     for (const double value : vector) put(value);
   }
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
+  /// With a checksum of all.
+  std::vector<std::uint8_t> take() {
+    put(checksum(bytes_));
+    return std::move(bytes_);
+  }
 
  private:
   std::vector<std::uint8_t> bytes_;
@@ -31,7 +41,7 @@ class Writer {
 
 class Reader {
  public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes), all_(bytes) {}
 
   template <class T>
   void get(T& value) {
@@ -52,7 +62,9 @@ class Reader {
                             " than this scene");
     }
   }
-  void end() const {
+  /// The checksum of all before it, and nothing after it.
+  void end() {
+    expect(checksum(all_.first(all_.size() - bytes_.size())), "checksum");
     if (!bytes_.empty()) throw CheckpointError("the saved state is longer than this scene's");
   }
   /// A number of things to follow, each of at least one byte.
@@ -64,7 +76,8 @@ class Reader {
   }
 
  private:
-  std::span<const std::uint8_t> bytes_;
+  std::span<const std::uint8_t> bytes_;  // that are left
+  std::span<const std::uint8_t> all_;
 };
 
 void put(Writer& writer, const VertexArray& values) {
@@ -129,6 +142,22 @@ void get_rest(Reader& reader, World& world) {
   for (BodyRest& rest : world.rest) {
     reader.get(rest.quiet_steps);
     reader.get(rest.group);
+    if (rest.quiet_steps < 0 || rest.group < -1 || rest.group >= body_count(world)) {
+      throw CheckpointError("the saved state has bodies at rest with others that do not exist");
+    }
+  }
+}
+
+void get(Reader& reader, const World& world, WarmStartImpulse& impulse) {
+  reader.get(impulse.first);
+  reader.get(impulse.second);
+  reader.get(impulse.point);
+  reader.get(impulse.impulse);
+  get(reader, impulse.is_of_start);
+  const auto boxes = static_cast<int>(world.rigid.size());
+  if (impulse.first < 0 || impulse.first >= boxes || impulse.second < -1 ||
+      impulse.second >= boxes) {
+    throw CheckpointError("the saved state has impulses on boxes that do not exist");
   }
 }
 
@@ -182,7 +211,6 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(rest.quiet_steps);
     writer.put(rest.group);
   }
-  writer.put(state_hash(world));
   return writer.take();
 }
 
@@ -212,17 +240,10 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   loaded.particles.assign(reader.count(), {});
   for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
   loaded.warm_start_impulses.assign(reader.count(), {});
-  for (WarmStartImpulse& impulse : loaded.warm_start_impulses) {
-    reader.get(impulse.first);
-    reader.get(impulse.second);
-    reader.get(impulse.point);
-    reader.get(impulse.impulse);
-    get(reader, impulse.is_of_start);
-  }
+  for (WarmStartImpulse& impulse : loaded.warm_start_impulses) get(reader, loaded, impulse);
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
   get_rest(reader, loaded);
-  reader.expect(state_hash(loaded), "checksum");
   reader.end();
   world = std::move(loaded);
 }

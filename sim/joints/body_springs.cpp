@@ -9,9 +9,10 @@ namespace pneuma::sim {
 
 std::vector<std::vector<int>> joined_bodies(const World& world) {
   base::DisjointSets joined(world.soft.size());
-  for (const BodySpring& spring : world.springs) joined.join(spring.first.body, spring.second.body);
+  for (const BodySpring& spring : world.springs)
+    joined.unite(spring.first.body, spring.second.body);
   std::map<int, std::vector<int>> groups;  // by first body
-  for (int i = 0; i < soft_count(world); ++i) groups[joined.first(i)].push_back(i);
+  for (int i = 0; i < soft_count(world); ++i) groups[joined.find(i)].push_back(i);
   std::vector<std::vector<int>> result;
   for (auto& [first, bodies] : groups) result.push_back(std::move(bodies));
   return result;

@@ -12,15 +12,15 @@ CarriedBoxes::CarriedBoxes(const World& world)
 /// Nothing reaches through what stands still, sleeps or is moved.
 void CarriedBoxes::find(const World& world, std::span<const BodyPair> pairs) {
   std::ranges::fill(is_carried_, std::uint8_t{0});
-  near_.part();
+  near_.reset();
   for (const auto& [first, second] : pairs) {
     if (second < 0 || is_fixed(world, first) || is_fixed(world, second)) continue;
-    near_.join(first, second);
+    near_.unite(first, second);
   }
   std::ranges::fill(has_soft_, std::uint8_t{0});
-  for (int i = 0; i < soft_count(world); ++i) has_soft_[at(near_.first(i))] = 1;
+  for (int i = 0; i < soft_count(world); ++i) has_soft_[at(near_.find(i))] = 1;
   for (int i = soft_count(world); i < body_count(world); ++i) {
-    const bool is_carried = !is_fixed(world, i) && has_soft_[at(near_.first(i))] != 0;
+    const bool is_carried = !is_fixed(world, i) && has_soft_[at(near_.find(i))] != 0;
     is_carried_[at(i - soft_count(world))] = is_carried ? 1 : 0;
   }
 }

@@ -89,12 +89,12 @@ bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
 
 /// Nothing reaches through what stands still or is moved.
 void FallAsleep::find_islands(const World& world, std::span<const BodyPair> pairs) {
-  islands_.part();
+  islands_.reset();
   for (const BodyPair& pair : pairs) {
     if (pair.second < 0 || is_kinematic(world, pair.first) || is_kinematic(world, pair.second)) {
       continue;
     }
-    islands_.join(pair.first, pair.second);
+    islands_.unite(pair.first, pair.second);
   }
 }
 
@@ -104,7 +104,7 @@ void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contac
   const auto touch = [&](const ContactSide& side) {
     if (side.kind == SideKind::ground) return;
     const int body = side.kind == SideKind::soft ? side.body : soft_count(world) + side.body;
-    is_touched_[at(islands_.first(body))] = 1;
+    is_touched_[at(islands_.find(body))] = 1;
   };
   for (const Contact& contact : contacts) {
     touch(contact.first);
@@ -112,7 +112,7 @@ void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contac
   }
   const int enough = quiet_steps(world.settings);
   for (int i = 0; i < body_count(world); ++i) {
-    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(islands_.first(i))] = 1;
+    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(islands_.find(i))] = 1;
   }
 }
 
@@ -122,7 +122,7 @@ double FallAsleep::put_to_sleep(World& world, std::span<const BodyPair> pairs,
   find_who_stays_awake(world, contacts);
   double energy = 0.0;
   for (int i = 0; i < body_count(world); ++i) {
-    const int first = islands_.first(i);
+    const int first = islands_.find(i);
     if (is_asleep(world, i) || stays_awake_[at(first)] != 0 || is_touched_[at(first)] == 0) {
       continue;
     }

@@ -10,11 +10,8 @@ constexpr double min_shift = 0.02;
 /// Of the greatest shift: to this they are solved for.
 constexpr double shift_tolerance = 0.05;
 
-}  // namespace
-
-bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
-  memory.bodies.forget_shifts();
-  if (world.rigid.empty()) return false;
+/// Solves for the shifts as changes of the boxes. Whether any is worth one.
+bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   search.find_contacts_of_boxes();
   double greatest = 0.0;
   for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
@@ -31,12 +28,23 @@ bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, do
     memory.impulses[i].aim(std::min(0.0, contact.wanted - contact.distance), Vec3::Zero());
   }
   memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
-  memory.bodies.take_as_shifts();
-  memory.bodies.shift_boxes(world);
-  memory.work += memory.bodies.work_of_shifts(world);
+  return true;
+}
+
+}  // namespace
+
+bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
+  memory.bodies.forget_shifts();
+  if (world.rigid.empty()) return false;
+  const bool shifts = find_shifts(memory, search, fraction);
+  if (shifts) {
+    memory.bodies.take_as_shifts();
+    memory.bodies.shift_boxes(world);
+    memory.work += memory.bodies.work_of_shifts(world);
+  }
   memory.contacts.clear();  // they are none of the step's motion
   memory.impulses.clear();
-  return true;
+  return shifts;
 }
 
 }  // namespace pneuma::sim

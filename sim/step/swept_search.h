@@ -68,6 +68,7 @@ struct SweptMemory {
   std::vector<double> work_of_start;  // J, of each of those
   std::vector<Vec3>
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
+  std::vector<Vec3> given_at_start;  // N s, per contact of the end: of the same features
   ReturnedEnergyMemory returned_energy;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   CarriedBoxes carried_boxes;

@@ -29,18 +29,18 @@ int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impu
 }
 
 void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses) {
-  sets_.part();
+  sets_.reset();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const SweptContact& contact = contacts[i];
     if (!impulses[i].first().moves() || !impulses[i].second().moves()) continue;
-    sets_.join(contact.first.body, contact.second.body);
+    sets_.unite(contact.first.body, contact.second.body);
   }
   islands_.assign(sets_.size(), -1);
   begin_.assign(1, 0);
   has_boxes_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const SweptContact& contact = contacts[i];
-    int& island = islands_[at(sets_.first(moved_body(contact, impulses[i])))];
+    int& island = islands_[at(sets_.find(moved_body(contact, impulses[i])))];
     if (island < 0) {
       island = static_cast<int>(begin_.size()) - 1;
       begin_.push_back(0);

@@ -34,7 +34,7 @@ class SweptSolver {
   }
   /// -1: in none. `body` has been in a contact of the last call, or in none at all. What nothing
   /// moves is in none.
-  int island_of(int body) { return islands_[at(sets_.first(body))]; }
+  int island_of(int body) { return islands_[at(sets_.find(body))]; }
   /// Of the body or bodies that the contact's impulse moves.
   int island_of(const SweptContact& contact, const SweptImpulse& impulse);
 

@@ -25,8 +25,8 @@ constexpr double solver_tolerance = 1e-3;
 /// 1/s: boxes in contact close what they are further apart than they should be at this rate.
 constexpr double closing_rate = 0.3;
 
-/// Of bodies that have candidates.
-void find_pairs(SweptMemory& memory) {
+/// Those that have candidates.
+void list_paired_bodies(SweptMemory& memory) {
   memory.paired.clear();
   for (const SweptCandidate& candidate : memory.candidates) {
     if (memory.paired.empty() || memory.paired.back() != candidate.bodies) {
@@ -108,7 +108,7 @@ class SweptStep {
         std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
           aim_at_distances();
-          if (round == 0) warm_start_.apply(Moment::start);
+          if (round == 0) warm_start_.apply(Moment::start, fraction_);
           solve_since(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);
         });
@@ -133,7 +133,7 @@ class SweptStep {
   /// Soft bodies press within the step: what they carry must weigh on them within it too.
   bool let_carried_boxes_fall() {
     if (world_.soft.empty() || world_.rigid.empty()) return false;
-    find_pairs(m_);
+    list_paired_bodies(m_);
     m_.carried_boxes.find(world_, m_.paired);
     return bodies_.let_carried_fall(
         world_, m_.carried_boxes,
@@ -204,9 +204,10 @@ class SweptStep {
     m_.contacts.clear();
     m_.impulses.clear();
     m_.end_velocities.clear();
+    m_.given_at_start.clear();
     bodies_.begin_at_end(world_);
     for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
-    warm_start_.apply(Moment::end);
+    warm_start_.apply(Moment::end, fraction_);
     solve_since(0);
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
@@ -215,7 +216,7 @@ class SweptStep {
     }
     bodies_.add_changes(world_);
     m_.work -= take_back_excess_work(world_, m_);
-    warm_start_.remember();
+    warm_start_.remember(fraction_);
     report();
     if (world_.settings.ground) meet_ground();
     if (w_.has_pins) hold_pins(world_, start().soft);
@@ -245,6 +246,7 @@ class SweptStep {
     double drift = 0.0;     // m/s, of that
     double normal = 0.0;    // N s, of all
     Vec3 friction = Vec3::Zero();
+    Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
   };
 
   Given given_at_start(const SweptCandidate& candidate) const {
@@ -256,6 +258,7 @@ class SweptStep {
       given.drift = m_.first_contacts[at(i)].drift;
       given.normal += m_.first_impulses[at(i)].normal_impulse();
       given.friction += m_.first_impulses[at(i)].friction_impulse();
+      given.impulse += m_.first_impulses[at(i)].given();
     }
     return given;
   }
@@ -278,6 +281,7 @@ class SweptStep {
     m_.contacts.push_back(*contact);
     m_.impulses.push_back(impulse);
     m_.end_velocities.push_back(velocity);
+    m_.given_at_start.push_back(before.impulse);
   }
 
   void set_parting(const Given& before, double restitution, SweptContact& contact) const {
@@ -304,12 +308,13 @@ class SweptStep {
     };
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
-      if (m_.impulses[i].normal_impulse() == 0.0) continue;
+      const Vec3 impulse = m_.given_at_start[i] + m_.impulses[i].given();
+      if (impulse.isZero(0.0)) continue;
       w_.contacts.push_back({.first = side(contact.first),
                              .second = side(contact.second),
                              .point = contact.first.point,
                              .normal = contact.normal,
-                             .impulse = to_vec3(m_.impulses[i].impulse())});
+                             .impulse = impulse});
     }
   }
 
@@ -364,7 +369,7 @@ bool wake_what_was_touched(World& world, SweptMemory& memory) {
 void put_to_sleep(World& world, const MotionStart& start, StepWorkspace& workspace) {
   SweptMemory& m = *workspace.swept;
   if (!m.fall_asleep.count_quiet_steps(world, start)) return;
-  find_pairs(m);
+  list_paired_bodies(m);
   m.work -= m.fall_asleep.put_to_sleep(world, m.paired, workspace.contacts);
 }
 

@@ -22,19 +22,19 @@ RigidState SweptWarmStart::state(int box, Moment moment) const {
   return {now.position, now.orientation, now.velocity, now.angular_velocity};
 }
 
-void SweptWarmStart::apply(Moment moment) {
-  for (const WarmStartImpulse& resting : world_.warm_start_impulses) {
-    if (resting.is_of_start != (moment == Moment::start)) continue;
-    if (SweptImpulse* impulse = find(resting, moment)) impulse->warm_start(resting.impulse);
+void SweptWarmStart::apply(Moment moment, double fraction) {
+  for (const WarmStartImpulse& kept : world_.warm_start_impulses) {
+    if (kept.is_of_start != (moment == Moment::start)) continue;
+    if (SweptImpulse* impulse = find(kept, moment)) impulse->warm_start(fraction * kept.impulse);
   }
 }
 
-SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& resting, Moment moment) {
-  const RigidState box = state(resting.first, moment);
-  const Vec3 point = box.position + box.orientation * resting.point;
-  double nearest = same_contact * world_.rigid[at(resting.first)].size.minCoeff();
+SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& kept, Moment moment) {
+  const RigidState box = state(kept.first, moment);
+  const Vec3 point = box.position + box.orientation * kept.point;
+  double nearest = same_contact * world_.rigid[at(kept.first)].size.minCoeff();
   SweptImpulse* found = nullptr;
-  const auto pair = in_order(m_.bodies.of_box(resting.first), m_.bodies.of_box(resting.second));
+  const auto pair = in_order(m_.bodies.of_box(kept.first), m_.bodies.of_box(kept.second));
   for (auto i = std::ranges::lower_bound(m_.contacts, pair, {}, bodies_of);
        i != m_.contacts.end() && bodies_of(*i) == pair; ++i) {
     const double distance = (i->first.point - point).norm();
@@ -45,30 +45,34 @@ SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& resting, Moment momen
   return found;
 }
 
-void SweptWarmStart::remember() {
+void SweptWarmStart::remember(double fraction) {
   std::erase_if(world_.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
     return !is_asleep(world_, m_.bodies.of_box(impulse.first)) &&
            !(impulse.second >= 0 && is_asleep(world_, m_.bodies.of_box(impulse.second)));
   });
-  remember(m_.first_contacts, m_.first_impulses, Moment::start);
-  remember(m_.contacts, m_.impulses, Moment::end);
+  remember(m_.first_contacts, m_.first_impulses, Moment::start, fraction);
+  remember(m_.contacts, m_.impulses, Moment::end, fraction);
 }
 
 void SweptWarmStart::remember(std::span<const SweptContact> contacts,
-                              std::span<const SweptImpulse> impulses, Moment moment) {
+                              std::span<const SweptImpulse> impulses, Moment moment,
+                              double fraction) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto& [first, second] = std::tie(contacts[i].first, contacts[i].second);
+    const SurfacePoint& first = contacts[i].first;
+    const SurfacePoint& second = contacts[i].second;
     const bool on_ground = second.body == swept_ground;
     if (!is_box(first.body) || !(on_ground || is_box(second.body))) continue;
     if (impulses[i].normal_impulse() == 0.0) continue;
     // What stopped a box on its way is not needed again.
     if (moment == Moment::start && !contacts[i].is_near) continue;
     const int box = m_.bodies.box(first.body);
-    const RigidState lies = state(box, moment);
+    const RigidState pose = state(box, moment);
     world_.warm_start_impulses.push_back(
-        {box, on_ground ? -1 : m_.bodies.box(second.body),
-         lies.orientation.conjugate() * (first.point - lies.position), impulses[i].given(),
-         moment == Moment::start});
+        {.first = box,
+         .second = on_ground ? -1 : m_.bodies.box(second.body),
+         .point = pose.orientation.conjugate() * (first.point - pose.position),
+         .impulse = impulses[i].given() / fraction,
+         .is_of_start = moment == Moment::start});
   }
 }
 

@@ -15,17 +15,18 @@ class SweptWarmStart {
       : world_(world), start_(start), m_(memory) {}
 
   /// Gives each impulse that held a point of a box at this moment of the last step to the nearest
-  /// contact of the same boxes. The contacts are in the order of their bodies.
-  void apply(Moment moment);
+  /// contact of the same boxes: of a part of a step this `fraction`. The contacts are in the order
+  /// of their bodies.
+  void apply(Moment moment, double fraction);
   /// Keeps what holds boxes at both moments, once the end is solved for, for the next step; and of
   /// boxes that sleep what held them when they fell asleep.
-  void remember();
+  void remember(double fraction);
 
  private:
   /// The impulse of the nearest contact, if there is one.
-  SweptImpulse* find(const WarmStartImpulse& resting, Moment moment);
+  SweptImpulse* find(const WarmStartImpulse& kept, Moment moment);
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
-                Moment moment);
+                Moment moment, double fraction);
   bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
   RigidState state(int box, Moment moment) const;
 

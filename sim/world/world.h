@@ -12,8 +12,9 @@
 
 namespace pneuma::sim {
 
-/// The impulse that held one point of a box in the last step, from which the next step's solver
-/// starts. A stack of boxes stands only with a warm start, so these are state (ERRATA row 59).
+/// The impulse that held one point of a box in the last step, or would in a whole one if the last
+/// was a part, from which the next step's solver starts. A stack of boxes stands only with a warm
+/// start, so these are state (ERRATA row 59).
 struct WarmStartImpulse {
   int first = 0;                // box
   int second = 0;               // box, or -1 for the ground
@@ -54,8 +55,8 @@ struct World {
   std::vector<Valve> valves;            // between soft bodies
   std::vector<BodySpring> springs;      // likewise
   std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
-  std::vector<WarmStartImpulse>
-      warm_start_impulses;  // of the last step, those of each pair one after the other
+  // Of the last step. Without swept contacts those of each pair of boxes come one after the other.
+  std::vector<WarmStartImpulse> warm_start_impulses;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
   std::int64_t steps = 0;      // done so far; time is steps / steps_per_second
@@ -67,8 +68,8 @@ inline int body_count(const World& world) {
   return soft_count(world) + static_cast<int>(world.rigid.size());
 }
 
-/// Whether nothing changes how a body moves. How such bodies
-/// lie to each other and to the ground is no matter of contacts.
+/// Whether nothing changes how a body moves. How such bodies lie to each other and to the ground is
+/// no matter of contacts.
 inline bool is_kinematic(const World& world, int body) {
   const int box = body - soft_count(world);
   if (box >= 0) return world.rigid[at(box)].is_kinematic;

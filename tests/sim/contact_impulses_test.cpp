@@ -1,5 +1,5 @@
 // What contacts are reported to have given, against the weight that they carry and the momentum
-// that bodies have got.
+// that bodies get.
 #include <gtest/gtest.h>
 
 #include "sim/world/paper_method.h"
@@ -74,6 +74,36 @@ TEST(ContactImpulses, OfASoftBodyAtRestAreItsWeightTimesTheStep) {
     const double mass = body.material.vertex_mass * static_cast<double>(body.positions.size());
     const double expected = mass * 9.81 * time_step(world.settings);
     EXPECT_NEAR(sum, expected, 0.03 * expected) << form.name;
+  }
+}
+
+/// Without gravity and friction of the air a box that meets a ball gets nothing but the impulses,
+/// step by step, along whatever line and however often the step is divided.
+TEST(ContactImpulses, AreTheMomentumThatABoxGets) {
+  for (const Form& form : {Form{"rk4", ContactMethod::swept, Integrator::rk4},
+                           Form{"implicit_euler", ContactMethod::swept, Integrator::implicit_euler},
+                           Form{"impulses", ContactMethod::impulses, Integrator::rk4}}) {
+    World world = world_of(form);
+    world.settings.gravity.setZero();
+    world.settings.ground.reset();
+    world.soft.push_back(make_body(make_sphere(3.0, 8, 8)));
+    world.rigid.push_back(make_rigid({2.0, 1.0, 1.5}, {5.0, 0.7, 0.4}, 5.0));
+    world.rigid[0].rho_g = 0.0;
+    world.rigid[0].velocity = {-4.0, 0.0, 0.0};
+    Stepper stepper(world);
+    double given = 0.0;
+    for (int i = 0; i < 120; ++i) {
+      const Vec3 before = world.rigid[0].velocity;
+      ASSERT_FALSE(stepper.step(world)) << form.name;
+      Vec3 on_box = Vec3::Zero();
+      for (const Contact& contact : stepper.contacts()) {
+        on_box += contact.first.kind == SideKind::rigid ? contact.impulse : -contact.impulse;
+      }
+      const Vec3 got = 5.0 * (world.rigid[0].velocity - before);
+      EXPECT_LT((on_box - got).norm(), 1e-10) << form.name << ", step " << i;
+      given += got.norm();
+    }
+    EXPECT_GT(given, 20.0) << form.name << " stops the box: 5 kg at 4 m/s";
   }
 }
 

@@ -123,6 +123,8 @@ TEST(Checkpoint, WithoutParticlesInAPairIsRefused) {
 TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   World world = mixed_world();
   world.particles.clear();
+  world.rest = {{3, -1}, {40, 1}};
+  world.warm_start_impulses.push_back({0, -1, {0.5, 1.0, -1.5}, {0.1, 0.0, 0.8}, true});
   const auto bytes = save_state(world);
   World other = world;
   other.steps = 7;
@@ -130,7 +132,7 @@ TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   for (std::size_t cut = 0; cut < bytes.size(); cut += 37) {
     EXPECT_THROW(load_state(std::span(bytes).first(cut), other), CheckpointError);
   }
-  for (std::size_t at = 0; at < bytes.size(); at += 13) {
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
     auto damaged = bytes;
     damaged[at] ^= 0x10;
     EXPECT_THROW(load_state(damaged, other), CheckpointError) << "byte " << at;
@@ -139,6 +141,25 @@ TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   smaller.rigid.clear();
   EXPECT_THROW(load_state(bytes, smaller), CheckpointError);
   EXPECT_EQ(state_hash(other), before);
+}
+
+TEST(Checkpoint, BodiesThatDoNotExistAreRefused) {
+  World world = mixed_world();  // of one soft body and one box
+  world.particles.clear();
+  const auto is_refused = [&](const auto& change) {
+    World changed = world;
+    change(changed);
+    World loaded = world;
+    EXPECT_THROW(load_state(save_state(changed), loaded), CheckpointError);
+  };
+  for (const auto& [first, second] : {std::pair(1, -1), {-1, -1}, {0, 1}, {0, -2}}) {
+    is_refused([&](World& changed) {
+      changed.warm_start_impulses.push_back({.first = first, .second = second});
+    });
+  }
+  for (const BodyRest& rest : {BodyRest{-1, -1}, BodyRest{0, 2}, BodyRest{0, -2}}) {
+    is_refused([&](World& changed) { changed.rest = {rest, {}}; });
+  }
 }
 
 }  // namespace
