@@ -126,11 +126,13 @@ class DividedSteps {
   int most_ = 0;
 };
 
-/// Says that bodies pass through each other: at the first frame that shows it, and in the end.
+/// Says that bodies pass through each other, at the first frame that shows it and in the end; and
+/// in the end that one passes through itself.
 class CrossedFrames {
  public:
   void add(const Simulation& simulation, const FrameState& state, Progress& progress) {
     ++frames_;
+    if (!state.crosses_itself.empty() && of_themselves_++ == 0) itself_ = state.crosses_itself;
     if (state.bodies_that_cross.empty()) return;
     if (count_++ > 0) return;
     const bool is_swept = simulation.world().settings.contact != sim::ContactMethod::impulses;
@@ -143,13 +145,23 @@ class CrossedFrames {
   std::int64_t count() const { return count_; }
 
   void summarise(Progress& progress) const {
-    if (count_ == 0) return;
-    progress.say(fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
+    if (count_ > 0) {
+      progress.say(
+          fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
+    }
+    if (of_themselves_ > 0) {
+      progress.say(
+          fmt::format("{} passes through itself in {} of {} frames; simulation.contact = "
+                      "\"potential\" and bending keep a body from that",
+                      itself_, of_themselves_, frames_));
+    }
   }
 
  private:
   std::int64_t frames_ = 0;
   std::int64_t count_ = 0;
+  std::int64_t of_themselves_ = 0;
+  std::string itself_;  // the first body that did
 };
 
 }  // namespace

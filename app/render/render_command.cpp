@@ -43,6 +43,7 @@ RenderRequest read(const RenderArguments& typed) {
   if (!typed.sheet.empty()) request.sheet = parse_grid("--sheet", typed.sheet, greatest_sheet);
   if (typed.overwrite) request.existing = ExistingRun::overwrite;
   if (typed.resume) request.existing = ExistingRun::resume;
+  if (typed.on_divergence == "stop") request.on_divergence = OnDivergence::stop;
   if (typed.on_divergence == "substep") request.on_divergence = OnDivergence::substep;
   // What the scene can say itself becomes part of the scene, and so of the run's record.
   if (!typed.size.empty()) append_size(typed.size, request.overrides);
@@ -72,7 +73,8 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       ->type_name("WxH");
   command
       ->add_option("--show", typed->show,
-                   "What else to draw: wireframe, particles, contacts, impulses (arrows; "
+                   "What else to draw: wireframe, particles, contacts, impulses (arrows; none of "
+                   "bodies that sleep; "
                    "impulses=0.5: of 0.5 N s a metre), ghost (rest shapes), labels, "
                    "scale; one of strain, velocity, pressure as colours, which end at the "
                    "picture's largest value or, as velocity=5, at a number")
@@ -90,7 +92,8 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
       ->add_option(
           "--on-divergence", typed->on_divergence,
           fmt::format("What to do about a step that diverges: stop, or substep, which does "
-                      "it again in up to {} parts [stop]",
+                      "it again in up to {} parts [substep, where the step is short enough for "
+                      "small motions]",
                       greatest_step_parts))
       ->check(CLI::IsMember({"stop", "substep"}));
   command->add_option("--sheet", typed->sheet, "Also a contact sheet, as 4x3")->type_name("CxR");

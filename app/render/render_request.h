@@ -26,7 +26,7 @@ struct RenderRequest {
   FrameRange frames;
   Pictures pictures;
   ExistingRun existing = ExistingRun::refuse;
-  OnDivergence on_divergence = OnDivergence::stop;
+  OnDivergence on_divergence = OnDivergence::automatic;
   std::optional<GridSize> sheet;
   std::string video;  // file; empty: none
   int turntable = 0;  // pictures of the last frame alone, from all around; 0: those of the run

@@ -57,7 +57,7 @@ void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const
   std::vector<GasAdvice> gas;
   if (scene.figure.empty())
     gas = gas_advices(world, quick_advice);  // the paper's are meant to swell
-  for (const std::string& warning : scene_warnings(scene, step_advices(world), gas)) {
+  for (const std::string& warning : scene_warnings(scene, world, step_advices(world), gas)) {
     progress.say(warning);
   }
   for (const GasAdvice& advice : gas) {

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "app/world/build_world.h"
 #include "app/world/step_advice.h"
 
 namespace pneuma::app {
@@ -55,7 +57,7 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
 
 Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
                        OnDivergence on_divergence)
-    : scene_name_(scene.name),
+    : scene_(scene),
       threads_(threads),
       on_divergence_(on_divergence),
       steps_per_frame_(scenes::steps_per_frame(scene)),
@@ -74,15 +76,24 @@ void Simulation::advance_frame() {
 void Simulation::step() {
   const auto divergence = stepper_.step(world_);
   if (!divergence) return;
-  if (on_divergence_ == OnDivergence::substep) {
+  const bool may_divide = divides();
+  if (may_divide) {
     for (int parts = 2; parts <= greatest_step_parts; parts *= 2) {
       if (step_in_parts(parts)) return;
     }
   }
-  const DivergenceError error = divergence_error(scene_name_, *divergence, world_);
-  if (on_divergence_ == OnDivergence::stop) throw error;
+  const DivergenceError error = divergence_error(scene_.name, *divergence, world_);
+  if (!may_divide) throw error;
   throw DivergenceError(
       fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));
+}
+
+/// In parts a step that is too long for small motions of the start would go on without end, and
+/// what is drawn between its divergences would be no motion. By the start, so that a run that is
+/// continued does the same.
+bool Simulation::divides() const {
+  if (on_divergence_ != OnDivergence::automatic) return on_divergence_ == OnDivergence::substep;
+  return std::ranges::none_of(step_advices(build_world(scene_)), &StepAdvice::too_long);
 }
 
 /// Whether the next step is valid when it is done in so many. Depends on the world alone, so that a
@@ -107,7 +118,7 @@ void Simulation::require_near(const std::string& body, double distance) const {
   throw DivergenceError(
       fmt::format("{}: step {} (t = {:.4f} s): body {}: it is {:.3g} m away, too "
                   "far to be seen",
-                  scene_name_, world_.steps, sim::time(world_), body, distance));
+                  scene_.name, world_.steps, sim::time(world_), body, distance));
 }
 
 }  // namespace pneuma::app

@@ -19,6 +19,7 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
 
 /// What to do about a step that diverges.
 enum class OnDivergence {
+  automatic,  // substep, where the step is short enough for small motions; stop, where it is not
   stop,
   substep,  // do it again in 2, 4, ... parts, up to greatest_step_parts
 };
@@ -27,7 +28,7 @@ inline constexpr int greatest_step_parts = 1024;
 class Simulation {
  public:
   Simulation(const scenes::Scene& scene, sim::World world, int threads,
-             OnDivergence on_divergence = OnDivergence::stop);
+             OnDivergence on_divergence = OnDivergence::automatic);
 
   /// The steps from one picture to the next. Throws DivergenceError, also for a body that is beyond
   /// all reason away; the world is then in its last valid state.
@@ -42,10 +43,11 @@ class Simulation {
 
  private:
   void step();
+  bool divides() const;
   bool step_in_parts(int parts);
   void require_near(const std::string& body, double distance) const;
 
-  std::string scene_name_;
+  scenes::Scene scene_;
   int threads_;
   OnDivergence on_divergence_;
   int steps_per_frame_;

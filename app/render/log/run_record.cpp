@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/host/command_line.h"
 #include "app/host/version.h"
 #include "app/record/contact_tally.h"
@@ -62,7 +64,9 @@ Json identity_json(const RunIdentity& run) {
                    {"build", fmt::format("pneuma {} {} {} {} {}", built.program, built.commit,
                                          built.compiler, built.build_type, built.flags)},
                    {"gl", run.gl}};
-  if (run.on_divergence == OnDivergence::substep) identity["on_divergence"] = "substep";
+  if (run.on_divergence != OnDivergence::automatic) {
+    identity["on_divergence"] = run.on_divergence == OnDivergence::stop ? "stop" : "substep";
+  }
   for (const std::uint64_t model : model_fingerprints(run.scene, run.start)) {
     identity["models"].push_back(hex(model));
   }
@@ -157,8 +161,11 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"crossings", crossings_json(crossings)}};
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
   const std::vector<sim::CrossingPair> deep = crossings_beyond_touch(world, crossings);
+  const auto of_itself = [](const sim::CrossingPair& pair) { return pair.first == pair.second; };
+  const auto own = std::ranges::find_if(crossings.pairs, of_itself);
   return {std::move(line), std::move(times),
-          deep.empty() ? std::string() : two_bodies(world, deep[0].first, deep[0].second)};
+          deep.empty() ? std::string() : two_bodies(world, deep[0].first, deep[0].second),
+          own == crossings.pairs.end() ? std::string() : sim::body_name(world, own->first)};
 }
 
 Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {

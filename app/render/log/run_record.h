@@ -38,7 +38,7 @@ struct RunIdentity {
   const sim::World& start;  // the scene's world, in which its models are
   Frames frames;
   Pictures pictures;
-  OnDivergence on_divergence = OnDivergence::stop;
+  OnDivergence on_divergence = OnDivergence::automatic;
   std::string gl;  // what draws
 };
 
@@ -69,6 +69,7 @@ struct FrameState {
   Json line;
   Json stage_seconds;
   std::string bodies_that_cross;  // the first two, "torus and cube.3"; beyond a touch; empty: none
+  std::string crosses_itself;     // the first body that does; empty: none
 };
 
 /// Makes a line per frame; with the parts of the steps that were done in parts, if any.

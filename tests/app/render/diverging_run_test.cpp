@@ -102,16 +102,16 @@ TEST_F(RenderTest, ADivergedRunGoesOnWithOtherStepsOnly) {
 TEST_F(RenderTest, AStepThatDivergesCanBeDoneInParts) {
   // 3.3 m in a step, and the ball is 2 m across: the ground presses it flat.
   const std::string thrown = "--set body.velocity='[0,0,-200]' ";
-  const ProgramResult stopped = render(thrown);
+  const ProgramResult stopped = render(thrown + "--on-divergence stop");
   EXPECT_EQ(stopped.exit_code, 5);
   expect_words(stopped, {"resolve_contacts: body ball: its contacts pressed it flat"});
-  const ProgramResult result = render(thrown + "--overwrite --on-divergence substep");
+  const ProgramResult result = render(thrown + "--overwrite");
   ASSERT_EQ(result.exit_code, 0) << result.output;
   expect_words(result, {"a step before t = 0.0333 s diverged; it was done again in ",
                         "1 step diverged and was done in parts"});
   EXPECT_EQ(record()["frames"][1].count("step_parts"), 1U);
   EXPECT_EQ(record()["frames"][2].count("step_parts"), 0U);
-  EXPECT_EQ(record()["run"]["on_divergence"], "substep");
+  EXPECT_EQ(record()["run"].count("on_divergence"), 0U);
 }
 
 TEST_F(RenderTest, StepsAreDoneInSoManyPartsAndNoMore) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/world/build_world.h"
+#include "scenes/loader/load_scene.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::app {
@@ -28,6 +30,27 @@ TEST(DivergenceError, NamesAStableStepUnlessShorterOnesHaveFailed) {
       EXPECT_EQ(text.find("Use a step of ") == std::string::npos, halved) << text;
     }
   }
+}
+
+/// Thrown at the ground so hard that no whole step holds it.
+scenes::Scene thrown_scene(double k) {
+  return scenes::parse_scene(
+      "duration = 0.1\n[[body]]\nradius = 1\nposition = [0, 0, 2]\nvelocity = [0, 0, -200]\nk = " +
+          std::to_string(k) + "\nk_max = 1e9\n",
+      "thrown.toml");
+}
+
+void advance(const scenes::Scene& scene, OnDivergence on_divergence) {
+  Simulation simulation(scene, build_world(scene), 1, on_divergence);
+  simulation.advance_frame();
+}
+
+TEST(OnDivergence, DividesStepsThatAreShortEnoughForSmallMotions) {
+  const scenes::Scene soft = thrown_scene(50.0), stiff = thrown_scene(1e6);
+  EXPECT_NO_THROW(advance(soft, OnDivergence::automatic));
+  EXPECT_NO_THROW(advance(soft, OnDivergence::substep));
+  EXPECT_THROW(advance(soft, OnDivergence::stop), DivergenceError);
+  EXPECT_THROW(advance(stiff, OnDivergence::automatic), DivergenceError);
 }
 
 }  // namespace
