@@ -6,6 +6,7 @@
 
 #include "app/picture/body_colours.h"
 #include "app/picture/colour_field.h"
+#include "app/picture/faceted.h"
 #include "app/picture/ghost.h"
 #include "app/picture/impulse_arrows.h"
 #include "app/picture/overlay.h"
@@ -112,7 +113,7 @@ void add_overlays(const sim::World& world, std::span<const sim::Contact> contact
   if (show.impulses) {
     const double scale = show.arrow_scale.value_or(arrow_scale(contacts, frame.camera));
     add_impulses(contacts, scale, frame);
-    if (frame.caption) frame.caption->text += arrow_legend(scale);
+    if (frame.caption) frame.caption->text += arrow_legend(scale, world.settings.steps_per_second);
   }
   if (show.labels) add_labels(world, frame);
   frame.scale_bar = show.scale;
@@ -137,10 +138,13 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start,
     const auto roughness = static_cast<float>(body.roughness);
     if (scenes::is_box(body)) {
       const ShapePointer shape = rigid_shape(start.rigid.at(rigid_looks_.size()), body);
-      rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness});
+      rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness, true});
     } else {
-      const ShapePointer shape = soft_shape(*start.soft.at(soft_looks_.size()).mesh, body);
-      soft_looks_.insert(soft_looks_.end(), copies, {shape, roughness});
+      const sim::SoftMesh& mesh = *start.soft.at(soft_looks_.size()).mesh;
+      const bool means_faces =
+          body.shape == scenes::Shape::box || body.shape == scenes::Shape::model;
+      const bool is_flat = !rounded_ || (means_faces && is_faceted(mesh));
+      soft_looks_.insert(soft_looks_.end(), copies, {soft_shape(mesh, body), roughness, is_flat});
     }
   }
 }
@@ -153,7 +157,7 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
     frame.meshes.back().roughness = soft_looks_[i].roughness;
-    if (!rounded_) frame.meshes.back().normals.clear();  // each triangle has its own
+    if (soft_looks_[i].is_flat) frame.meshes.back().normals.clear();
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_looks_[i].shape));

@@ -29,43 +29,42 @@ float picture_height(const render::Camera& camera) {
   return 2.0f * std::tan(half) * (camera.eye - camera.target).norm();
 }
 
-void add_arrow(const Vec3f& foot, const Vec3f& way, render::Frame& frame) {
-  const Vec3f tip = foot + way;
+void add_arrow(const Vec3f& foot, const Vec3f& arrow, render::Frame& frame) {
+  const Vec3f tip = foot + arrow;
   const auto add_line = [&](const Vec3f& from) {
     frame.lines.push_back({from, tip, arrow_colour, shaft_width, true});
   };
   add_line(foot);
-  const Vec3f across = way.cross(frame.camera.eye - tip);
+  const Vec3f across = arrow.cross(frame.camera.eye - tip);
   const float size = across.norm();
   if (size == 0.0f) return;
-  const float length = way.norm();
+  const float length = arrow.norm();
   const float head =
       std::min(head_of_arrow * length, head_of_picture * picture_height(frame.camera));
-  const Vec3f back = tip - head / length * way;
+  const Vec3f back = tip - head / length * arrow;
   for (const float side : {-0.6f, 0.6f}) add_line(back + side * head / size * across);
 }
 
 }  // namespace
 
 double arrow_scale(std::span<const sim::Contact> contacts, const render::Camera& camera) {
-  double greatest = 0.0;
-  for (const sim::Contact& contact : contacts) {
-    greatest = std::max(greatest, contact.impulse.norm());
-  }
-  return round_end(greatest / static_cast<double>(most_of_picture * picture_height(camera)));
+  double max = 0.0;
+  for (const sim::Contact& contact : contacts) max = std::max(max, contact.impulse.norm());
+  return round_end(max / static_cast<double>(most_of_picture * picture_height(camera)));
 }
 
 void add_impulses(std::span<const sim::Contact> contacts, double scale, render::Frame& frame) {
   for (const sim::Contact& contact : contacts) {
     const Vec3f foot = contact.point.cast<float>();
-    const Vec3f way = (contact.impulse / scale).cast<float>();
+    const Vec3f arrow = (contact.impulse / scale).cast<float>();
     frame.points.push_back({foot, contact_colour(contact), foot_diameter});
-    if (way.norm() > 0.0f) add_arrow(foot, way, frame);
+    if (arrow.norm() > 0.0f) add_arrow(foot, arrow, frame);
   }
 }
 
-std::string arrow_legend(double scale) {
-  return fmt::format("\narrows: 1 m is an impulse of {:g} N s", scale);
+std::string arrow_legend(double scale, int steps_per_second) {
+  return fmt::format("\narrows: 1 m is an impulse of {:g} N s in a step of 1/{} s", scale,
+                     steps_per_second);
 }
 
 }  // namespace pneuma::app

@@ -10,7 +10,7 @@
 
 namespace pneuma::app {
 
-/// N s that an arrow of one metre stands for: 1, 2 or 5 times a power of ten, so that the greatest
+/// N s that an arrow of one metre stands for: 1, 2 or 5 times a power of ten, so that the largest
 /// impulse is seen well but fills no more than a fifth of the picture's height where the camera's
 /// target is.
 double arrow_scale(std::span<const sim::Contact> contacts, const render::Camera& camera);
@@ -19,7 +19,8 @@ double arrow_scale(std::span<const sim::Contact> contacts, const render::Camera&
 /// the impulse on the first one. `scale` in N s per metre.
 void add_impulses(std::span<const sim::Contact> contacts, double scale, render::Frame& frame);
 
-/// What the arrows' lengths mean, for the caption.
-std::string arrow_legend(double scale);
+/// What the arrows' lengths mean, for the caption: what rests gets its weight times the step, so
+/// that arrows are shorter in shorter steps.
+std::string arrow_legend(double scale, int steps_per_second);
 
 }  // namespace pneuma::app

@@ -87,10 +87,8 @@ void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame) 
 void add_labels(const sim::World& world, render::Frame& frame) {
   const int count = static_cast<int>(world.soft.size() + world.rigid.size());
   for (int body = 0; body < count; ++body) {
-    const sim::Bounds bounds = body_bounds(world, body);
-    sim::Vec3 top = bounds.centre();
-    top.z() = bounds.high.z();
-    frame.labels.push_back({top.cast<float>(), sim::body_name(world, body)});
+    const sim::Vec3 centre = body_bounds(world, body).centre();
+    frame.labels.push_back({centre.cast<float>(), sim::body_name(world, body)});
   }
 }
 

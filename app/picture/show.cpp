@@ -28,13 +28,13 @@ constexpr std::array<FieldName, 3> field_names = {FieldName{"strain", ColourFiel
 
 double parse_number(const std::string& option, const std::string& item, std::string_view text,
                     std::string_view wrong) {
-  double end = 0.0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), end);
-  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(end) ||
-      end <= 0.0) {
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || stop != text.data() + text.size() || !std::isfinite(value) ||
+      value <= 0.0) {
     throw UsageError(fmt::format("{}: '{}' {}", option, item, wrong));
   }
-  return end;
+  return value;
 }
 
 void add_field(const std::string& option, const std::string& item, Show& show) {

@@ -45,10 +45,18 @@ bool bend_is_seen(const SurfaceVertex& a, const SurfaceVertex& b, float pixels, 
          (height > visible_in_shadow && at_outline(a.normal, b.normal, view.to_light));
 }
 
-/// No point above the ground comes nearer to it than half its height.
-Vec3f kept_above_ground(Vec3f rounded, float flat_height) {
-  if (flat_height > 0.0f) rounded.z() = std::max(rounded.z(), 0.5f * flat_height);
-  return rounded;
+/// m. A soft body that rests may be so far below the ground, which would show through its skin.
+constexpr float most_sunk = 0.03f;
+/// m: is seen above the ground from any camera that sees a body.
+constexpr float just_above_ground = 0.002f;
+
+/// No point above the ground comes nearer to it than half its height, and none that is pressed into
+/// it is hidden by it.
+Vec3f kept_above_ground(Vec3f position, float flat_height) {
+  if (flat_height <= -most_sunk) return position;
+  const float least = std::max(0.5f * flat_height, just_above_ground);
+  position.z() = std::max(position.z(), least);
+  return position;
 }
 
 float height_of(const SurfacePoint& point, std::span<const Vec3f> positions) {

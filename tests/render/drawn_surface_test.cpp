@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/render/probe.h"
 #include "tests/render/shapes.h"
 
@@ -57,6 +59,22 @@ TEST(DrawnSurface, ANewShapeInADeadOnesPlaceIsAnotherOne) {
     renderer.draw(frame, image);
     EXPECT_EQ(image.pixels, draw_once(frame, small_picture()).pixels);
   }
+}
+
+TEST(DrawnSurface, IsNotHiddenByTheGroundThatItIsPressedInto) {
+  const auto lowest = [](float z) {
+    Frame frame = empty_frame();
+    frame.ground = Ground{};
+    frame.meshes = {make_ball({0, 0, z}, 1, {1, 0, 0}, 6)};
+    DrawnSurface surface;
+    surface.build(frame, make_view(frame, 320, 240));
+    float low = 1e9f;
+    for (const SurfaceVertex& vertex : surface.vertices()) low = std::min(low, vertex.position.z());
+    return low;
+  };
+  EXPECT_GT(lowest(0.99f), 0.0f);  // 1 cm in the ground
+  EXPECT_NEAR(lowest(1.5f), 0.5f, 1e-6f);
+  EXPECT_NEAR(lowest(0.5f), -0.5f, 1e-6f) << "what lies in the ground is shown to lie in it";
 }
 
 }  // namespace

@@ -118,6 +118,16 @@ TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
   // Without normals of vertices every triangle is drawn flat.
   EXPECT_FALSE(build({}).frame.meshes.at(0).normals.empty());
   EXPECT_TRUE(build({"picture.rounded=false"}).frame.meshes.at(0).normals.empty());
+  // So are the faces of a box, but not a ball, however few triangles it has.
+  const auto is_flat = [](const std::string& shape) {
+    const scenes::Scene scene =
+        scenes::parse_scene("[[body]]\nposition = [0, 0, 9]\n" + shape + "\n", "x.toml");
+    const sim::World world = build_world(scene);
+    return FrameBuilder(scene, world, {}).build(world).meshes.at(0).normals.empty();
+  };
+  EXPECT_TRUE(is_flat("shape = \"box\""));
+  EXPECT_FALSE(is_flat("shape = \"sphere\"\nstacks = 2\nslices = 3"));
+  EXPECT_FALSE(is_flat("shape = \"icosphere\""));
   EXPECT_FALSE(build({"ground.present=false"}).frame.ground);
 }
 

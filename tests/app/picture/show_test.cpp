@@ -196,11 +196,12 @@ TEST(Ghost, IsDrawnAsTheEdgesOfTheRestShape) {
   EXPECT_LT((frame.lines.front().from - from).norm(), 1e-5f);
 }
 
-TEST(Labels, NameEveryBodyOverItsTop) {
+/// Over its top it would lie on what is stacked on it.
+TEST(Labels, NameEveryBodyOnIt) {
   const render::Frame frame = Made().frame("labels,scale");
   ASSERT_EQ(frame.labels.size(), 2u);
   EXPECT_EQ(frame.labels[0].text, "ball");
-  EXPECT_NEAR(frame.labels[0].position.z(), 7.0f, 1e-5f);
+  EXPECT_NEAR(frame.labels[0].position.z(), 5.0f, 1e-5f);
   EXPECT_EQ(frame.labels[1].text, "box");
   EXPECT_TRUE(frame.scale_bar);
 }
