@@ -60,7 +60,7 @@ ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
 
 /// Of a camera that the scene leaves to the program nothing is known before a run.
 void warn(const CheckReport& report, const sim::World& world) {
-  for (const std::string& warning : scene_warnings(report.scene, report.steps, report.gas)) {
+  for (const std::string& warning : scene_warnings(report.scene, world, report.steps, report.gas)) {
     fmt::print(stderr, "{}\n", warning);
   }
   const std::string hidden = what_camera_misses(report.scene, world);

@@ -57,7 +57,7 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
 }
 
 std::vector<std::string> ScriptedWorld::warnings() const {
-  return scene_warnings(scene_, step_advices(world_), {});
+  return scene_warnings(scene_, world_, step_advices(world_), {});
 }
 
 }  // namespace pneuma::app

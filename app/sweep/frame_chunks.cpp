@@ -70,7 +70,7 @@ void draw_frame_chunk(const Sweep& sweep, const FrameChunk& chunk, const fs::pat
     render_run(sweep, run, frames, part);
   } catch (const base::IoError&) {
     const SweepRow row = run_one(sweep, run, {});
-    if (has_pictures(row) || is_to_be_repeated(row)) throw;
+    if (came_to_its_end(row) || is_to_be_repeated(row)) throw;
     fs::remove_all(part);
     const nlohmann::json why = {{"no_pictures", row.words}};
     StudyFolder(part).write("run.json", why.dump(2) + '\n');
@@ -80,7 +80,7 @@ void draw_frame_chunk(const Sweep& sweep, const FrameChunk& chunk, const fs::pat
 void join_frame_chunks(const SweepRows& rows, const fs::path& folder) {
   std::error_code ignored;
   for (const auto& [number, row] : rows) {
-    if (!has_pictures(row)) continue;
+    if (!came_to_its_end(row)) continue;
     const fs::path whole = picture_folder(folder, number);
     for (const auto& part : fs::directory_iterator(whole, ignored)) {
       if (!part.is_directory()) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -109,7 +110,10 @@ class ScenePlot {
   void for_each(const Use& use) const {
     for (const auto& [number, row] : rows_) {
       const SweepRun run = run_of(sweep_, number);
-      if (run.scene == scene_) use(run, number_of(row.values.at(measure_.name)));
+      if (run.scene != scene_) continue;
+      // What a run had when it diverged is no measure of its scene.
+      const double unknown = std::numeric_limits<double>::quiet_NaN();
+      use(run, came_to_its_end(row) ? number_of(row.values.at(measure_.name)) : unknown);
     }
   }
 

@@ -26,8 +26,8 @@ SweepRow run_one(const Sweep& sweep, const SweepRun& run, const std::filesystem:
 /// A run that failed for want of disk or memory says nothing about its scene: it is made again.
 inline bool is_to_be_repeated(const SweepRow& row) { return row.code == ExitCode::input_output; }
 
-/// Whether the run came to its end: others have no pictures.
-inline bool has_pictures(const SweepRow& row) {
+/// Others have no pictures.
+inline bool came_to_its_end(const SweepRow& row) {
   return row.code == ExitCode::done || row.code == ExitCode::check_failed;
 }
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/host/errors.h"
 #include "app/terminal/whole_number.h"
 
@@ -36,10 +39,11 @@ Frames frames_of(const scenes::Scene& scene, const FrameRange& wanted) {
   const std::int64_t end = scenes::frame_count(scene);
   const Frames frames{wanted.first, wanted.last.value_or(end)};
   if (frames.first > end || frames.last > end) {
+    const auto last = static_cast<double>(std::max(frames.first, frames.last));
     throw UsageError(
         fmt::format("--frames: {} has the frames 0 to {}; more come from a longer run, "
                     "as with --set duration={:g}",
-                    scene.name, end, 2.0 * scene.duration));
+                    scene.name, end, std::ceil(last / static_cast<double>(end) * scene.duration)));
   }
   return frames;
 }

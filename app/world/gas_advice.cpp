@@ -112,8 +112,9 @@ std::string gas_warning(const GasAdvice& advice) {
 std::string weight_warning(const GasAdvice& advice) {
   return fmt::format(
       "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; "
-      "give it a vertex_mass of at most {} kg, or more gas",
+      "give it more gas, or at most {} kg: by a vertex_mass of at most {} kg, or by its density",
       body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume,
+      base::text_below(advice.vertices * advice.light_vertex_mass),
       base::text_below(advice.light_vertex_mass));
 }
 

@@ -1,8 +1,13 @@
 #include "app/world/scene_warnings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scenes/loader/load_scene.h"
+#include "sim/inspect/inspect.h"
+#include "sim/mesh/measure.h"
+#include "sim/potential/start_distance.h"
 
 namespace pneuma::app {
 namespace {
@@ -21,9 +26,46 @@ std::string warning_at(const scenes::Scene& scene, const std::string& name,
   return to_string(scenes::diagnostic_at(place_of(scene, name), "warning: " + what));
 }
 
+/// What the potential of contact may hold at the start, of what bodies have to fall by their size
+/// and of their motion: at rest on each other they keep less.
+constexpr double loaded = 0.1;
+
+/// J, of all bodies: m g L and what moves.
+double usual_energy(const sim::World& world) {
+  const double gravity = world.settings.gravity.norm();
+  double sum = sim::energy(world).kinetic;
+  for (const sim::SoftBody& body : world.soft) {
+    const double mass = body.material.vertex_mass * body.positions.size();
+    sum += mass * gravity * sim::bounds(body.positions).size().norm();
+  }
+  for (const sim::RigidBox& box : world.rigid) sum += box.mass * gravity * box.size.norm();
+  return sum;
+}
+
+/// Bodies that start nearer to each other than they ever rest are shot apart, or clamped together.
+void add_loaded_start(const scenes::Scene& scene, const sim::World& start,
+                      std::vector<std::string>& warnings) {
+  if (start.settings.contact != sim::ContactMethod::potential) return;
+  const double energy = sim::energy(start).contact;
+  if (energy <= loaded * usual_energy(start)) return;
+  const auto near = sim::find_nearest_start(start);
+  if (!near || near->first == near->second) return;
+  const bool on_ground = near->second < 0;
+  const std::string body = sim::body_name(start, on_ground ? near->first : near->second);
+  const std::string other =
+      on_ground ? "the ground" : fmt::format("body '{}'", sim::body_name(start, near->first));
+  warnings.push_back(warning_at(
+      scene, body,
+      fmt::format(
+          "body '{}' starts {:.3g} m from {}, and contact with {:.3g} J: simulation.contact "
+          "= \"potential\" pushes apart what is nearer than {:.3g} m; leave that much "
+          "between bodies",
+          body, near->distance, other, energy, near->reach)));
+}
+
 }  // namespace
 
-std::vector<std::string> scene_warnings(const scenes::Scene& scene,
+std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::World& start,
                                         const std::vector<StepAdvice>& steps,
                                         const std::vector<GasAdvice>& gas) {
   std::vector<std::string> warnings = scene.warnings;
@@ -35,6 +77,7 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene,
     if (advice.crushed())
       warnings.push_back(warning_at(scene, advice.body, weight_warning(advice)));
   }
+  add_loaded_start(scene, start, warnings);
   return warnings;
 }
 

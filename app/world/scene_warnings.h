@@ -7,12 +7,14 @@
 #include "app/world/gas_advice.h"
 #include "app/world/step_advice.h"
 #include "scenes/loader/scene.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
-/// The loader's warnings, bodies whose steps are too long, and bodies that gas blows up, each with
-/// its place: "two_balls.toml:4:1: warning: body 'ball': ...".
-std::vector<std::string> scene_warnings(const scenes::Scene& scene,
+/// The loader's warnings, bodies whose steps are too long, bodies that gas blows up, and bodies
+/// that the contact potential throws apart from the start, each with its place:
+/// "two_balls.toml:4:1: warning: body 'ball': ...".
+std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::World& start,
                                         const std::vector<StepAdvice>& steps,
                                         const std::vector<GasAdvice>& gas);
 

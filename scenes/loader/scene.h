@@ -94,7 +94,7 @@ struct BodyScene {
   double rho_g = sim::RigidBox{}.rho_g;  // rigid; a soft body's is in its material
   sim::ContactMaterial surface;          // likewise
 
-  Vec3 position = Vec3::Zero();          // m, of the shape's centre
+  Vec3 position = Vec3::Zero();          // m, of the shape's centre; of the first copy
   Vec3 rotation = Vec3::Zero();          // degrees about world x, then y, then z
   Vec3 velocity = Vec3::Zero();          // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes

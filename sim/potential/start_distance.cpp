@@ -1,5 +1,7 @@
 #include "sim/potential/start_distance.h"
 
+#include <algorithm>
+
 #include "sim/potential/contact_potential.h"
 
 namespace pneuma::sim {
@@ -10,7 +12,7 @@ constexpr double least_start_fraction = 1e-3;
 
 }  // namespace
 
-std::optional<TouchingStart> find_touching_start(const World& world) {
+std::optional<NearStart> find_nearest_start(const World& world) {
   const ContactSurfaces surfaces(world);
   VertexArray positions(surfaces.vertex_count()), velocities(surfaces.vertex_count());
   surfaces.gather(world, positions, velocities);
@@ -19,14 +21,22 @@ std::optional<TouchingStart> find_touching_start(const World& world) {
   PairFinder(surfaces).find(positions, positions, 0.0, pairs);
   std::vector<ActiveContact> active;
   find_active(surfaces, positions, pairs, active);
-  for (const ActiveContact& contact : active) {
-    const double reach = surfaces[contact.first].reach;
-    if (contact.point.distance > least_start_fraction * reach) continue;
-    const double distance =
-        contact.second < 0 ? contact.point.distance - reach : contact.point.distance;
-    return TouchingStart{contact.first, contact.second, distance, reach};
-  }
-  return std::nullopt;
+  const auto of_reach = [&](const ActiveContact& contact) {
+    return contact.point.distance / surfaces[contact.first].reach;
+  };
+  const auto nearest = std::ranges::min_element(active, {}, of_reach);
+  if (nearest == active.end()) return std::nullopt;
+  const double reach = surfaces[nearest->first].reach;
+  const double below = nearest->second < 0 ? reach : 0.0;  // where the ground's distance is zero
+  return NearStart{nearest->first, nearest->second, nearest->point.distance - below, reach};
+}
+
+std::optional<NearStart> find_touching_start(const World& world) {
+  const auto nearest = find_nearest_start(world);
+  if (!nearest) return std::nullopt;
+  const double below = nearest->second < 0 ? nearest->reach : 0.0;
+  if (nearest->distance + below > least_start_fraction * nearest->reach) return std::nullopt;
+  return nearest;
 }
 
 }  // namespace pneuma::sim

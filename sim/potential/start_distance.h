@@ -7,15 +7,18 @@
 
 namespace pneuma::sim {
 
-/// Two surfaces that touch to rounding, by body indices (soft bodies, then boxes); second == -1: a
-/// vertex of the first is a reach or more below z = 0. What crosses is for crossings() to say.
-struct TouchingStart {
+/// Two surfaces that the potential pushes apart, by body indices (soft bodies, then boxes); second
+/// == -1: the ground. What crosses is for crossings() to say.
+struct NearStart {
   int first = 0;
   int second = -1;
   double distance = 0.0;  // m; of the ground: the height of the lowest vertex
   double reach = 0.0;     // m
 };
 
-std::optional<TouchingStart> find_touching_start(const World& world);
+/// Those nearest to each other, of their reach.
+std::optional<NearStart> find_nearest_start(const World& world);
+/// The same if they touch to rounding, or if a vertex is a reach or more below z = 0.
+std::optional<NearStart> find_touching_start(const World& world);
 
 }  // namespace pneuma::sim

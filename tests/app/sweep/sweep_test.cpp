@@ -244,6 +244,28 @@ TEST_F(SweepTest, LongASnakemakeRunGivesTheSameBytes) {
   EXPECT_EQ(csv("flow"), csv());
 }
 
+TEST_F(SweepTest, MapsLeaveOutWhatARunHadWhenItDiverged) {
+  write_text(file(), R"(scenes = ["fall.toml"]
+measure = ["energy"]
+[[parameter]]
+key = "body.k"
+values = [50, 1e9]
+[[parameter]]
+key = "body.n"
+values = [1, 2]
+)");
+  ASSERT_EQ(sweep("--cores 2").exit_code, 0);
+  const std::string script = read_text(out() / "six_energy.gp");
+  std::istringstream lines(script);
+  int unknown = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.ends_with(" NaN")) continue;
+    ++unknown;
+    EXPECT_NE(line.find("1000000000"), std::string::npos) << line;
+  }
+  EXPECT_EQ(unknown, 2) << script;
+}
+
 TEST(HeatMap, CellsReachHalfWayToTheNextAndLeaveNoGap) {
   HeatMap map{"title", "value", {.label = "x"}, {.label = "y"}, false, {}};
   for (const double x : {1.0, 3.0}) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/world/build_world.h"
+#include "app/world/scene_warnings.h"
 #include "app/world/touch.h"
 #include "scenes/loader/load_scene.h"
 
@@ -61,6 +62,22 @@ TEST(StartOverlap, ThePotentialNeedsADistanceButNotFromTheGround) {
                                           "position = [2, 0, 1]\n");
   EXPECT_NE(touching.find("body 'other': starts 0 m from body 'box'"), std::string::npos)
       << touching;
+}
+
+TEST(SceneWarnings, SayThatThePotentialWouldThrowBodiesApart) {
+  const auto warnings = [](const std::string& gap) {
+    const scenes::Scene scene = scenes::parse_scene(
+        "simulation.contact = \"potential\"\nsimulation.integrator = \"implicit_euler\"\n"
+        "[[body]]\nname = \"brick\"\nkind = \"rigid\"\nsize = [2, 2, 1]\nposition = [0, 0, 0.6]\n"
+        "copies = [1, 1, 3]\nspacing = [0, 0, 1." +
+            gap + "]\n",
+        "x.toml");
+    return scene_warnings(scene, build_world(scene), {}, {});
+  };
+  ASSERT_EQ(warnings("001").size(), 1U);
+  EXPECT_NE(warnings("001")[0].find("starts 0.001 m from body 'brick.1'"), std::string::npos);
+  EXPECT_NE(warnings("001")[0].find("leave that much"), std::string::npos);
+  EXPECT_EQ(warnings("2"), std::vector<std::string>());
 }
 
 TEST(StartOverlap, NamesAWayThatParts) {
