@@ -152,9 +152,9 @@ TEST(Checkpoint, BodiesThatDoNotExistAreRefused) {
     World loaded = world;
     EXPECT_THROW(load_state(save_state(changed), loaded), CheckpointError);
   };
-  for (const auto& [first, second] : {std::pair(1, -1), {-1, -1}, {0, 1}, {0, -2}}) {
+  for (const auto& boxes : {std::pair(1, -1), {-1, -1}, {0, 1}, {0, -2}}) {
     is_refused([&](World& changed) {
-      changed.warm_start_impulses.push_back({.first = first, .second = second});
+      changed.warm_start_impulses.push_back({.first = boxes.first, .second = boxes.second});
     });
   }
   for (const BodyRest& rest : {BodyRest{-1, -1}, BodyRest{0, 2}, BodyRest{0, -2}}) {
