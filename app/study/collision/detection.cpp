@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/collision/feature_contact.h"
 #include "sim/collision/find_exact.h"
 
@@ -16,22 +16,6 @@ using sim::Feature;
 using sim::FeatureKind;
 using sim::MeshTopology;
 using sim::SurfaceView;
-
-/// Sets of numbers that are united pair by pair.
-class DisjointSets {
- public:
-  explicit DisjointSets(int count) : parent_(at(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
-    return i;
-  }
-  void unite(int a, int b) { parent_[at(root(a))] = root(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// Nearest contacts of the vertices of `own` at triangles close to `other`.
 std::vector<ContactTruth::Vertex> close_vertices(const SurfaceView& own, const SurfaceView& other,
@@ -57,7 +41,7 @@ std::vector<ContactTruth::Vertex> close_vertices(const SurfaceView& own, const S
 }
 
 void unite_neighbours(const MeshTopology& mesh, const std::vector<char>& is_close, int offset,
-                      DisjointSets& sets) {
+                      base::DisjointSets& sets) {
   for (const auto& [a, b] : mesh.edge_triangles()) {
     if (is_close[at(offset + a)] && is_close[at(offset + b)]) sets.unite(offset + a, offset + b);
   }
@@ -66,7 +50,7 @@ void unite_neighbours(const MeshTopology& mesh, const std::vector<char>& is_clos
 void number_regions(const MeshTopology& first, const MeshTopology& second,
                     const std::vector<CloseTriangles>& pairs, ContactTruth& truth) {
   const int count = first.triangle_count();
-  DisjointSets sets(count + second.triangle_count());
+  base::DisjointSets sets(at(count + second.triangle_count()));
   std::vector<char> is_close(at(count + second.triangle_count()), 0);
   for (const CloseTriangles& pair : pairs) {
     is_close[at(pair.first)] = is_close[at(count + pair.second)] = 1;
@@ -78,7 +62,7 @@ void number_regions(const MeshTopology& first, const MeshTopology& second,
   truth.region_of_first.assign(at(count), -1);
   for (int t = 0; t < count; ++t) {
     if (!is_close[at(t)]) continue;
-    int& region = number[at(sets.root(t))];
+    int& region = number[at(sets.find(t))];
     if (region < 0) region = truth.regions++;
     truth.region_of_first[at(t)] = region;
   }
