@@ -92,7 +92,7 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   vertices_.clear();
   triangles_.clear();
   for (const Mesh& mesh : frame.meshes) {
-    mesh.normals.empty() ? add_flat(mesh) : add_smooth(mesh, frame, view);
+    mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
   }
 }
 
@@ -150,7 +150,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
 }
 
-void DrawnSurface::add_flat(const Mesh& mesh) {
+void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
   add_lit_mesh(mesh);
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
@@ -166,7 +166,9 @@ void DrawnSurface::add_flat(const Mesh& mesh) {
       apart.points.push_back({{first + i, first + i, first + i}, {1.0f, 0.0f, 0.0f}});
       positions_.push_back(mesh.positions[v]);
       normals_.push_back(normal);
-      vertices_.push_back({mesh.positions[v], normal, material(colours[v], mesh.roughness)});
+      const Vec3f& position = mesh.positions[v];
+      vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
+                           normal, material(colours[v], mesh.roughness)});
     }
   }
   append(apart);

@@ -54,7 +54,7 @@ class DrawnSurface {
 
   Shape& shape_of(const std::shared_ptr<const MeshShape>& shape);
   void add_smooth(const Mesh& mesh, const Frame& frame, const View& view);
-  void add_flat(const Mesh& mesh);
+  void add_flat(const Mesh& mesh, const Frame& frame);
   void add_lit_mesh(const Mesh& mesh);
   void append(const Refinement& refinement);
 

@@ -62,19 +62,21 @@ TEST(DrawnSurface, ANewShapeInADeadOnesPlaceIsAnotherOne) {
 }
 
 TEST(DrawnSurface, IsNotHiddenByTheGroundThatItIsPressedInto) {
-  const auto lowest = [](float z) {
+  const auto lowest = [](const Mesh& mesh) {
     Frame frame = empty_frame();
     frame.ground = Ground{};
-    frame.meshes = {make_ball({0, 0, z}, 1, {1, 0, 0}, 6)};
+    frame.meshes = {mesh};
     DrawnSurface surface;
     surface.build(frame, make_view(frame, 320, 240));
     float low = 1e9f;
     for (const SurfaceVertex& vertex : surface.vertices()) low = std::min(low, vertex.position.z());
     return low;
   };
-  EXPECT_GT(lowest(0.99f), 0.0f);  // 1 cm in the ground
-  EXPECT_NEAR(lowest(1.5f), 0.5f, 1e-6f);
-  EXPECT_NEAR(lowest(0.5f), -0.5f, 1e-6f) << "what lies in the ground is shown to lie in it";
+  const auto ball = [](float z) { return make_ball({0, 0, z}, 1, {1, 0, 0}, 6); };
+  EXPECT_GT(lowest(ball(0.99f)), 0.0f);  // 1 cm in the ground
+  EXPECT_NEAR(lowest(ball(1.5f)), 0.5f, 1e-6f);
+  EXPECT_NEAR(lowest(ball(0.5f)), -0.5f, 1e-6f) << "what lies in the ground is shown to lie in it";
+  EXPECT_GT(lowest(make_box({0, 0, 0.49f}, {1, 1, 1}, {1, 0, 0})), 0.0f);  // flat
 }
 
 }  // namespace
