@@ -1,5 +1,5 @@
-// Random piles of boxes, from needles to plates, of masses up to a hundred to one, with swept
-// contacts.
+// Random piles of boxes, from needles to plates, of masses up to a hundred to one, and on demand a
+// thousand, with swept contacts.
 //
 // A failure prints the seed; PNEUMA_SEED=NUMBER runs that one alone.
 #include <gtest/gtest.h>
@@ -19,7 +19,9 @@ namespace {
 
 class RandomPile {
  public:
-  explicit RandomPile(std::uint64_t seed) : random_(seed), are_cubes_(seed % 2 == 0) {}
+  /// `least_mass` in kg; the most is 50.
+  RandomPile(std::uint64_t seed, double least_mass)
+      : random_(seed), least_mass_(least_mass), are_cubes_(seed % 2 == 0) {}
 
   /// 2 to 50 boxes around the origin that start apart and fly towards it.
   World make() {
@@ -51,16 +53,24 @@ class RandomPile {
   }
   /// All orders of magnitude alike.
   double size(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
+  // One number after the other: compilers choose the order of the arguments of a call.
   Vec3 vector(double most) {
-    return {uniform(-most, most), uniform(-most, most), uniform(-most, most)};
+    Vec3 result;
+    for (double& x : result) x = uniform(-most, most);
+    return result;
   }
-  ContactMaterial surface() { return {uniform(0.0, 1.0), uniform(0.0, 1.0)}; }
+  ContactMaterial surface() {
+    ContactMaterial result;
+    result.restitution = uniform(0.0, 1.0);
+    result.friction = uniform(0.0, 1.0);
+    return result;
+  }
 
   void add_box(World& world) {
     RigidBox box;
-    box.size = {size(0.2, 4.0), size(0.2, 4.0), size(0.2, 4.0)};
+    for (double& side : box.size) side = size(0.2, 4.0);
     if (are_cubes_) box.size.fill(box.size.x());
-    box.mass = size(0.5, 50.0);
+    box.mass = size(least_mass_, 50.0);
     box.rho_g = 0.0;
     box.surface = surface();
     box.orientation = rotation_of_degrees(vector(180.0));
@@ -73,11 +83,13 @@ class RandomPile {
       box.position = vector(room);
       if (std::ranges::all_of(world.rigid, is_clear)) break;
     }
-    box.velocity = vector(0.2) - size(1.0, 2.0) * box.position;
+    box.velocity = -size(1.0, 2.0) * box.position;
+    box.velocity += vector(0.2);
     world.rigid.push_back(box);
   }
 
   std::mt19937_64 random_;
+  double least_mass_;
   bool are_cubes_;
 };
 
@@ -105,9 +117,9 @@ Sizes sizes(const World& world) {
 bool are_cubes(const World& world) { return std::ranges::all_of(world.rigid, is_cube); }
 
 /// Whether any boxes have met.
-bool fly_together(std::uint64_t seed) {
+bool fly_together(std::uint64_t seed, double least_mass) {
   SCOPED_TRACE(seed);
-  World world = RandomPile(seed).make();
+  World world = RandomPile(seed, least_mass).make();
   const Momentum before = momentum(world);
   const Sizes parts = sizes(world);
   const double start = energy(world).kinetic;
@@ -120,7 +132,7 @@ bool fly_together(std::uint64_t seed) {
     if (divergence) return false;
     EXPECT_LE(stepper.contact_work(), 1e-9 * start) << "step " << i;
     met = met || !stepper.contacts().empty();
-    // The free motion of other boxes changes the energy to and fro, by the square of the step.
+    // The free motion of other boxes lets the energy oscillate, by the square of the step.
     if (!are_cubes(world)) continue;
     EXPECT_NEAR(energy(world).kinetic - had, stepper.contact_work(), 1e-9 * start) << "step " << i;
   }
@@ -128,13 +140,13 @@ bool fly_together(std::uint64_t seed) {
   EXPECT_LT((after.linear - before.linear).norm(), 1e-10 * parts.linear);
   // Two boxes that got into each other are moved apart by s1 and s2, where m1 s1 + m2 s2 = 0: at
   // different velocities m1 s1 x v1 + m2 s2 x v2 is not zero.
-  EXPECT_LT((after.angular - before.angular).norm(), 1e-5 * parts.angular);
+  EXPECT_LT((after.angular - before.angular).norm(), 1e-6 * parts.angular);
   return met;
 }
 
-bool fall(std::uint64_t seed) {
+bool fall(std::uint64_t seed, double least_mass) {
   SCOPED_TRACE(seed);
-  World world = RandomPile(seed).make_above_ground();
+  World world = RandomPile(seed, least_mass).make_above_ground();
   const double weight = 9.81 * mass(world);
   // What a step adds to boxes that fall freely: m (g h)^2 / 2.
   const double of_step = 0.5 * weight * 9.81 * std::pow(time_step(world.settings), 2);
@@ -157,14 +169,15 @@ bool fall(std::uint64_t seed) {
   return met;
 }
 
-void for_each_pile(std::uint64_t first, int count, bool (*has_met)(std::uint64_t)) {
+void for_each_pile(std::uint64_t first, int count, bool (*has_met)(std::uint64_t, double),
+                   double least_mass = 0.5) {
   if (const char* seed = std::getenv("PNEUMA_SEED")) {
-    has_met(std::strtoull(seed, nullptr, 10));
+    has_met(std::strtoull(seed, nullptr, 10), least_mass);
     return;
   }
   int met = 0;
   for (int i = 0; i < count && !testing::Test::HasFatalFailure(); ++i) {
-    if (has_met(first + static_cast<std::uint64_t>(i))) ++met;
+    if (has_met(first + static_cast<std::uint64_t>(i), least_mass)) ++met;
   }
   EXPECT_GT(met, 0.9 * count);  // pairs may miss each other
 }
@@ -173,6 +186,10 @@ TEST(RandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1, 40, fly_togeth
 TEST(RandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1, 40, fall); }
 TEST(ManyRandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1000, 5000, fly_together); }
 TEST(ManyRandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1000, 5000, fall); }
+/// Not yet so (ERRATA row 67): a light box that is pinched is shot out.
+TEST(ManyRandomPiles, DISABLED_OfAThousandToOneGainNoEnergy) {
+  for_each_pile(1000, 5000, fall, 0.05);
+}
 
 }  // namespace
 }  // namespace pneuma::sim
