@@ -31,9 +31,9 @@ std::string warning_at(const scenes::Scene& scene, const std::string& name,
 constexpr double loaded = 0.1;
 
 /// J, of all bodies: m g L and what moves.
-double usual_energy(const sim::World& world) {
+double usual_energy(const sim::World& world, double kinetic) {
   const double gravity = world.settings.gravity.norm();
-  double sum = sim::energy(world).kinetic;
+  double sum = kinetic;
   for (const sim::SoftBody& body : world.soft) {
     const double mass = body.material.vertex_mass * body.positions.size();
     sum += mass * gravity * sim::bounds(body.positions).size().norm();
@@ -46,8 +46,8 @@ double usual_energy(const sim::World& world) {
 void add_loaded_start(const scenes::Scene& scene, const sim::World& start,
                       std::vector<std::string>& warnings) {
   if (start.settings.contact != sim::ContactMethod::potential) return;
-  const double energy = sim::energy(start).contact;
-  if (energy <= loaded * usual_energy(start)) return;
+  const sim::Energy energy = sim::energy(start);
+  if (energy.contact <= loaded * usual_energy(start, energy.kinetic)) return;
   const auto near = sim::find_nearest_start(start);
   if (!near || near->first == near->second) return;
   const bool on_ground = near->second < 0;
@@ -60,7 +60,7 @@ void add_loaded_start(const scenes::Scene& scene, const sim::World& start,
           "body '{}' starts {:.3g} m from {}, and contact with {:.3g} J: simulation.contact "
           "= \"potential\" pushes apart what is nearer than {:.3g} m; leave that much "
           "between bodies",
-          body, near->distance, other, energy, near->reach)));
+          body, near->distance, other, energy.contact, near->reach)));
 }
 
 }  // namespace
