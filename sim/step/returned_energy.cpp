@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "sim/response/vibration.h"
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
 namespace {
+
+std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
+  return static_cast<std::size_t>(impulse - memory.impulses.data());
+}
 
 class ReturnedEnergy {
  public:
@@ -51,17 +56,13 @@ class ReturnedEnergy {
     }
   }
 
-  std::size_t contact_of(const SweptImpulse* impulse) const {
-    return static_cast<std::size_t>(impulse - m_.impulses.data());
-  }
-
   /// `work_of_island`: J, which is then that of the mixture.
   void limit(int island, double& work_of_island) {
     const auto impulses = m_.solver.impulses_of(island);
     const double with = work_of_island;
     double without = with;
     for (SweptImpulse* impulse : impulses) {
-      const std::size_t i = contact_of(impulse);
+      const std::size_t i = contact_of(m_, impulse);
       const SweptContact& contact = m_.contacts[i];
       without -= work(i);
       r_.given[i] = impulse->given();
@@ -70,13 +71,14 @@ class ReturnedEnergy {
     }
     work_of_island = without;  // that of the start
     m_.solver.solve_island(island, tolerance_);
-    for (const SweptImpulse* impulse : impulses) without += work(contact_of(impulse));
+    for (const SweptImpulse* impulse : impulses) without += work(contact_of(m_, impulse));
     const double share = without < 0.0 ? without / (without - with) : 0.0;
     for (SweptImpulse* impulse : impulses) {
-      const Vec3 mixed = share * r_.given[contact_of(impulse)] + (1.0 - share) * impulse->given();
+      const Vec3 mixed =
+          share * r_.given[contact_of(m_, impulse)] + (1.0 - share) * impulse->given();
       impulse->replace_given(to_vec4d(mixed));
     }
-    for (const SweptImpulse* impulse : impulses) work_of_island += work(contact_of(impulse));
+    for (const SweptImpulse* impulse : impulses) work_of_island += work(contact_of(m_, impulse));
   }
 
   SweptMemory& m_;
@@ -112,7 +114,10 @@ Mat3 inertia_in_world(const RigidBox& box) {
 class IslandMotion {
  public:
   IslandMotion(World& world, SweptMemory& memory, int island)
-      : world_(world), memory_(memory), island_(island) {
+      : world_(world), memory_(memory), island_(island) {}
+
+  /// From now on the motion is that beyond a rigid body's with this momentum and angular momentum.
+  void leave_out_common() {
     find_mean();
     find_rotation();
   }
@@ -128,6 +133,15 @@ class IslandMotion {
       sum += 0.5 * box.mass * (box.velocity - at_point(box.position)).squaredNorm() +
              0.5 * spin.dot(inertia_in_world(box) * spin);
     });
+    return sum;
+  }
+
+  /// kg.
+  double mass() const {
+    double sum = 0.0;
+    for_each_soft(
+        [&](const SoftBody& body) { sum += body.material.vertex_mass * body.positions.size(); });
+    visit_boxes([&](const RigidBox& box) { sum += box.mass; });
     return sum;
   }
 
@@ -212,23 +226,46 @@ class IslandMotion {
   Vec3 angular_velocity_ = Vec3::Zero();
 };
 
-bool is_held(const World& world, SweptMemory& memory, int island) {
-  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
-    if (world.soft[at(i)].pins && memory.solver.island_of(i) == island) return true;
+/// What nothing moves in this step, and an island meets.
+enum class Holder { none, at_rest, moved };
+
+Holder holder_of(const World& world, SweptMemory& memory, int island) {
+  Holder holder = Holder::none;
+  for (const SweptImpulse* impulse : memory.solver.impulses_of(island)) {
+    if (impulse->first().moves() && impulse->second().moves()) continue;
+    const SweptContact& contact = memory.contacts[contact_of(memory, impulse)];
+    const int body = impulse->first().moves() ? contact.second.body : contact.first.body;
+    if (body != swept_ground && moves(world, body)) return Holder::moved;
+    holder = Holder::at_rest;
   }
-  return std::ranges::any_of(memory.solver.impulses_of(island), [](const SweptImpulse* impulse) {
-    return !impulse->first().moves() || !impulse->second().moves();
-  });
+  const auto is_pinned = [&](int body) {
+    return world.soft[at(body)].pins && memory.solver.island_of(body) == island;
+  };
+  const auto bodies = std::views::iota(0, static_cast<int>(world.soft.size()));
+  return std::ranges::any_of(bodies, is_pinned) ? Holder::moved : holder;
+}
+
+/// J, of one step from rest. What contacts do at rest is of that size: where soft bodies carry a
+/// load it presses them at the start of each step, and their damping takes that until its end.
+double energy_of_fall(const Settings& settings, double mass) {
+  return 0.5 * mass * (time_step(settings) * settings.gravity).squaredNorm();
 }
 
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
-/// with their momentum and angular momentum: these stay as they are. All velocities against each
-/// other shrink by the same factor, so that at contacts what parts still parts. Returns what was
-/// taken: no more than there is, and nothing if the ground, a body that nothing moves, or pins
-/// hold the island.
+/// with their momentum and angular momentum: these stay as they are. Where the ground, or another
+/// body at rest, holds the island it takes from all motion, what is beyond a free fall's: the
+/// holder bears what that changes. All velocities against each other shrink by the same factor, so
+/// that at contacts what parts still parts. Returns what was taken: no more than there is, and
+/// nothing if pins, or bodies that keep their velocities, hold the island.
 double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
-  if (is_held(world, memory, island)) return 0.0;
+  const Holder holder = holder_of(world, memory, island);
+  if (holder == Holder::moved) return 0.0;
   IslandMotion motion(world, memory, island);
+  if (holder == Holder::none) {
+    motion.leave_out_common();
+  } else {
+    energy -= energy_of_fall(world.settings, motion.mass());
+  }
   const double there_is = motion.energy();
   const double taken = std::min(energy, there_is);
   if (!(taken > 0.0)) return 0.0;

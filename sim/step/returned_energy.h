@@ -19,8 +19,8 @@ void limit_returned_energy(SweptMemory& memory, double tolerance);
 /// The impulses at both ends of a step do no work together if what presses bodies on each other is
 /// the same at both ends. Where it grows they take energy and where it falls they add some, of
 /// second order in the step: an island whose contacts have added energy gives it up again from the
-/// motion of its soft bodies that is not that of a rigid body, so that momentum and angular
-/// momentum stay as they are.
+/// motion of its soft bodies that is not that of a rigid body, and then from that of its bodies
+/// against each other, so that momentum and angular momentum stay as they are.
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///

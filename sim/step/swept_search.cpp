@@ -16,6 +16,9 @@ constexpr double kept_of_start = 0.1;
 constexpr double kept_of_wanted = 0.05;
 /// m. At less than this the direction between two points is rounding.
 constexpr double min_distance = 1e-9;
+/// Sine of the angle between faces that lie on each other: rounding; but a box with one contact for
+/// each of its faces would rock on what is soft.
+constexpr double flat = 1e-6, flat_of_boxes = 0.03;
 constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -229,9 +232,10 @@ Vec3 SweptSearch::normal_of(const SweptCandidate& candidate, const ClosestPoints
 bool SweptSearch::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
                          Moment moment) const {
   if (candidate.is_of_near_boxes) return true;
-  return stands_for_its_parts(bodies_.surface(candidate.bodies.first),
-                              bodies_.surface(candidate.bodies.second), candidate.features, closest,
-                              moment);
+  const auto [first, second] = candidate.bodies;
+  const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
+  return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
+                              closest, moment, has_box ? flat_of_boxes : flat);
 }
 
 /// At the start, as points that are nearest after a fraction of the step.

@@ -102,12 +102,12 @@ const VertexArray& positions(const MovingSurface& surface, Moment moment) {
 struct SurfacePart {
   const MovingSurface& surface;
   Moment moment;
-  Vec3 point;  // on the part, m
-  Vec3 away;   // from there to what is nearest to it, m
+  Vec3 point;           // on the part, m
+  Vec3 away;            // from there to what is nearest to it, m
+  double sine_of_flat;  // of the angle up to which faces are one
 
   /// Whether going along `inward` brings a point nearer to what this is thought to be nearest to.
   bool is_nearer(const Vec3& inward) const {
-    constexpr double sine_of_flat = 1e-6;  // surfaces as flat as this are one
     return away.dot(inward) > sine_of_flat * away.norm() * inward.norm();
   }
 };
@@ -181,10 +181,11 @@ double greatest_change(const MovingSurface& first, const MovingSurface& second,
 }
 
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
-                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment) {
+                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment,
+                          double sine_of_flat) {
   const Vec3 away = closest.first_point - closest.second_point;
-  const SurfacePart of_first{first, moment, closest.first_point, -away};
-  const SurfacePart of_second{second, moment, closest.second_point, away};
+  const SurfacePart of_first{first, moment, closest.first_point, -away, sine_of_flat};
+  const SurfacePart of_second{second, moment, closest.second_point, away, sine_of_flat};
   switch (pair.first.kind) {
     case FeatureKind::edge:
       return closest.first.kind == FeatureKind::edge && closest.second.kind == FeatureKind::edge &&

@@ -23,9 +23,12 @@ double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair);
 
 /// Of the pairs of features whose nearest points are on common edges and vertices one stands for
-/// them all, and none where other features next to these are nearer.
+/// them all, and none where other features next to these are nearer. Faces that lie on each other
+/// touch at all their corners, though one of these is always a trifle nearer: up to an angle with
+/// `sine_of_flat` they all stand.
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
-                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment);
+                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment,
+                          double sine_of_flat);
 
 /// After which fraction of their ways the features have come to within 1.2 times `least` (m, above
 /// zero and less than their distance at the start); none if they stay further apart. Conservative:

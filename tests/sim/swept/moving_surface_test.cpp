@@ -12,6 +12,7 @@
 
 #include "sim/collision/bounding_sphere.h"
 #include "sim/mesh/primitives.h"
+#include "sim/mesh/rotation.h"
 #include "sim/mesh/soft_mesh.h"
 #include "sim/swept/feature_ways.h"
 
@@ -126,7 +127,7 @@ TEST(MovingSurface, OnePairStandsForEachPairOfParts) {
     double nearest = 1.0;
     for (const NearFeatures& pair : pairs) {
       const ClosestPoints closest = *closest_points(a, b, pair, Moment::start, any_distance);
-      if (!stands_for_its_parts(a, b, pair, closest, Moment::start)) continue;
+      if (!stands_for_its_parts(a, b, pair, closest, Moment::start, 1e-6)) continue;
       nearest = std::min(nearest, closest.distance);
       points.push_back(0.5 * (closest.first_point + closest.second_point));
     }
@@ -138,6 +139,31 @@ TEST(MovingSurface, OnePairStandsForEachPairOfParts) {
       }
     }
   }
+}
+
+/// A face that lies on another, turned so that its edges cross the other's, and tilted by less than
+/// a degree.
+TEST(MovingSurface, FacesThatLieOnEachOtherTouchAtAllTheirCorners) {
+  const auto cube = make_soft_mesh(make_box({2.0, 2.0, 2.0}, 1));
+  MovingSurface below = make_surface(*cube, Vec3::Zero(), true);
+  MovingSurface above = make_surface(*cube, Vec3::Zero(), true);
+  const Mat3 turn = rotation_of_degrees({0.5, 0.3, 45.0}).toRotationMatrix();
+  for (int v = 0; v < above.start.size(); ++v) {
+    above.start[v] = above.end[v] = turn * above.start[v] + Vec3(0.0, 0.0, 2.02);
+  }
+  refit(above, 0.1);
+  refit(below, 0.1);
+  std::vector<NearFeatures> pairs;
+  find_near_features(above, below, pairs);
+  const auto standing = [&](double sine_of_flat) {
+    return std::ranges::count_if(pairs, [&](const NearFeatures& pair) {
+      const auto closest = closest_points(above, below, pair, Moment::start, 0.1);
+      return closest &&
+             stands_for_its_parts(above, below, pair, *closest, Moment::start, sine_of_flat);
+    });
+  };
+  EXPECT_EQ(standing(1e-6), 1);
+  EXPECT_EQ(standing(0.03), 8);  // where edges cross
 }
 
 /// The distance of a pair at a moment between start, 0, and end, 1.

@@ -1,5 +1,5 @@
-// Random piles of boxes, from needles to plates, of masses up to a hundred to one, and on demand a
-// thousand, with swept contacts.
+// Random piles of boxes, from needles to plates, of masses up to a hundred or a thousand to one,
+// with swept contacts.
 //
 // A failure prints the seed; PNEUMA_SEED=NUMBER runs that one alone.
 #include <gtest/gtest.h>
@@ -184,12 +184,14 @@ void for_each_pile(std::uint64_t first, int count, bool (*has_met)(std::uint64_t
 
 TEST(RandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1, 40, fly_together); }
 TEST(RandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1, 40, fall); }
+/// Of 5,000 those in which contacts would add up to 43 % of the energy in a step.
+TEST(RandomPiles, WhatIsPinchedGainsNoEnergy) {
+  for (const std::uint64_t seed : {2219, 3833, 4876, 4906, 5131, 5638}) fall(seed, 0.05);
+}
 TEST(ManyRandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1000, 5000, fly_together); }
 TEST(ManyRandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1000, 5000, fall); }
-/// Not yet so (ERRATA row 67): a light box that is pinched is shot out.
-TEST(ManyRandomPiles, DISABLED_OfAThousandToOneGainNoEnergy) {
-  for_each_pile(1000, 5000, fall, 0.05);
-}
+/// Light boxes that heavy ones pinch.
+TEST(ManyRandomPiles, OfAThousandToOneGainNoEnergy) { for_each_pile(1000, 5000, fall, 0.05); }
 
 }  // namespace
 }  // namespace pneuma::sim
