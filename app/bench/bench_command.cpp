@@ -16,9 +16,8 @@
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/grid_size.h"
-#include "app/world/find_scene.h"
+#include "app/world/open_scene.h"
 #include "app/world/scene_catalogue.h"
-#include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
 namespace {
@@ -44,13 +43,13 @@ std::vector<std::string> all_overrides(const BenchOptions& options) {
 }
 
 std::vector<scenes::Scene> load_scenes(const BenchOptions& options) {
-  std::vector<std::filesystem::path> paths;
-  for (const std::string& name : options.scenes) paths.push_back(find_scene(name));
-  if (paths.empty()) paths = scenes_of_the_paper();
-
+  std::vector<std::string> names = options.scenes;
+  if (names.empty()) {
+    for (const auto& path : scenes_of_the_paper()) names.push_back(path.string());
+  }
   std::vector<scenes::Scene> loaded;
   const std::vector<std::string> overrides = all_overrides(options);
-  for (const auto& path : paths) loaded.push_back(scenes::load_scene(path, overrides));
+  for (const std::string& name : names) loaded.push_back(open_scene(name, overrides));
   return loaded;
 }
 

@@ -31,10 +31,20 @@ class Loader {
     read_list("spring", scene_.springs, spring_section);
     reader_.report_idle_overrides();
     apply_method(scene_, reader_, report_);
+    fit_step_to_frames();
     check_scene(scene_, reader_, headers, report_);
   }
 
  private:
+  /// A frame takes whole steps: where only frames are named, the next number of steps that fits.
+  void fit_step_to_frames() {
+    int& steps = scene_.settings.steps_per_second;
+    const int& frames = scene_.picture.frames_per_second;
+    scene_.names_step = reader_.has_origin(&steps);
+    if (scene_.names_step || !reader_.valid({&frames})) return;
+    steps = frames * ((steps + frames - 1) / frames);
+  }
+
   /// Made twice, because the selectors decide which other keys apply.
   void read_section(SectionMaker make) {
     const Section section = make(scene_);

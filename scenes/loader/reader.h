@@ -38,6 +38,9 @@ class Reader {
   /// Whether a key of the table was refused because there is none of its name.
   bool has_unknown(std::string_view table) const { return with_unknown_.contains(table); }
 
+  /// Whether the member was given a value.
+  bool has_origin(const void* member) const { return origins_.contains(member); }
+
   /// Where the first of the members that was given a value got it; `otherwise` when none was.
   Origin origin(std::initializer_list<const void*> members, Origin otherwise) const;
 

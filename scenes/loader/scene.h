@@ -191,6 +191,7 @@ struct Scene {
   double duration = 10.0;           // s; a whole number of frames
 
   sim::Settings settings;
+  bool names_step = false;        // settings.steps_per_second is given, not the default
   double ambient_pressure = 0.0;  // Pa, outside of every body with gas
   std::vector<BodyScene> bodies;
   std::vector<ValveScene> valves;

@@ -108,7 +108,7 @@ TEST(Overrides, AreAsStrictAsTheFile) {
   expect_refusal("simulation.integrator=rk5", {"did you mean 'rk4'?"});
   expect_refusal("duratoin=1", {"did you mean 'duration'?"});
   expect_refusal("gravity=[0,0,0]", {"belongs in [simulation]"});
-  expect_refusal("picture.frames_per_second=25", {"does not divide"});
+  expect_refusal("simulation.steps_per_second=50", {"does not divide"});
   expect_refusal("title=5", {"expected a string in quotes, got integer 5"});
   expect_refusal("simulation.gravity=5", {"expected an array of 3 numbers"});
   expect_refusal("body.k=", {"expected a number, got string \"\""});

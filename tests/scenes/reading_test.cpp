@@ -299,6 +299,19 @@ TEST(Reading, DurationsThatBinaryCannotHoldAreWholeFrames) {
   }
 }
 
+TEST(Reading, FramesAloneGetTheNextStepsThatTheyDivide) {
+  const auto read = [](const std::string& text) {
+    return parse_scene(text + "[[body]]\n", "x.toml");
+  };
+  const auto steps = [&](const std::string& text) { return read(text).settings.steps_per_second; };
+  EXPECT_EQ(steps(""), 60);
+  EXPECT_EQ(steps("[picture]\nframes_per_second = 20\n"), 60);
+  EXPECT_EQ(steps("[picture]\nframes_per_second = 24\n"), 72);
+  EXPECT_EQ(steps("[picture]\nframes_per_second = 120\n"), 120);
+  EXPECT_FALSE(read("[picture]\nframes_per_second = 24\n").names_step);
+  EXPECT_TRUE(read("simulation.steps_per_second = 60\n").names_step);
+}
+
 TEST(Reading, QuotesAndCommentsHoldWhatTomlLetsThem) {
   const std::string dots(150, '.');  // more than keys may have on a line
   std::string text = "\xef\xbb\xbf# gr\xc3\xb6\xc3\x9fte \"Kugel\r\n";  // as Windows writes it

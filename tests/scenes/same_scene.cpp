@@ -222,8 +222,9 @@ void compare(Comparison& c, const Limits& a, const Limits& b) {
 }  // namespace
 
 std::string difference(const Scene& a, const Scene& b) {
-  // Where a scene's file lies and what the loader said of it is no part of what it says.
-  const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings,
+  // Where a scene's file lies, what the loader said of it, and which of its values are given is no
+  // part of what it says.
+  const auto& [name, folder, warnings, title, figure, paper_fps, duration, settings, names_step,
                ambient_pressure, bodies, valves, springs, camera, picture, limits] = a;
   Comparison c;
   c.member("scene name", name, b.name);

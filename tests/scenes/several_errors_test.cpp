@@ -29,7 +29,7 @@ TEST(SeveralErrors, AllErrorsOfAFileAreReportedAtOnceInItsOrder) {
 }
 
 TEST(SeveralErrors, ARefusedValueCausesNoErrorsElsewhere) {
-  // With the default 60 steps in place of the refused ones, 25 frames a second would not fit.
+  // With 60 steps in place of the refused ones, 25 frames a second would not fit.
   const std::string text =
       "[simulation]\nsteps_per_second = -50\n[picture]\nframes_per_second = 25\n[[body]]\n";
   try {

@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const std::string diverging = " --set ball.k=5000 --set ball.k_max=1e9";
+const std::string diverging =
+    " --set ball.k=5000 --set ball.k_max=1e9 --set simulation.steps_per_second=60";
 
 class UnfinishedExport : public RenderTest {
  protected:

@@ -12,7 +12,8 @@ using nlohmann::json;
 
 // sqrt(k/m) of 5000 N/m and 0.35 kg over six springs per vertex: 290 rad/s, where rk4 at 60 steps
 // per second is stable up to 2.8 * 60 = 170 rad/s.
-const std::string too_stiff = "--set body.k=5000 --set body.k_max=1e9 ";
+const std::string too_stiff =
+    "--set body.k=5000 --set body.k_max=1e9 --set simulation.steps_per_second=60 ";
 
 void expect_words(const ProgramResult& result, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
@@ -126,7 +127,8 @@ TEST_F(RenderTest, StepsAreDoneInSoManyPartsAndNoMore) {
 
 TEST(StiffFirmSphere, StopsInItsFirstSecondByRk4AndTheAdvisedStepWorks) {
   const std::string scene =
-      "check pressure_firm --run --set body.k=1e6 --set body.n=1e4 --set duration=";
+      "check pressure_firm --run --set body.k=1e6 --set body.n=1e4 "
+      "--set simulation.steps_per_second=60 --set duration=";
   const ProgramResult stopped = run_pneuma(scene + "60 2>&1");
   EXPECT_EQ(stopped.exit_code, 5) << stopped.output;
   const std::string time = found(stopped.output, R"(\(t = ([0-9.]+) s\))");
@@ -161,7 +163,8 @@ TEST(CheckSteps, SaysHowLongTheyMayBe) {
   expect_words(fine, {"Steps of soft bodies", "small motions stay stable up to "});
   EXPECT_EQ(fine.output.find("TOO LONG"), std::string::npos) << fine.output;
 
-  const ProgramResult stiff = run_pneuma("check one_sphere --set body.k=9e4 2>&1");
+  const ProgramResult stiff =
+      run_pneuma("check one_sphere --set body.k=9e4 --set simulation.steps_per_second=60 2>&1");
   EXPECT_EQ(stiff.exit_code, 0);
   expect_words(stiff,
                {"one_sphere.toml:", ": warning: body 'sphere': steps of 0.0167 s are longer than",

@@ -96,7 +96,8 @@ TEST_F(RenderTest, NeedsGl) {
 TEST_F(RenderTest, SaysWhereTheSimulationDiverged) {
   // sqrt(k/m) of 5000 N/m and 0.35 kg over six springs per vertex: 290 rad/s, where rk4 at 60 steps
   // per second is stable up to 2.8 * 60 = 170 rad/s.
-  const ProgramResult result = render("--set body.k=5000 --set body.k_max=1e9");
+  const ProgramResult result =
+      render("--set body.k=5000 --set body.k_max=1e9 --set simulation.steps_per_second=60");
   expect_failure(result, 5, {"fall: step ", "(t = ", "body ball: "});
   // The start at least was sound.
   EXPECT_TRUE(pictures().contains("fall_00000.png"));

@@ -1,6 +1,7 @@
 // A model where a scene is expected: it falls, and rests looking like itself.
 #include "app/world/open_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/host/errors.h"
@@ -100,6 +101,51 @@ TEST_F(OpenScene, TakesOneComponentOfSeveral) {
 TEST(OpenAScene, ThatIsNoModelRefusesAModelsOptions) {
   EXPECT_THROW(open_scene("one_sphere", {}, {.repair = true}), UsageError);
   EXPECT_THROW(open_scene("one_sphere", {}, {.component = "1"}), UsageError);
+}
+
+/// A scene file of its own for each.
+class OpenSceneFile : public testing::Test {
+ protected:
+  scenes::Scene open(const std::string& text) {
+    write_text(folder_ / "it.toml", text);
+    return open_scene((folder_ / "it.toml").string(), {});
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+const std::string stiff_body = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\nk = 50000\n";
+
+TEST_F(OpenSceneFile, WithoutAStepHasOneThatItsBodiesBear) {
+  const scenes::Scene scene = open("duration = 1\n" + stiff_body);
+  EXPECT_GT(scene.settings.steps_per_second, 60);
+  EXPECT_EQ(scene.settings.steps_per_second % 60, 0);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0].find(fmt::format("note: simulation.steps_per_second = {} instead of "
+                                               "60, because small motions of 'ball' are stable up",
+                                               scene.settings.steps_per_second)),
+            0u)
+      << scene.warnings[0];
+  sim::World world = build_world(scene);
+  const auto divergence = sim::run(world, 1.0);
+  EXPECT_FALSE(divergence) << divergence->what;
+}
+
+TEST_F(OpenSceneFile, KeepsAStepThatItNamesOrThatSuffices) {
+  const scenes::Scene named = open("[simulation]\nsteps_per_second = 60\n" + stiff_body);
+  EXPECT_EQ(named.settings.steps_per_second, 60);
+  EXPECT_TRUE(named.warnings.empty());
+  const scenes::Scene soft = open("[[body]]\nposition = [0, 0, 4]\nk = 50\n");
+  EXPECT_EQ(soft.settings.steps_per_second, 60);
+  EXPECT_TRUE(soft.warnings.empty());
+}
+
+TEST_F(OpenSceneFile, KeepsTheStepOfThePaperAndOfWhatNeedsATooShortOne) {
+  EXPECT_EQ(open("[simulation]\nmethod = \"paper\"\n" + stiff_body).settings.steps_per_second, 60);
+  const scenes::Scene stiffer = open("[[body]]\nposition = [0, 0, 4]\nk = 1e10\n");
+  EXPECT_EQ(stiffer.settings.steps_per_second, 60);
+  EXPECT_TRUE(stiffer.warnings.empty());
 }
 
 }  // namespace
