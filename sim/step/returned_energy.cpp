@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "sim/response/vibration.h"
 #include "sim/rigid/inertia.h"
@@ -226,6 +225,13 @@ class IslandMotion {
   Vec3 angular_velocity_ = Vec3::Zero();
 };
 
+bool has_pins(const World& world, SweptMemory& memory, int island) {
+  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
+    if (world.soft[at(i)].pins && memory.solver.island_of(i) == island) return true;
+  }
+  return false;
+}
+
 /// What nothing moves in this step, and an island meets.
 enum class Holder { none, at_rest, moved };
 
@@ -238,11 +244,7 @@ Holder holder_of(const World& world, SweptMemory& memory, int island) {
     if (body != swept_ground && moves(world, body)) return Holder::moved;
     holder = Holder::at_rest;
   }
-  const auto is_pinned = [&](int body) {
-    return world.soft[at(body)].pins && memory.solver.island_of(body) == island;
-  };
-  const auto bodies = std::views::iota(0, static_cast<int>(world.soft.size()));
-  return std::ranges::any_of(bodies, is_pinned) ? Holder::moved : holder;
+  return has_pins(world, memory, island) ? Holder::moved : holder;
 }
 
 /// J, of one step from rest. What contacts do at rest is of that size: where soft bodies carry a
