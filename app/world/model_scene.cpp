@@ -36,9 +36,8 @@ constexpr double drag = 0.05;
 constexpr int max_held_vertices = 5'000;
 /// Of the diagonal, by which gas may bend a shape that tensions hold.
 constexpr double max_deviation = 0.03;
-/// Below, springs along the edges hold what there is of faces. Above, thin walls may fold until
-/// triangles lose their height, where hinges need shorter steps than small motions tell.
-constexpr int min_bending_vertices = 50, max_bending_vertices = 1'500;
+/// Below, springs along the edges hold what there is of faces. Above, what they cost is too much.
+constexpr int min_bending_vertices = 50, max_bending_vertices = 20'000;
 
 /// Finer meshes come to rest no later, but take longer: s.
 constexpr int long_run_vertices = 3'000;
@@ -106,8 +105,12 @@ bool hold(Choice& choice) {
   return true;
 }
 
-/// The fastest motion of the hinges over that of the springs: so slow, they cost no step.
-constexpr double hinge_speed = 0.5;
+/// The fastest motion of the hinges over that of the springs: so slow, they cost no step. Walls of
+/// many triangles may fold until some lose their height, where hinges are stiffer than at rest.
+double hinge_speed(int vertices) {
+  constexpr int fine = 1'500;
+  return vertices <= fine ? 0.5 : 0.2;
+}
 
 void stiffen(sim::SoftBody& body) {
   body.mesh = sim::with_hinges(*body.mesh);
@@ -118,7 +121,8 @@ void stiffen(sim::SoftBody& body) {
     return sim::stability_limit(integrator, *body.mesh, material, body.positions).step;
   };
   const double ratio = step(hinges) / step(body.material);
-  if (std::isfinite(ratio)) body.material.bending = std::pow(hinge_speed * ratio, 2);
+  if (std::isfinite(ratio))
+    body.material.bending = std::pow(hinge_speed(body.positions.size()) * ratio, 2);
 }
 
 /// What keeps the shape: tensions, or less pressure; and bending stiffness against its weight.
