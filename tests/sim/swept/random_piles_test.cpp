@@ -186,7 +186,7 @@ TEST(RandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1, 40, fly_togeth
 TEST(RandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1, 40, fall); }
 /// Of 5,000 those in which contacts would add up to 43 % of the energy in a step.
 TEST(RandomPiles, WhatIsPinchedGainsNoEnergy) {
-  for (const std::uint64_t seed : {2219, 3833, 4876, 4906, 5131, 5638}) fall(seed, 0.05);
+  for (const std::uint64_t seed : {2219U, 3833U, 4876U, 4906U, 5131U, 5638U}) fall(seed, 0.05);
 }
 TEST(ManyRandomPiles, KeepMomentumAndGainNoEnergy) { for_each_pile(1000, 5000, fly_together); }
 TEST(ManyRandomPiles, GainNoEnergyOnTheGround) { for_each_pile(1000, 5000, fall); }
