@@ -2,16 +2,18 @@
 
 #include <fmt/format.h>
 
-#include "scenes/loader/load_scene.h"
-
 namespace pneuma::app {
+
+scenes::Diagnostic body_diagnostic(const scenes::Scene& scene, const scenes::Place& place,
+                                   const std::string& name, const std::string& reason) {
+  scenes::Place named = place;
+  if (named.file.empty()) named.file = (scene.folder / (scene.name + ".toml")).string();
+  return scenes::diagnostic_at(named, fmt::format("body '{}': {}", name, reason));
+}
 
 void refuse_body(const scenes::Scene& scene, const scenes::Place& place, const std::string& name,
                  const std::string& reason) {
-  scenes::Place named = place;
-  if (named.file.empty()) named.file = (scene.folder / (scene.name + ".toml")).string();
-  throw scenes::SceneError(
-      {scenes::diagnostic_at(named, fmt::format("body '{}': {}", name, reason))});
+  throw scenes::SceneError({body_diagnostic(scene, place, name, reason)});
 }
 
 }  // namespace pneuma::app

@@ -6,8 +6,11 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/world/refuse_body.h"
 #include "app/world/touch.h"
@@ -67,29 +70,39 @@ std::string way_apart(const sim::World& world, int first, int second) {
 constexpr const char* remedy =
     "or let simulation.contact = \"impulses\" part what starts in each other";
 
-/// The first.
-std::optional<StartOverlap> find_start_overlap(const sim::World& world) {
+StartOverlap in_the_ground(const sim::Overlap& overlap) {
+  return {overlap.first, fmt::format("starts {:.3g} m deep in the ground; {}, {}", overlap.depth,
+                                     moved(overlap.depth, "+z"), remedy)};
+}
+
+StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap) {
+  return {overlap.second, fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
+                                      name_of(world, overlap.first),
+                                      way_apart(world, overlap.first, overlap.second), remedy)};
+}
+
+StartOverlap through_another(const sim::World& world, const sim::CrossingPair& pair) {
+  return {pair.second,
+          fmt::format("starts through the surface of body '{}'; {}, {}", name_of(world, pair.first),
+                      way_apart(world, pair.first, pair.second), remedy)};
+}
+
+std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
+  std::vector<StartOverlap> found;
+  std::vector<std::pair<int, int>> pairs;
   for (const sim::Overlap& overlap : sim::overlaps(world)) {
     if (!is_deep(world, overlap)) continue;
-    if (overlap.second == sim::ground_body) {
-      return StartOverlap{overlap.first,
-                          fmt::format("starts {:.3g} m deep in the ground; {}, {}", overlap.depth,
-                                      moved(overlap.depth, "+z"), remedy)};
-    }
-    return StartOverlap{overlap.second,
-                        fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
-                                    name_of(world, overlap.first),
-                                    way_apart(world, overlap.first, overlap.second), remedy)};
+    const bool on_ground = overlap.second == sim::ground_body;
+    found.push_back(on_ground ? in_the_ground(overlap) : in_another(world, overlap));
+    pairs.emplace_back(overlap.first, overlap.second);
   }
   for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
     // Boxes that only touch may cross by a rounding; how deep they lie in each other is exact.
     if (pair.first == pair.second || sim::at(pair.first) >= world.soft.size()) continue;
-    return StartOverlap{
-        pair.second,
-        fmt::format("starts through the surface of body '{}'; {}, {}", name_of(world, pair.first),
-                    way_apart(world, pair.first, pair.second), remedy)};
+    if (std::ranges::find(pairs, std::pair(pair.first, pair.second)) != pairs.end()) continue;
+    found.push_back(through_another(world, pair));
   }
-  return std::nullopt;
+  return found;
 }
 
 /// Soft bodies come first in a world, each kind in the order of the scene.
@@ -134,13 +147,22 @@ std::optional<StartOverlap> find_potential_start(const sim::World& world) {
 
 void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
   if (start.settings.contact == sim::ContactMethod::impulses) return;
-  auto overlap = find_start_overlap(start);
-  if (!overlap && start.settings.contact == sim::ContactMethod::potential) {
-    overlap = find_potential_start(start);
+  std::vector<StartOverlap> found = find_start_overlaps(start);
+  if (found.empty() && start.settings.contact == sim::ContactMethod::potential) {
+    if (auto overlap = find_potential_start(start)) found.push_back(*overlap);
   }
-  if (!overlap) return;
-  refuse_body(scene, in_scene(scene, overlap->body).position_place, name_of(start, overlap->body),
-              overlap->reason);
+  if (found.empty()) return;
+  constexpr std::size_t most_shown = 10;
+  const std::size_t shown = std::min(found.size(), most_shown);
+  if (shown < found.size()) {
+    found[shown - 1].reason += fmt::format(" (and {} more such pairs)", found.size() - shown);
+  }
+  std::vector<scenes::Diagnostic> diagnostics;
+  for (const StartOverlap& overlap : std::span(found).first(shown)) {
+    diagnostics.push_back(body_diagnostic(scene, in_scene(scene, overlap.body).position_place,
+                                          name_of(start, overlap.body), overlap.reason));
+  }
+  throw scenes::SceneError(diagnostics);
 }
 
 }  // namespace pneuma::app

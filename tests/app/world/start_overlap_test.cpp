@@ -48,6 +48,20 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
 }
 
+TEST(StartOverlap, EachIsNamedUpToTen) {
+  const std::string boxes =
+      "[[body]]\nname = \"box\"\nkind = \"rigid\"\nsize = [2, 2, 2]\nposition = ";
+  const std::string two =
+      refusal_of(boxes + "[0, 0, 0.9]\n[[body]]\nname = \"ball\"\nposition = [1, 0, 3]\n");
+  EXPECT_NE(two.find("x.toml:5:12: body 'box': starts 0.1 m deep in the ground"), std::string::npos)
+      << two;
+  EXPECT_NE(two.find("in body 'ball'"), std::string::npos) << two;
+  const std::string many = refusal_of(boxes + "[0, 0, 0.9]\ncopies = [13, 1, 1]\n");
+  EXPECT_NE(many.find("body 'box.10': "), std::string::npos) << many;
+  EXPECT_EQ(many.find("body 'box.11': "), std::string::npos) << many;
+  EXPECT_NE(many.find("(and 3 more such pairs)"), std::string::npos) << many;
+}
+
 TEST(StartOverlap, ThePotentialNeedsADistanceButNotFromTheGround) {
   const std::string potential = "simulation.contact = \"potential\"\n";
   const std::string ball = "[[body]]\nposition = [0, 0, 3]\n";
