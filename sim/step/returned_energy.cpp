@@ -135,6 +135,12 @@ class IslandMotion {
     return sum;
   }
 
+  bool has_soft_bodies() const {
+    bool any = false;
+    for_each_soft([&](const SoftBody&) { any = true; });
+    return any;
+  }
+
   /// kg.
   double mass() const {
     double sum = 0.0;
@@ -232,14 +238,17 @@ bool has_pins(const World& world, SweptMemory& memory, int island) {
   return false;
 }
 
-/// What nothing moves in this step, and an island meets.
+/// What bears an island without being moved by impulses: the ground and bodies that nothing moves,
+/// or bodies that keep their velocities, and pins.
 enum class Holder { none, at_rest, moved };
 
 Holder holder_of(const World& world, SweptMemory& memory, int island) {
   Holder holder = Holder::none;
   for (const SweptImpulse* impulse : memory.solver.impulses_of(island)) {
     if (impulse->first().moves() && impulse->second().moves()) continue;
-    const SweptContact& contact = memory.contacts[contact_of(memory, impulse)];
+    const std::size_t i = contact_of(memory, impulse);
+    if ((memory.given_at_start[i] + impulse->given()).isZero(0.0)) continue;  // it bears nothing
+    const SweptContact& contact = memory.contacts[i];
     const int body = impulse->first().moves() ? contact.second.body : contact.first.body;
     if (body != swept_ground && moves(world, body)) return Holder::moved;
     holder = Holder::at_rest;
@@ -247,25 +256,26 @@ Holder holder_of(const World& world, SweptMemory& memory, int island) {
   return has_pins(world, memory, island) ? Holder::moved : holder;
 }
 
-/// J, of one step from rest. What contacts do at rest is of that size: where soft bodies carry a
-/// load it presses them at the start of each step, and their damping takes that until its end.
+/// J, of one step from rest.
 double energy_of_fall(const Settings& settings, double mass) {
   return 0.5 * mass * (time_step(settings) * settings.gravity).squaredNorm();
 }
 
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
-/// body at rest, holds the island it takes from all motion, what is beyond a free fall's: the
-/// holder bears what that changes. All velocities against each other shrink by the same factor, so
-/// that at contacts what parts still parts. Returns what was taken: no more than there is, and
-/// nothing if pins, or bodies that keep their velocities, hold the island.
+/// body at rest, holds the island it takes from all motion, whose momentum the holder gets. Loads
+/// press soft bodies at the start of each step, whose damping takes that until its end, so that
+/// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
+/// against each other shrink by the same factor, so that at contacts what parts still parts.
+/// Returns what was taken: no more than there is, and nothing if pins, or bodies that keep their
+/// velocities, hold the island.
 double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
   const Holder holder = holder_of(world, memory, island);
   if (holder == Holder::moved) return 0.0;
   IslandMotion motion(world, memory, island);
   if (holder == Holder::none) {
     motion.leave_out_common();
-  } else {
+  } else if (motion.has_soft_bodies()) {
     energy -= energy_of_fall(world.settings, motion.mass());
   }
   const double there_is = motion.energy();

@@ -20,7 +20,8 @@ void limit_returned_energy(SweptMemory& memory, double tolerance);
 /// the same at both ends. Where it grows they take energy and where it falls they add some, of
 /// second order in the step: an island whose contacts have added energy gives it up again from the
 /// motion of its soft bodies that is not that of a rigid body, and then from that of its bodies
-/// against each other, so that momentum and angular momentum stay as they are.
+/// against each other, so that momentum and angular momentum stay as they are. Where the ground or
+/// a body at rest bears the island, which then changes these anyway, it gives up from all motion.
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///
