@@ -5,9 +5,9 @@
 
 namespace pneuma::app {
 
-/// Whether the shape at rest has sharp edges and no others: all triangles next to each other lie
-/// nearly in one plane or meet at 60 degrees and more, as of a cube, a letter or a house. Round
-/// shapes have edges between, however coarse they are.
+/// Whether the shape at rest is bent at sharp edges for the most part: at 60 degrees and more, over
+/// a quarter of the length of all edges whose triangles do not lie nearly in one plane, as of a
+/// cube, a house or a part of a machine. Round shapes have edges between, however coarse they are.
 bool is_faceted(const sim::SoftMesh& mesh);
 
 }  // namespace pneuma::app

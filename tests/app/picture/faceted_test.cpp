@@ -1,0 +1,43 @@
+// Which shapes are drawn with flat faces.
+#include "app/picture/faceted.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sim/mesh/primitives.h"
+
+namespace pneuma::app {
+namespace {
+
+/// A prism of 24 sides, of radius 1 m, which turn by 15 degrees from one to the next.
+sim::SoftMesh prism(double height) {
+  constexpr int sides = 24;
+  sim::TriangleMesh mesh;
+  mesh.vertices.resize(2 * sides + 2);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    mesh.vertices[sim::at(i)] = sim::Vec3(std::cos(angle), std::sin(angle), 0.0);
+    mesh.vertices[sim::at(sides + i)] = sim::Vec3(std::cos(angle), std::sin(angle), height);
+    const int next = (i + 1) % sides;
+    mesh.triangles.push_back({i, next, sides + next});
+    mesh.triangles.push_back({i, sides + next, sides + i});
+    mesh.triangles.push_back({2 * sides, next, i});
+    mesh.triangles.push_back({2 * sides + 1, sides + i, sides + next});
+  }
+  mesh.vertices[2 * sides] = sim::Vec3::Zero();
+  mesh.vertices[2 * sides + 1] = sim::Vec3(0.0, 0.0, height);
+  return *sim::make_soft_mesh(mesh);
+}
+
+TEST(Faceted, IsWhatBendsAtSharpEdgesForTheMostPart) {
+  EXPECT_TRUE(is_faceted(*sim::make_soft_mesh(sim::make_box({2.0, 2.0, 2.0}, 3))));
+  // Of 2 x 2 pi m of sharp rims to 24 sides of a height: 0.39 with a height of 0.8 m.
+  EXPECT_TRUE(is_faceted(prism(0.8)));
+  EXPECT_FALSE(is_faceted(prism(2.0)));
+  EXPECT_FALSE(is_faceted(*sim::make_soft_mesh(sim::make_sphere(1.0, 8, 8))));
+}
+
+}  // namespace
+}  // namespace pneuma::app
