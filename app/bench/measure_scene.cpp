@@ -192,6 +192,10 @@ PaperMethodFps measure_paper_method(const scenes::Scene& scene, const MeasureOpt
   }
   scenes::Scene as_printed = scene;
   scenes::use_paper_method(as_printed);
+  if (!scene.names_step) {
+    as_printed.settings.steps_per_second =
+        scenes::default_steps_per_second(scene.picture.frames_per_second);
+  }
   MeasureOptions simulation = options;
   simulation.pictures = false;
   try {

@@ -10,8 +10,7 @@
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/record/provenance.h"
-#include "app/world/find_scene.h"
-#include "scenes/loader/load_scene.h"
+#include "app/world/open_scene.h"
 
 namespace pneuma::app {
 
@@ -43,7 +42,7 @@ std::vector<scenes::Scene> load_scenes(const std::vector<std::string>& names,
                                        const std::vector<std::string>& overrides) {
   std::vector<scenes::Scene> loaded;
   for (const std::string& name : names) {
-    loaded.push_back(scenes::load_scene(find_scene(name), overrides));
+    loaded.push_back(open_scene(name, overrides));
     refuse_paper_method(loaded.back());
   }
   return loaded;

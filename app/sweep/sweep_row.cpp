@@ -19,6 +19,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Runs may differ in it: "" where it is the default, or named.
+std::string chosen_steps(const scenes::Scene& scene) {
+  const int steps = scene.settings.steps_per_second;
+  if (scene.names_step ||
+      steps == scenes::default_steps_per_second(scene.picture.frames_per_second)) {
+    return "";
+  }
+  return fmt::format("{} steps per second", steps);
+}
+
 void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::path& folder) {
   const scenes::Scene scene = open_scene(run.scene_path, run.overrides(sweep));
   refuse_start_overlap(scene, build_world(scene));
@@ -28,7 +38,7 @@ void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::
   if (statistics.divergence) throw DivergenceError(*statistics.divergence);
   const RunVerdict verdict = judge_run(scene, statistics);
   row.code = verdict.code;
-  if (verdict.code != ExitCode::done) row.words = verdict.words;
+  row.words = verdict.code == ExitCode::done ? chosen_steps(scene) : verdict.words;
   if (sweep.frames == SweepFrames::none || folder.empty()) return;
   const std::int64_t last = scenes::frame_count(scene);
   render_run(sweep, run, sweep.frames == SweepFrames::last ? fmt::format("{0}-{0}", last) : "",

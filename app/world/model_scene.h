@@ -5,8 +5,9 @@
 // body has the same size, mass and k whatever its mesh, so that its weight stretches that membrane
 // by a percent or two, and gas a little above the pressure outside bears the weight. What is
 // outside makes the gas resist a change of volume. Faces that are flat or concave are held by
-// hinges between triangles (sim/soft/bending.h), made as stiff as costs no step. The mesh decides
-// the mass of a vertex, and with it the step (sim/soft/stability_limit.h).
+// hinges between triangles (sim/soft/bending.h), made as stiff as costs no step, and softer where
+// many triangles may fold. The mesh decides the mass of a vertex, and with it the step
+// (sim/soft/stability_limit.h).
 #pragma once
 
 #include <filesystem>

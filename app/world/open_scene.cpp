@@ -9,6 +9,7 @@
 #include "app/world/build_world.h"
 #include "app/world/find_model.h"
 #include "app/world/find_scene.h"
+#include "app/world/scene_warnings.h"
 #include "app/world/step_advice.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
@@ -17,26 +18,45 @@ namespace pneuma::app {
 
 namespace {
 
-/// Of the default steps, so that a run still ends: stiffer bodies are for implicit methods, as the
-/// warning about them says.
-constexpr int most_parts = 64;
+/// So that a run still ends: stiffer bodies are for implicit methods, as the warning about them
+/// says.
+constexpr int most_chosen_steps = 100'000;
+
+/// Damping by the step is of the steps that were thought of.
+bool is_damped_by_the_step(const sim::World& world) {
+  return sim::is_as_printed(world.settings) ||
+         std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
+           return body.material.damping == sim::Damping::literal;
+         });
+}
+
+/// Of the bodies whose steps are too long the one that needs the shortest; null if there is none,
+/// or if that is too short.
+const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
+  const StepAdvice* shortest = nullptr;
+  for (const StepAdvice& advice : advices) {
+    if (!advice.too_long()) continue;
+    const bool has_one = advice.steps_per_second > 0;
+    if (!has_one || advice.steps_per_second > most_chosen_steps) return nullptr;
+    if (!shortest || advice.steps_per_second > shortest->steps_per_second) shortest = &advice;
+  }
+  return shortest;
+}
 
 void choose_step(scenes::Scene& scene) {
-  if (scene.names_step || sim::is_as_printed(scene.settings)) return;
-  const std::vector<StepAdvice> advices = step_advices(build_world(scene));
-  const auto slowest = std::ranges::max_element(advices, {}, [](const StepAdvice& advice) {
-    return advice.too_long() ? advice.steps_per_second : 0;
-  });
+  if (scene.names_step) return;
+  const sim::World world = build_world(scene);
+  if (is_damped_by_the_step(world)) return;
+  const std::vector<StepAdvice> advices = step_advices(world);
   int& steps = scene.settings.steps_per_second;
-  if (slowest == advices.end() || !slowest->too_long() || slowest->steps_per_second == 0 ||
-      slowest->steps_per_second > most_parts * steps) {
-    return;
-  }
-  scene.warnings.push_back(fmt::format(
-      "note: simulation.steps_per_second = {} instead of {}, because small motions of '{}' are "
-      "stable up to steps of {:.3g} s",
-      slowest->steps_per_second, steps, slowest->body, slowest->limit));
-  steps = slowest->steps_per_second;
+  const StepAdvice* shortest = shortest_step(advices);
+  if (!shortest) return;
+  scene.warnings.push_back(to_string(scenes::diagnostic_at(
+      place_of(scene, shortest->body),
+      fmt::format("note: body '{}': {} steps per second in place of {}, because small motions are "
+                  "stable up to {:.3g} s; simulation.steps_per_second sets others",
+                  shortest->body, shortest->steps_per_second, steps, shortest->limit))));
+  steps = shortest->steps_per_second;
 }
 
 }  // namespace

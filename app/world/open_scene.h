@@ -10,9 +10,10 @@
 namespace pneuma::app {
 
 /// Loads what find_scene finds; of a model file, the scene that model_scene.h makes. A scene that
-/// names no step gets the steps that step_advice.h finds for its bodies, and a warning that says
-/// so; but one as printed in the paper keeps its own. Throws scenes::SceneError,
-/// assets::ModelError, and UsageError if a choice is made of no model.
+/// names no step gets the steps that step_advice.h finds for its bodies, if these are at most
+/// 100,000 a second, and a note in its warnings; but not where damping is by the step, as in the
+/// paper. Throws scenes::SceneError, assets::ModelError, and UsageError if a choice is made of no
+/// model.
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice = {});
 

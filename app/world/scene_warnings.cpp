@@ -10,9 +10,7 @@
 #include "sim/potential/start_distance.h"
 
 namespace pneuma::app {
-namespace {
 
-/// Of the [[body]] of which a world's body is a copy: "ball" or, of several, "ball.3".
 scenes::Place place_of(const scenes::Scene& scene, const std::string& name) {
   const auto body = std::ranges::find_if(scene.bodies, [&](const scenes::BodyScene& candidate) {
     return name == candidate.name ||
@@ -20,6 +18,8 @@ scenes::Place place_of(const scenes::Scene& scene, const std::string& name) {
   });
   return body == scene.bodies.end() ? scenes::Place{} : body->place;
 }
+
+namespace {
 
 std::string warning_at(const scenes::Scene& scene, const std::string& name,
                        const std::string& what) {

@@ -11,6 +11,9 @@
 
 namespace pneuma::app {
 
+/// Of the [[body]] of which a world's body is a copy: "ball" or, of several, "ball.3".
+scenes::Place place_of(const scenes::Scene& scene, const std::string& name);
+
 /// The loader's warnings, bodies whose steps are too long, bodies that gas blows up, and bodies
 /// that the contact potential throws apart from the start, each with its place:
 /// "two_balls.toml:4:1: warning: body 'ball': ...".

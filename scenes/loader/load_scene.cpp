@@ -37,12 +37,13 @@ class Loader {
 
  private:
   /// A frame takes whole steps: where only frames are named, the next number of steps that fits.
+  /// The paper's damping is by the step, so that its steps stay.
   void fit_step_to_frames() {
     int& steps = scene_.settings.steps_per_second;
     const int& frames = scene_.picture.frames_per_second;
     scene_.names_step = reader_.has_origin(&steps);
     if (scene_.names_step || !reader_.valid({&frames})) return;
-    steps = frames * ((steps + frames - 1) / frames);
+    if (!sim::is_as_printed(scene_.settings)) steps = default_steps_per_second(frames);
   }
 
   /// Made twice, because the selectors decide which other keys apply.

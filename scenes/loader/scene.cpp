@@ -39,6 +39,11 @@ std::int64_t frame_count(const Scene& scene) {
   return std::llround(scene.duration * scene.picture.frames_per_second);
 }
 
+int default_steps_per_second(int frames_per_second) {
+  const int least = sim::Settings{}.steps_per_second;
+  return frames_per_second * ((least + frames_per_second - 1) / frames_per_second);
+}
+
 int steps_per_frame(const Scene& scene) {
   return scene.settings.steps_per_second / scene.picture.frames_per_second;
 }

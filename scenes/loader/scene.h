@@ -221,6 +221,10 @@ std::int64_t copy_count(const BodyScene& body);
 /// Frames of the whole run, without the one at time zero.
 std::int64_t frame_count(const Scene& scene);
 
+/// Of a scene that names no step: the least number, from the default one on, that the frames
+/// divide.
+int default_steps_per_second(int frames_per_second);
+
 /// Steps from one frame to the next: a whole number in every valid scene.
 int steps_per_frame(const Scene& scene);
 

@@ -83,8 +83,8 @@ Section simulation_section(Scene& scene) {
       .what = with_contact("a simulation", settings),
       .keys = {
           {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
-           "simulation steps; the time step is the inverse; where left out, as many as the small "
-           "motions of all bodies need"},
+           "simulation steps; the time step is the inverse; where left out, up to 100,000 "
+           "if the small motions of bodies need it"},
           selector({"method", word(settings.method, methods), any(), "",
                     "paper: all as printed, and no key beside it that it sets; corrected: as "
                     "ERRATA says"}),

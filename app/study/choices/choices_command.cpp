@@ -17,8 +17,7 @@
 #include "app/terminal/common_options.h"
 #include "app/terminal/progress.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
-#include "scenes/loader/load_scene.h"
+#include "app/world/open_scene.h"
 
 namespace pneuma::app {
 namespace {
@@ -70,7 +69,7 @@ void write_files(const StudyFolder& folder, const ChoicesStudy& study) {
 }
 
 ExitCode study(const ChoicesArguments& typed) {
-  scenes::Scene scene = scenes::load_scene(find_scene(typed.scene), typed.overrides);
+  scenes::Scene scene = open_scene(typed.scene, typed.overrides);
   // Whatever the scene chooses, both are measured; the integrators on the one that is an equation.
   for (scenes::BodyScene& body : scene.bodies) body.material.damping = sim::Damping::dashpot;
   const StudyFolder folder(typed.out);

@@ -116,7 +116,7 @@ TEST_F(SweepTest, AFailedRunIsARowWithItsCodeAndWords) {
 measure = ["energy", "seconds"]
 [[parameter]]
 key = "body.k"
-values = [50, -1, 1e9]
+values = [50, -1, 1e12]
 )");
   const ProgramResult result = sweep("--cores 2");
   ASSERT_EQ(result.exit_code, 0) << result.output;
@@ -181,7 +181,7 @@ frames = "all"
 size = "32x24"
 [[parameter]]
 key = "body.k"
-values = [50, 1e9]
+values = [50, 1e12]
 )");
   ASSERT_EQ(sweep("--cores 1", "whole").exit_code, 0);
   for (const char* part : {"--jobs 0-1 --no-pictures", "--frames 0:4-6", "--frames 0:0-3",
@@ -249,7 +249,7 @@ TEST_F(SweepTest, MapsLeaveOutWhatARunHadWhenItDiverged) {
 measure = ["energy"]
 [[parameter]]
 key = "body.k"
-values = [50, 1e9]
+values = [50, 1e12]
 [[parameter]]
 key = "body.n"
 values = [1, 2]
