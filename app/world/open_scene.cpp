@@ -15,7 +15,6 @@
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
-
 namespace {
 
 /// So that a run still ends: stiffer bodies are for implicit methods, as the warning about them
@@ -23,9 +22,9 @@ namespace {
 constexpr int most_chosen_steps = 100'000;
 
 /// Damping by the step is of the steps that were thought of.
-bool is_damped_by_the_step(const sim::World& world) {
-  return sim::is_as_printed(world.settings) ||
-         std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
+bool is_damped_by_the_step(const scenes::Scene& scene) {
+  return sim::is_as_printed(scene.settings) ||
+         std::ranges::any_of(scene.bodies, [](const scenes::BodyScene& body) {
            return body.material.damping == sim::Damping::literal;
          });
 }
@@ -44,10 +43,8 @@ const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
 }
 
 void choose_step(scenes::Scene& scene) {
-  if (scene.names_step) return;
-  const sim::World world = build_world(scene);
-  if (is_damped_by_the_step(world)) return;
-  const std::vector<StepAdvice> advices = step_advices(world);
+  if (scene.names_step || is_damped_by_the_step(scene)) return;
+  const std::vector<StepAdvice> advices = step_advices(build_world(scene));
   int& steps = scene.settings.steps_per_second;
   const StepAdvice* shortest = shortest_step(advices);
   if (!shortest) return;
