@@ -34,4 +34,14 @@ std::string shell_line(std::span<const std::string> arguments) {
   return line;
 }
 
+std::string snakemake_text(const std::string& command) {
+  std::string text;
+  for (const char c : command) {
+    if (c == '\\' || c == '"') text += '\\';
+    text += c;
+    if (c == '{' || c == '}') text += c;
+  }
+  return text;
+}
+
 }  // namespace pneuma::app

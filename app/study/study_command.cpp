@@ -22,6 +22,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_examples(*study, {"pneuma study error one_sphere --short", "pneuma study extremes"});
   add_examples(*study->get_subcommand("error"),
                {"pneuma study error one_sphere --free-flight",
+                "pneuma study error one_sphere one_torus --snakemake flow",
                 "pneuma study error one_sphere --set body.k=80 --short"});
   add_examples(*study->get_subcommand("choices"),
                {"pneuma study choices", "pneuma study choices one_torus --short --json"});
@@ -34,7 +35,8 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_examples(*study->get_subcommand("impacts"),
                {"pneuma study impacts", "pneuma study impacts --runs 100 --seed 2"});
   add_examples(*study->get_subcommand("stability"),
-               {"pneuma study stability", "pneuma study stability one_sphere --short"});
+               {"pneuma study stability", "pneuma study stability one_sphere --short",
+                "pneuma study stability --snakemake flow"});
 }
 
 }  // namespace pneuma::app

@@ -93,17 +93,6 @@ std::vector<RunRange> make_chunks(const std::vector<double>& seconds, double mos
 
 namespace {
 
-/// A word of a shell command within a string of Snakemake's, whose braces are its own.
-std::string shell_word(const std::string& word) {
-  std::string text;
-  for (const char c : shell_line(std::vector<std::string>{word})) {
-    if (c == '\\' || c == '"') text += '\\';
-    text += c;
-    if (c == '{' || c == '}') text += c;
-  }
-  return text;
-}
-
 std::string listed(const std::vector<std::string>& items) {
   std::string text;
   for (const std::string& item : items) text += fmt::format("    \"{}\",\n", item);
@@ -155,8 +144,8 @@ std::string snakefile(const Sweep& sweep, const std::string& program, const Work
       fmt::runtime(head), fmt::arg("name", sweep.name),
       fmt::arg("seconds", workflow.seconds_per_chunk), fmt::arg("chunks", listed(chunks)),
       fmt::arg("frames", listed(frames)),
-      fmt::arg("command", fmt::format("{} sweep {} --out . --quiet", shell_word(program),
-                                      shell_word(sweep.file.string()))),
+      fmt::arg("command", snakemake_text(shell_line(std::vector<std::string>{
+                              program, "sweep", sweep.file.string(), "--out", ".", "--quiet"}))),
       fmt::arg("no_pictures", frames.empty() ? "" : " --no-pictures"));
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,7 @@
 #include "app/study/report_text.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/study/study_options.h"
+#include "app/study/study_parts.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/progress.h"
 
@@ -23,7 +24,7 @@ namespace pneuma::app {
 namespace {
 
 /// The options as they were typed.
-struct ErrorArguments : StudyOptions {
+struct ErrorArguments : SplitOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   FlightOptions flight;
@@ -42,35 +43,61 @@ ErrorOptions sweep(const ErrorArguments& typed) {
   return options;
 }
 
-void write_files(const StudyFolder& folder, const ErrorStudy& study) {
-  folder.write(study.name + "_runs.csv", runs_csv(study));
-  folder.write(study.name + "_ratios.csv", ratios_csv(study));
-  write_diagram(folder, study.name + "_work", work_diagram(study));
-  write_diagram(folder, study.name + "_step", step_diagram(study));
-}
-
-/// What has been found so far.
-struct Findings {
-  nlohmann::json scenes = nlohmann::json::array();
-  std::string text;
-  std::vector<std::string> warnings = timing_warnings(timing_conditions());
-  ExitCode code = ExitCode::done;
-};
-
-void study_scene(const scenes::Scene& scene, const ErrorOptions& options, const StudyFolder& folder,
-                 Progress& progress, Findings& findings) {
+/// A scene is one part, because its runs' times are compared.
+nlohmann::json measure_scene(const scenes::Scene& scene, const ErrorOptions& options,
+                             Progress& progress) {
   const auto say = [&](const std::string& what) {
     progress.show(fmt::format("{}: {}", scene.name, what));
   };
+  nlohmann::json measured = {{"name", scene.name}, {"machine", machine_json()}};
+  measured["warnings"] = timing_warnings(timing_conditions());
   try {
     const ErrorStudy study = study_errors(scene, options, say);
-    write_files(folder, study);
-    findings.scenes.push_back(error_json(study));
-    findings.text += error_text(study) + "\n";
+    measured.update(
+        {{"scene", error_json(study)},
+         {"text", error_text(study)},
+         {"csv",
+          {{study.name + "_runs", runs_csv(study)}, {study.name + "_ratios", ratios_csv(study)}}},
+         {"diagrams",
+          {{study.name + "_work", gnuplot_script(work_diagram(study), study.name + "_work")},
+           {study.name + "_step", gnuplot_script(step_diagram(study), study.name + "_step")}}}});
   } catch (const DivergenceError& error) {  // the other scenes are still worth measuring
-    findings.warnings.push_back(fmt::format("{} is missing: {}", scene.name, error.what()));
-    findings.code = ExitCode::diverged;
+    measured["missing"] = error.what();
   }
+  return measured;
+}
+
+/// What has been found.
+struct Findings {
+  nlohmann::json scenes = nlohmann::json::array();
+  std::string text;
+  std::vector<std::string> warnings;
+  ExitCode code = ExitCode::done;
+};
+
+void add_warning(Findings& findings, const std::string& warning) {
+  if (std::ranges::count(findings.warnings, warning) == 0) findings.warnings.push_back(warning);
+}
+
+void add_scene(const nlohmann::json& measured, const StudyFolder& folder, Findings& findings) {
+  for (const std::string warning : measured["warnings"]) add_warning(findings, warning);
+  const std::string name = measured["name"];
+  if (measured["machine"] != machine_json()) {
+    add_warning(findings, fmt::format("{} was measured on another machine: {}", name,
+                                      measured["machine"]["cpu"].get<std::string>()));
+  }
+  if (measured.contains("missing")) {
+    add_warning(findings,
+                fmt::format("{} is missing: {}", name, measured["missing"].get<std::string>()));
+    findings.code = ExitCode::diverged;
+    return;
+  }
+  for (const auto& [file, text] : measured["csv"].items()) folder.write(file + ".csv", text);
+  for (const auto& [file, script] : measured["diagrams"].items()) {
+    write_script(folder, file, script);
+  }
+  findings.scenes.push_back(measured["scene"]);
+  findings.text += measured["text"].get<std::string>() + "\n";
 }
 
 void print(const ErrorArguments& typed, const ErrorOptions& options, const StudyFolder& folder,
@@ -92,13 +119,18 @@ void print(const ErrorArguments& typed, const ErrorOptions& options, const Study
 
 ExitCode study(const ErrorArguments& typed) {
   const std::vector<scenes::Scene> scenes = load_scenes(typed.scenes, typed.overrides);
-  const StudyFolder folder(typed.out);
   const ErrorOptions options = sweep(typed);
-  Findings findings;
   Progress progress(progress_style(typed.quiet));
+  std::vector<StudyPart> parts;
   for (const scenes::Scene& scene : scenes) {
-    study_scene(scene, options, folder, progress, findings);
+    parts.push_back(
+        {part_name({scene.name}), [&] { return measure_scene(scene, options, progress); }});
   }
+  const auto measured = measure_parts(typed, "error", scenes, parts);
+  if (!measured) return ExitCode::done;
+  const StudyFolder folder(typed.out);
+  Findings findings;
+  for (const nlohmann::json& scene : *measured) add_scene(scene, folder, findings);
   progress.say("files in " + folder.path().string());
   print(typed, options, folder, findings);
   return findings.code;
@@ -127,7 +159,7 @@ void add_error_study(CLI::App& study_command, Action& action,
   command->add_option("--repeats", typed->repeats, "Of each run, for its time [5; with --short 2]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  add_study_options(*command, *typed, command_line, "Fewer steps, less time: to see that it works");
+  add_split_options(*command, *typed, command_line, "Fewer steps, less time: to see that it works");
   command->add_flag("--json", typed->json, "JSON in place of text");
   add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return study(*typed); }; });

@@ -8,11 +8,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/study/stability/stability_parts.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
-#include "app/study/study_options.h"
+#include "app/study/study_parts.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/progress.h"
 #include "app/world/find_scene.h"
@@ -21,7 +22,7 @@
 namespace pneuma::app {
 namespace {
 
-struct StabilityArguments : StudyOptions {
+struct StabilityArguments : SplitOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   bool quiet = false;
@@ -43,42 +44,68 @@ std::vector<double> stiffnesses(bool few) {
   return all;
 }
 
+using Say = std::function<void(const std::string&)>;
+
 /// Of the first scene: what implicit steps cost and gain.
-void study_costs(const StabilityArguments& typed, const StudyFolder& folder, Progress& progress) {
-  const auto say = [&](const std::string& what) { progress.show(what); };
+nlohmann::json measure_costs(const StabilityArguments& typed, const Say& say) {
   const auto load = [&](const std::vector<std::string>& stiffness) {
     std::vector<std::string> overrides = typed.overrides;
     overrides.insert(overrides.end(), stiffness.begin(), stiffness.end());
     return scenes::load_scene(find_scene(typed.scenes.front()), overrides);
   };
   const std::vector<StepCost> costs = measure_step_costs(typed.is_short, say);
-  folder.write("step_cost.csv", step_cost_csv(costs));
-  fmt::print("Processor time of a step of 1/60 s\n\n{}\n", step_cost_text(costs));
   const std::vector<StiffChoice> choices =
       study_stiffness(load, stiffnesses(typed.is_short), typed.is_short, say);
-  folder.write("stiffness.csv", stiffness_csv(choices));
-  fmt::print("{} in free flight, for an error of 1e-2 of its radius\n\n{}\n", typed.scenes.front(),
-             stiffness_text(choices));
+  return {
+      {"csv", {{"step_cost", step_cost_csv(costs)}, {"stiffness", stiffness_csv(choices)}}},
+      {"text", fmt::format("Processor time of a step of 1/60 s\n\n{}\n"
+                           "{} in free flight, for an error of 1e-2 of its radius\n\n{}\n",
+                           step_cost_text(costs), typed.scenes.front(), stiffness_text(choices))}};
+}
+
+/// Every scene's integrators one by one, then the costs.
+std::vector<StudyPart> parts_of(const StabilityArguments& typed,
+                                const std::vector<scenes::Scene>& scenes,
+                                const StabilityOptions& options, const Say& say) {
+  std::vector<StudyPart> parts;
+  for (const scenes::Scene& scene : scenes) {
+    for (const sim::Integrator integrator : integrators_of(scene)) {
+      parts.push_back({part_name({scene.name, integrator_name(integrator)}), [&, integrator] {
+                         StabilityOptions one = options;
+                         one.integrators = {integrator};
+                         return part_json(study_stability(scene, one, [&](const auto& what) {
+                           say(fmt::format("{}: {}", scene.name, what));
+                         }));
+                       }});
+    }
+  }
+  parts.push_back({"costs", [&] { return measure_costs(typed, say); }});
+  return parts;
 }
 
 ExitCode run_stability_study(const StabilityArguments& typed) {
-  const std::vector<scenes::Scene> loaded = load_scenes(typed.scenes, typed.overrides);
-  const StudyFolder folder(typed.out);
+  const std::vector<scenes::Scene> scenes = load_scenes(typed.scenes, typed.overrides);
   const StabilityOptions options =
       typed.is_short ? short_stability_sweep() : full_stability_sweep();
   Progress progress(progress_style(typed.quiet));
+  const Say say = [&](const std::string& what) { progress.show(what); };
+  const auto measured =
+      measure_parts(typed, "stability", scenes, parts_of(typed, scenes, options, say));
+  if (!measured) return ExitCode::done;
+  const StudyFolder folder(typed.out);
   nlohmann::json json = study_head(typed);
-  for (const scenes::Scene& scene : loaded) {
-    const StabilityStudy study = study_stability(scene, options, [&](const std::string& what) {
-      progress.show(fmt::format("{}: {}", scene.name, what));
-    });
+  std::span<const nlohmann::json> left = *measured;
+  for (const scenes::Scene& scene : scenes) {
+    const std::size_t count = integrators_of(scene).size();
+    const StabilityStudy study = join_parts(options, left.first(count));
+    left = left.subspan(count);
     write_files(folder, study);
     json["scenes"].push_back(stability_json(study));
     fmt::print("{}\n", stability_text(study));
   }
   folder.write("stability.json", json.dump(2) + '\n');
-  study_costs(typed, folder, progress);
-  fmt::print("{}\n", folder.path().string());
+  for (const auto& [file, text] : left.front()["csv"].items()) folder.write(file + ".csv", text);
+  fmt::print("{}{}\n", left.front()["text"].get<std::string>(), folder.path().string());
   return ExitCode::done;
 }
 
@@ -95,7 +122,7 @@ void add_stability_study(CLI::App& study, Action& action,
                    "Scene files or names, of whose first soft body [one_sphere]")
       ->type_name("SCENE");
   add_override_option(*command, typed->overrides);
-  add_study_options(*command, *typed, command_line, "Fewer values and shorter trials: seconds");
+  add_split_options(*command, *typed, command_line, "Fewer values and shorter trials: seconds");
   add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return run_stability_study(*typed); }; });
 }

@@ -30,6 +30,14 @@ sim::SoftBody first_soft_body(const scenes::Scene& scene) {
   return std::move(world.soft.front());
 }
 
+std::vector<Integrator> integrators_for(const sim::SoftBody& body) {
+  std::vector<Integrator> integrators;
+  for (const auto& [integrator, name] : scenes::integrator_names()) {
+    if (sim::can_integrate(integrator, body.material)) integrators.push_back(integrator);
+  }
+  return integrators;
+}
+
 void set_stiffness(sim::SoftMaterial& material, double k) {
   material.k = k;
   material.k_max = k_max_over_k * k;
@@ -53,9 +61,7 @@ class Study {
     study_.scene = scene.name;
     study_.body = body_.name;
     study_.options = options;
-    for (const auto& [integrator, name] : scenes::integrator_names()) {
-      if (sim::can_integrate(integrator, body_.material)) integrators_.push_back(integrator);
-    }
+    integrators_ = options.integrators.empty() ? integrators_for(body_) : options.integrators;
   }
 
   StabilityStudy run() {
@@ -156,6 +162,7 @@ std::vector<int> doubled_rates(int count) {
 
 StabilityOptions full_stability_sweep() {
   return {.trial = {},
+          .integrators = {},
           .k = {1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8},
           .n = {0.0, 1.0, 10.0, 1e2, 1e3, 1e4},
           .vertex_mass = {1e-6, 1e-4, 1e-2, 1.0, 1e2},
@@ -166,12 +173,17 @@ StabilityOptions full_stability_sweep() {
 
 StabilityOptions short_stability_sweep() {
   return {.trial = {.seconds = 5.0, .most_steps = 1'000},
+          .integrators = {},
           .k = {10.0, 1e3, 1e5},
           .n = {1.0, 1e2},
           .vertex_mass = {1e-2, 1.0},
           .subdivisions = {1, 2},
           .map_rates = doubled_rates(7),
           .most_map_steps = 200};
+}
+
+std::vector<Integrator> integrators_of(const scenes::Scene& scene) {
+  return integrators_for(first_soft_body(scene));
 }
 
 StabilityStudy study_stability(const scenes::Scene& scene, const StabilityOptions& options,

@@ -52,6 +52,7 @@ struct StabilityCell {
 
 struct StabilityOptions {
   TrialOptions trial;
+  std::vector<sim::Integrator> integrators;  // none named: all that can integrate the body
   std::vector<double> k, n, vertex_mass;
   std::vector<int> subdivisions;    // of icospheres in place of the body's mesh
   std::vector<int> map_rates;       // steps/s of the map's cells
@@ -68,6 +69,9 @@ struct StabilityStudy {
   std::vector<StiffnessLimit> limits;
   std::vector<StabilityCell> map;
 };
+
+/// Those that can integrate the scene's first soft body. Throws as study_stability does.
+std::vector<sim::Integrator> integrators_of(const scenes::Scene& scene);
 
 /// `say` is told what is being tried. Throws UsageError for a scene without a soft body,
 /// scenes::SceneError and Interrupted.
