@@ -19,8 +19,13 @@ void add_scene_option(CLI::App& command, std::string& scene) {
 }
 
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
+  const auto has_value = [](const std::string& typed) -> std::string {
+    if (typed.find('=') != std::string::npos) return {};
+    return typed + ": expected PATH=VALUE, such as duration=2 or body.k=200";
+  };
   command.add_option("--set", overrides, "Override a value of the scene, as body.k=200")
       ->type_name("PATH=VALUE")
+      ->check(has_value, "")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false);  // or each would take all words up to the next option
@@ -48,6 +53,12 @@ void add_model_options(CLI::App& command, ModelChoice& choice) {
   command.add_flag("--repair", choice.repair,
                    "Of a model file: close cracks and small holes, split what meets in a point, "
                    "part a surface from itself");
+  command
+      .add_option_function<std::string>(
+          "--up", [&choice](const std::string& axis) { choice.rotation = rotation_of_up(axis); },
+          "Of a model file: which of its axes points upwards [y of glTF, z of others]")
+      ->type_name("AXIS")
+      ->check(CLI::IsMember({"x", "y", "z"}));
 }
 
 void add_frames_option(CLI::App& command, std::string& frames) {

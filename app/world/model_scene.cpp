@@ -183,11 +183,17 @@ std::string choice_text(ModelChoice given) {
 
 }  // namespace
 
+sim::Vec3 rotation_of_up(std::string_view axis) {
+  if (axis == "x") return {0.0, -90.0, 0.0};
+  if (axis == "y") return {90.0, 0.0, 0.0};
+  return sim::Vec3::Zero();
+}
+
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   assets::CleanOptions options;
   options.component = given.component;
   options.repair = given.repair;
-  if (is_y_up(path)) options.rotation = {90.0, 0.0, 0.0};
+  options.rotation = given.rotation.value_or(rotation_of_up(is_y_up(path) ? "y" : "z"));
   const auto size_of = [](const assets::CleanModel& model) {
     return sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
   };
@@ -218,7 +224,7 @@ frames_per_second = {}
 shape = "model"
 model.file = {}
 {}model.scale = {}  # the longest side is {} m
-model.rotation = [{}, 0.0, 0.0]
+model.rotation = {}
 position = [0.0, 0.0, {}]
 k = {}
 k_max = {}
@@ -231,9 +237,10 @@ rest = "{}"
       choice.body.positions.size() > long_run_vertices ? short_duration : duration,
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
       ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
-      scenes::value_text(&file), choice_text(given), options.scale, extent, options.rotation.x(),
-      0.5 * height + drop, material.k, material.k_max, material.vertex_mass, mass, material.rho_g,
-      bending_text(material), choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
+      scenes::value_text(&file), choice_text(given), options.scale, extent,
+      scenes::value_text(&options.rotation), 0.5 * height + drop, material.k, material.k_max,
+      material.vertex_mass, mass, material.rho_g, bending_text(material), choice.gauge_pressure,
+      choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

@@ -11,7 +11,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+
+#include "sim/mesh/triangle_mesh.h"
 
 namespace pneuma::app {
 
@@ -19,7 +23,12 @@ namespace pneuma::app {
 struct ModelChoice {
   std::string component = {};  // of several in the file, by name or number; empty: the only closed
   bool repair = false;         // assets::CleanOptions::repair
+  // Degrees about x, then y, then z, as model.rotation; none: as files of its format stand.
+  std::optional<sim::Vec3> rotation = {};
 };
+
+/// The rotation that turns the model's "x", "y" or "z" upwards.
+sim::Vec3 rotation_of_up(std::string_view axis);
 
 /// The scene as TOML, to be kept and edited: only what is not a default, with the reasons and what
 /// was repaired. Reads the model, by its absolute path. Throws assets::ModelError.

@@ -56,18 +56,30 @@ void choose_step(scenes::Scene& scene) {
   steps = shortest->steps_per_second;
 }
 
+/// An override turns the model before it is measured, so that it still starts above the ground.
+ModelChoice turned(ModelChoice choice, std::span<const std::string> overrides) {
+  for (const std::string& override : overrides) {
+    if (!override.starts_with("body.model.rotation=")) continue;
+    const std::string model = "[[body]]\nshape = \"model\"\nmodel.file = \"it.ply\"\n";
+    const scenes::Scene scene = scenes::parse_scene(model, "it.toml", std::span(&override, 1));
+    choice.rotation = scene.bodies.front().model.rotation;
+  }
+  return choice;
+}
+
 }  // namespace
 
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice) {
   if (assets::has_model_ending(name)) {
     const std::filesystem::path model = find_model(name, "");
-    return scenes::parse_scene(model_scene_text(model, choice), model_scene_file(model), overrides);
+    return scenes::parse_scene(model_scene_text(model, turned(choice, overrides)),
+                               model_scene_file(model), overrides);
   }
-  if (choice.repair || !choice.component.empty()) {
+  if (choice.repair || choice.rotation || !choice.component.empty()) {
     throw UsageError(
-        "--repair and --component are of a model file; for a model in a scene use --set "
-        "body.model.repair=true and --set body.model.component=NAME");
+        "--repair, --component and --up are of a model file; for a model in a scene use --set "
+        "body.model.repair=true, body.model.component=NAME and body.model.rotation=[90,0,0]");
   }
   scenes::Scene scene = scenes::load_scene(find_scene(name), overrides);
   choose_step(scene);

@@ -29,6 +29,11 @@ TEST(SetOption, TakesOneValueAndLeavesTheSceneAlone) {
   EXPECT_EQ(run_pneuma("bench --no-pictures --steps 1 --set duration=1 one_sphere").exit_code, 0);
 }
 
+TEST(SetOption, WithoutAValueIsAMisuse) {
+  EXPECT_SAYS(complaint_about("check one_sphere --set duration"),
+              "--set: duration: expected PATH=VALUE, such as duration=2");
+}
+
 TEST(SetOption, BeforeTheSceneIsApplied) {
   EXPECT_SAYS(run_pneuma("check --set body.k=61.5 one_sphere").output, "k = 61.5");
 }

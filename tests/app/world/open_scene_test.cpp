@@ -74,6 +74,24 @@ TEST_F(OpenScene, ItsTextIsAFileToKeep) {
   EXPECT_EQ(scenes::scene_fingerprint(again), scenes::scene_fingerprint(scene));
 }
 
+TEST_F(OpenScene, AModelThatIsTurnedStandsAboveTheGround) {
+  const auto lowest = [&](const scenes::Scene& scene) {
+    const auto size = sim::bounds(build_world(scene).soft.at(0).positions);
+    return std::pair(size.low.z(), size.size().z());
+  };
+  const sim::TriangleMesh slab = sim::make_box({3.0, 6.0, 1.0}, 2);
+  EXPECT_NEAR(lowest(open(slab)).second, 1.0, 1e-9);
+  for (const auto& [up, height] : {std::pair{"x", 3.0}, std::pair{"y", 6.0}, std::pair{"z", 1.0}}) {
+    const auto [low, size] =
+        lowest(open_scene(file().string(), {}, {.rotation = rotation_of_up(up)}));
+    EXPECT_NEAR(size, height, 1e-9) << up;
+    EXPECT_NEAR(low, 1.0, 1e-9) << up;  // the drop
+  }
+  const auto [low, size] = lowest(open(slab, {"body.model.rotation=[90, 0, 0]"}));
+  EXPECT_NEAR(size, 6.0, 1e-9);
+  EXPECT_NEAR(low, 1.0, 1e-9);
+}
+
 TEST_F(OpenScene, RepairsAModelAndSaysSoInItsText) {
   sim::TriangleMesh box = sim::make_box({1.0, 1.0, 1.0}, 3);
   const double volume = 1.0;
@@ -101,6 +119,7 @@ TEST_F(OpenScene, TakesOneComponentOfSeveral) {
 TEST(OpenAScene, ThatIsNoModelRefusesAModelsOptions) {
   EXPECT_THROW(open_scene("one_sphere", {}, {.repair = true}), UsageError);
   EXPECT_THROW(open_scene("one_sphere", {}, {.component = "1"}), UsageError);
+  EXPECT_THROW(open_scene("one_sphere", {}, {.rotation = rotation_of_up("y")}), UsageError);
 }
 
 /// A scene file of its own for each.
