@@ -162,9 +162,9 @@ render::Camera fixed_camera(const scenes::CameraScene& scene) {
   return camera;
 }
 
-/// Beside the body that is followed, three times as far as would fill the picture with it.
+/// Beside the body that is followed, twice as far as would fill the picture with it.
 render::Camera following_camera(const scenes::Scene& scene, const sim::World& start) {
-  constexpr double around = 3.0;
+  constexpr double around = 2.0;
   const Bounds body = bounds_of_body(start, scene.camera.follow);
   render::ViewFit fit = make_fit(scene, body.centre());
   for (int corner = 0; corner < 8; ++corner) {

@@ -11,6 +11,7 @@
 #include "app/host/background.h"
 #include "app/host/clock.h"
 #include "app/host/interrupt.h"
+#include "app/render/run_notices.h"
 #include "render/image/png.h"
 #include "sim/base/file.h"
 #include "sim/inspect/checkpoint.h"
@@ -100,70 +101,6 @@ class FrameWriter {
   Background finishing_{1};  // the last member: it ends before what its jobs use
 };
 
-/// Says that steps which diverged were done in parts: at the first of them, and in the end.
-class DividedSteps {
- public:
-  void add(const Simulation& simulation, Progress& progress) {
-    const std::vector<int>& parts = simulation.step_parts();
-    if (parts.empty()) return;
-    if (count_ == 0) {
-      progress.say(fmt::format("a step before t = {:.4f} s diverged; it was done again in {} parts",
-                               sim::time(simulation.world()), parts.front()));
-    }
-    count_ += static_cast<std::int64_t>(parts.size());
-    most_ = std::max(most_, *std::max_element(parts.begin(), parts.end()));
-  }
-
-  void summarise(Progress& progress) const {
-    if (count_ == 0) return;
-    progress.say(fmt::format("{} diverged and {} done in parts, up to {} of them",
-                             count_ == 1 ? "1 step" : fmt::format("{} steps", count_),
-                             count_ == 1 ? "was" : "were", most_));
-  }
-
- private:
-  std::int64_t count_ = 0;
-  int most_ = 0;
-};
-
-/// Says that bodies pass through each other, at the first frame that shows it and in the end; and
-/// in the end that one passes through itself.
-class CrossedFrames {
- public:
-  void add(const Simulation& simulation, const FrameState& state, Progress& progress) {
-    ++frames_;
-    if (!state.crosses_itself.empty() && of_themselves_++ == 0) itself_ = state.crosses_itself;
-    if (state.bodies_that_cross.empty()) return;
-    if (count_++ > 0) return;
-    const bool is_swept = simulation.world().settings.contact != sim::ContactMethod::impulses;
-    progress.say(
-        fmt::format("{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
-                    sim::time(simulation.world()),
-                    is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
-  }
-
-  std::int64_t count() const { return count_; }
-
-  void summarise(Progress& progress) const {
-    if (count_ > 0) {
-      progress.say(
-          fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
-    }
-    if (of_themselves_ > 0) {
-      progress.say(
-          fmt::format("{} passes through itself in {} of {} frames; simulation.contact = "
-                      "\"potential\" and bending keep a body from that",
-                      itself_, of_themselves_, frames_));
-    }
-  }
-
- private:
-  std::int64_t frames_ = 0;
-  std::int64_t count_ = 0;
-  std::int64_t of_themselves_ = 0;
-  std::string itself_;  // the first body that did
-};
-
 }  // namespace
 
 void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
@@ -171,6 +108,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   FrameWriter writer(output);
   DividedSteps divided;
   CrossedFrames crossed;
+  PressedBodies pressed;
   Stopwatch watch;
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
@@ -193,6 +131,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
     if (state.frame >= output.log.next_frame()) {
       frame = writer.take(simulation);
       crossed.add(simulation, frame->state, progress);
+      pressed.add(simulation.world());
     }
     const bool more = state.frame < last;
     if (more) stepping.submit([&simulation] { simulation.advance_frame(); });
@@ -212,6 +151,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   progress.say(summary_line(state));
   divided.summarise(progress);
   crossed.summarise(progress);
+  pressed.summarise(progress);
 }
 
 }  // namespace pneuma::app

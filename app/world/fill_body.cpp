@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "app/world/refuse_body.h"
 #include "app/world/settled_volume.h"
@@ -33,11 +32,9 @@ double pressure_at_rest(const scenes::Scene& scene, const scenes::BodyScene& bod
   return scene.ambient_pressure + std::max(0.0, *held);  // -0 and the like where inflation is 1
 }
 
-/// A sheet of equilateral triangles of springs has Young's modulus 2 k / sqrt 3 per width, however
-/// small they are (Seung and Nelson 1988, "Defects in flexible membranes with crystalline order").
 sim::SoftMaterial skin_material(const scenes::BodyScene& body, const sim::SoftMesh& mesh) {
   sim::SoftMaterial material = body.material;
-  if (body.stiffness) material.k = 0.5 * std::numbers::sqrt3 * *body.stiffness;
+  if (body.stiffness) material.k = k_per_stiffness * *body.stiffness;
   if (body.density) {
     const double area = sim::surface_area(mesh.topology, mesh.rest_positions);
     material.vertex_mass = *body.density * body.thickness * area / mesh.topology.vertex_count();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/world/distinct_bodies.h"
+#include "app/world/fill_body.h"
 #include "app/world/settled_volume.h"
 #include "sim/base/text.h"
 #include "sim/mesh/measure.h"
@@ -53,6 +54,9 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
   advice.light_vertex_mass = body.material.vertex_mass *
                              sim::gauge_pressure(law, carried_share * advice.volume) * area /
                              weight;
+  advice.carrying_pressure = needed * std::pow(carried_share, law.exponent) - law.ambient_pressure;
+  const double pressure = sim::gauge_pressure(law, advice.volume);
+  if (pressure > 0.0) advice.strengthened = advice.carrying_pressure / pressure;
 }
 
 GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, int max_vertices) {
@@ -110,12 +114,24 @@ std::string gas_warning(const GasAdvice& advice) {
 }
 
 std::string weight_warning(const GasAdvice& advice) {
+  const std::string crushed = fmt::format(
+      "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; ",
+      body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume);
+  const std::string lighter =
+      advice.light_vertex_mass > 0.0
+          ? fmt::format(", or at most {} kg (vertex_mass of at most {} kg)",
+                        base::text_below(advice.vertices * advice.light_vertex_mass),
+                        base::text_below(advice.light_vertex_mass))
+          : "";
+  if (!advice.strengthened || advice.k == 0.0) {
+    return fmt::format("{}give it gauge_pressure = {:.3g} Pa, and springs that hold that{}",
+                       crushed, advice.carrying_pressure, lighter);
+  }
+  const double k = *advice.strengthened * advice.k;
   return fmt::format(
-      "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; "
-      "give it more gas, or at most {} kg: by a vertex_mass of at most {} kg, or by its density",
-      body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume,
-      base::text_below(advice.vertices * advice.light_vertex_mass),
-      base::text_below(advice.light_vertex_mass));
+      "{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
+      "with inflation as it is, or with gauge_pressure = {:.3g} Pa{}",
+      crushed, *advice.strengthened, k, k / k_per_stiffness, advice.carrying_pressure, lighter);
 }
 
 }  // namespace pneuma::app

@@ -22,7 +22,11 @@ struct GasAdvice {
   // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
   // it, or no weight.
   std::optional<double> pressed;
-  double light_vertex_mass = 0.0;  // kg, with which that would be nearly its volume
+  // What would make that nearly its volume:
+  double light_vertex_mass = 0.0;      // kg
+  double carrying_pressure = 0.0;      // Pa above the ambient pressure, at the start
+  std::optional<double> strengthened;  // times its gas and its springs, which keeps its shape;
+                                       // none: its gas does not press
 
   bool blown_up() const;  // to more than twice its volume
   bool crushed() const;   // by its weight, to less than half its volume

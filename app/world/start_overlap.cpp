@@ -30,6 +30,7 @@ constexpr double start_touch = 1e-6;
 struct StartOverlap {
   int body = 0;        // that is to be moved: soft bodies first, then boxes
   std::string reason;  // names the other, or the ground
+  int other = sim::ground_body;
 };
 
 std::string name_of(const sim::World& world, int body) { return sim::body_name(world, body); }
@@ -76,15 +77,18 @@ StartOverlap in_the_ground(const sim::Overlap& overlap) {
 }
 
 StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap) {
-  return {overlap.second, fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
-                                      name_of(world, overlap.first),
-                                      way_apart(world, overlap.first, overlap.second), remedy)};
+  return {overlap.second,
+          fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
+                      name_of(world, overlap.first),
+                      way_apart(world, overlap.first, overlap.second), remedy),
+          overlap.first};
 }
 
 StartOverlap through_another(const sim::World& world, const sim::CrossingPair& pair) {
   return {pair.second,
           fmt::format("starts through the surface of body '{}'; {}, {}", name_of(world, pair.first),
-                      way_apart(world, pair.first, pair.second), remedy)};
+                      way_apart(world, pair.first, pair.second), remedy),
+          pair.first};
 }
 
 std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
@@ -159,8 +163,14 @@ void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
   }
   std::vector<scenes::Diagnostic> diagnostics;
   for (const StartOverlap& overlap : std::span(found).first(shown)) {
-    diagnostics.push_back(body_diagnostic(scene, in_scene(scene, overlap.body).position_place,
-                                          name_of(start, overlap.body), overlap.reason));
+    const scenes::BodyScene& body = in_scene(scene, overlap.body);
+    const bool are_copies =
+        overlap.other != sim::ground_body && &in_scene(scene, overlap.other) == &body;
+    const std::string reason =
+        overlap.reason +
+        (are_copies ? "; they are copies: more spacing or less jitter parts them all" : "");
+    diagnostics.push_back(
+        body_diagnostic(scene, body.position_place, name_of(start, overlap.body), reason));
   }
   throw scenes::SceneError(diagnostics);
 }

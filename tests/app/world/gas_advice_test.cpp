@@ -55,6 +55,27 @@ TEST(GasAdvice, WhatIsTooHeavyForItsGasIsCrushed) {
   EXPECT_GT(volume_after(ball("0.2", mass), 4.0), 0.75 * heavy.volume) << warning;
 }
 
+TEST(GasAdvice, TooHeavyBodiesAreCarriedByTheSpringsAndGasThatItNames) {
+  const auto ball = [](const std::string& springs_and_gas) {
+    return "[simulation]\nsteps_per_second = 960\n[[body]]\nposition = [0, 0, 3.1]\n"
+           "density = 300\nthickness = 0.02\n" +
+           springs_and_gas;
+  };
+  for (const std::string how : {"k = 50\ninflation = 1.1\n", "k = 50\ngauge_pressure = 40\n"}) {
+    const GasAdvice heavy = advices_on(ball(how)).at(0);
+    ASSERT_TRUE(heavy.crushed());
+    const std::string warning = weight_warning(heavy);
+    const std::string k = number_after(warning, "k = ");
+    const std::string gas =
+        how.find("inflation") != std::string::npos
+            ? "inflation = 1.1\n"
+            : "gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n";
+    const std::string mended = ball("k = " + k + "\n" + gas);
+    EXPECT_FALSE(advices_on(mended).at(0).crushed()) << warning;
+    EXPECT_GT(volume_after(mended, 4.0), 0.75 * heavy.volume) << warning;
+  }
+}
+
 TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
   EXPECT_EQ(advices_on("[[body]]\ncopies = [2, 2, 1]\n[[body]]\n[[body]]\nn = 1\n").size(), 2u);
   EXPECT_TRUE(advices_on("[[body]]\nkind = \"rigid\"\n").empty());

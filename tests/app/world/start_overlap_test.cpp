@@ -48,6 +48,18 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
 }
 
+TEST(StartOverlap, OfCopiesIsPartedByTheirSpacing) {
+  const std::string copies = refusal_of(
+      "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\ncopies = [2, 1, 1]\nspacing = [1, 0, 0]\n");
+  EXPECT_NE(copies.find("they are copies: more spacing or less jitter parts them"),
+            std::string::npos)
+      << copies;
+  const std::string others = refusal_of(
+      "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = [1, 0, 4]\ncopies = [1, 1, 1]\n");
+  EXPECT_NE(others.find("deep in body"), std::string::npos) << others;
+  EXPECT_EQ(others.find("copies"), std::string::npos) << others;
+}
+
 TEST(StartOverlap, EachIsNamedUpToTen) {
   const std::string boxes =
       "[[body]]\nname = \"box\"\nkind = \"rigid\"\nsize = [2, 2, 2]\nposition = ";

@@ -1,0 +1,81 @@
+#include "app/render/run_notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/inspect/inspect.h"
+#include "sim/mesh/measure.h"
+
+namespace pneuma::app {
+
+void DividedSteps::add(const Simulation& simulation, Progress& progress) {
+  const std::vector<int>& parts = simulation.step_parts();
+  if (parts.empty()) return;
+  if (count_ == 0) {
+    progress.say(fmt::format("a step before t = {:.4f} s diverged; it was done again in {} parts",
+                             sim::time(simulation.world()), parts.front()));
+  }
+  count_ += static_cast<std::int64_t>(parts.size());
+  most_ = std::max(most_, *std::max_element(parts.begin(), parts.end()));
+}
+
+void DividedSteps::summarise(Progress& progress) const {
+  if (count_ == 0) return;
+  progress.say(fmt::format("{} diverged and {} done in parts, up to {} of them",
+                           count_ == 1 ? "1 step" : fmt::format("{} steps", count_),
+                           count_ == 1 ? "was" : "were", most_));
+}
+
+void CrossedFrames::add(const Simulation& simulation, const FrameState& state, Progress& progress) {
+  ++frames_;
+  if (!state.crosses_itself.empty() && of_themselves_++ == 0) itself_ = state.crosses_itself;
+  if (state.bodies_that_cross.empty()) return;
+  if (count_++ > 0) return;
+  const bool is_swept = simulation.world().settings.contact != sim::ContactMethod::impulses;
+  progress.say(fmt::format("{} pass through each other at t = {:.2f} s{}", state.bodies_that_cross,
+                           sim::time(simulation.world()),
+                           is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
+}
+
+void CrossedFrames::summarise(Progress& progress) const {
+  if (count_ > 0) {
+    progress.say(fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
+  }
+  if (of_themselves_ > 0) {
+    progress.say(
+        fmt::format("{} passes through itself in {} of {} frames; simulation.contact = "
+                    "\"potential\" and bending keep a body from that",
+                    itself_, of_themselves_, frames_));
+  }
+}
+
+void PressedBodies::add(const sim::World& world) {
+  if (shapes_.empty()) {
+    for (const sim::SoftBody& body : world.soft) {
+      shapes_.push_back(
+          {sim::volume(body.mesh->topology, body.mesh->rest_positions), body.material.n});
+    }
+  }
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const sim::SoftBody& body = world.soft[i];
+    const auto& [volume, n] = shapes_[i];
+    if (n <= 0.0 || body.material.n < n || volume <= 0.0) continue;  // empty, or leaking
+    const double share = sim::volume(body.mesh->topology, body.positions) / volume;
+    if (share >= least_share_) continue;
+    least_share_ = share;
+    time_ = sim::time(world);
+    body_ = body.name;
+  }
+}
+
+void PressedBodies::summarise(Progress& progress) const {
+  constexpr double pressed_share = 0.1;
+  if (least_share_ >= pressed_share) return;
+  progress.say(fmt::format(
+      "body '{}' was pressed to {:.2g} % of its shape's volume, at t = {:.2f} s: more gas (n, "
+      "gauge_pressure) carries more, and what closes in on it can leave it more room",
+      body_, 100.0 * least_share_, time_));
+}
+
+}  // namespace pneuma::app

@@ -1,0 +1,60 @@
+// What a run says beside its frames: steps that were done in parts, bodies that pass through each
+// other or are pressed to next to nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/render/log/run_record.h"
+#include "app/terminal/progress.h"
+#include "app/world/simulation.h"
+
+namespace pneuma::app {
+
+/// Says that steps which diverged were done in parts: at the first of them, and in the end.
+class DividedSteps {
+ public:
+  void add(const Simulation& simulation, Progress& progress);
+  void summarise(Progress& progress) const;
+
+ private:
+  std::int64_t count_ = 0;
+  int most_ = 0;
+};
+
+/// Says that bodies pass through each other, at the first frame that shows it and in the end; and
+/// in the end that one passes through itself.
+class CrossedFrames {
+ public:
+  void add(const Simulation& simulation, const FrameState& state, Progress& progress);
+  void summarise(Progress& progress) const;
+  std::int64_t count() const { return count_; }
+
+ private:
+  std::int64_t frames_ = 0;
+  std::int64_t count_ = 0;
+  std::int64_t of_themselves_ = 0;
+  std::string itself_;  // the first body that did
+};
+
+/// Says in the end which body that keeps its gas was pressed to less than a tenth of its shape's
+/// volume.
+class PressedBodies {
+ public:
+  void add(const sim::World& world);
+  void summarise(Progress& progress) const;
+
+ private:
+  struct Shape {
+    double volume;  // m^3
+    double n;       // mol at the first frame
+  };
+
+  std::vector<Shape> shapes_;  // of the soft bodies; empty before the first frame
+  double least_share_ = 1.0;
+  double time_ = 0.0;  // s
+  std::string body_;
+};
+
+}  // namespace pneuma::app
