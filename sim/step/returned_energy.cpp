@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/response/group_motion.h"
 #include "sim/response/vibration.h"
-#include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
 namespace {
@@ -104,132 +104,14 @@ double slow_vibrations(World& world, SweptMemory& memory, int island, double exc
   return taken;
 }
 
-Mat3 inertia_in_world(const RigidBox& box) {
-  const Mat3 axes = box.orientation.toRotationMatrix();
-  return axes * body_inertia(box).asDiagonal() * axes.transpose();
+/// The bodies of an island, in `memory.members`.
+GroupMotion motion_of_island(World& world, SweptMemory& memory, int island) {
+  memory.members.clear();
+  for (int i = 0; i < memory.bodies.count(); ++i) {
+    if (memory.solver.island_of(i) == island) memory.members.push_back(i);
+  }
+  return {world, memory.members};
 }
-
-/// The bodies of an island, one vertex or box after the other.
-class IslandMotion {
- public:
-  IslandMotion(World& world, SweptMemory& memory, int island)
-      : world_(world), memory_(memory), island_(island) {}
-
-  /// From now on the motion is that beyond a rigid body's with this momentum and angular momentum.
-  void leave_out_common() {
-    find_mean();
-    find_rotation();
-  }
-
-  /// J.
-  double energy() const {
-    double sum = 0.0;
-    visit_vertices([&](double mass, const Vec3& x, const Vec3& v) {
-      sum += 0.5 * mass * (v - at_point(x)).squaredNorm();
-    });
-    visit_boxes([&](const RigidBox& box) {
-      const Vec3 spin = box.angular_velocity - angular_velocity_;
-      sum += 0.5 * box.mass * (box.velocity - at_point(box.position)).squaredNorm() +
-             0.5 * spin.dot(inertia_in_world(box) * spin);
-    });
-    return sum;
-  }
-
-  bool has_soft_bodies() const {
-    bool any = false;
-    for_each_soft([&](const SoftBody&) { any = true; });
-    return any;
-  }
-
-  /// kg.
-  double mass() const {
-    double sum = 0.0;
-    for_each_soft(
-        [&](const SoftBody& body) { sum += body.material.vertex_mass * body.positions.size(); });
-    visit_boxes([&](const RigidBox& box) { sum += box.mass; });
-    return sum;
-  }
-
-  void slow(double factor) {
-    for_each_soft([&](SoftBody& body) {
-      for (int v = 0; v < body.positions.size(); ++v) {
-        const Vec3 common = at_point(body.positions[v]);
-        body.velocities[v] = common + factor * (body.velocities[v] - common);
-      }
-    });
-    visit_boxes([&](RigidBox& box) {
-      const Vec3 common = at_point(box.position);
-      box.velocity = common + factor * (box.velocity - common);
-      box.angular_velocity =
-          angular_velocity_ + factor * (box.angular_velocity - angular_velocity_);
-    });
-  }
-
- private:
-  template <class Visit>
-  void for_each_soft(const Visit& visit) const {
-    for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
-      if (memory_.solver.island_of(i) == island_) visit(world_.soft[at(i)]);
-    }
-  }
-  template <class Visit>
-  void visit_vertices(const Visit& visit) const {
-    for_each_soft([&](const SoftBody& body) {
-      for (int v = 0; v < body.positions.size(); ++v) {
-        visit(body.material.vertex_mass, Vec3(body.positions[v]), Vec3(body.velocities[v]));
-      }
-    });
-  }
-  template <class Visit>
-  void visit_boxes(const Visit& visit) const {
-    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
-      if (memory_.solver.island_of(memory_.bodies.of_box(i)) == island_) visit(world_.rigid[at(i)]);
-    }
-  }
-
-  void find_mean() {
-    double mass = 0.0;
-    const auto add = [&](double m, const Vec3& x, const Vec3& v) {
-      mass += m;
-      centre_ += m * x;
-      velocity_ += m * v;
-    };
-    visit_vertices(add);
-    visit_boxes([&](const RigidBox& box) { add(box.mass, box.position, box.velocity); });
-    centre_ /= mass;
-    velocity_ /= mass;
-  }
-
-  void find_rotation() {
-    Vec3 turning = Vec3::Zero();
-    Mat3 inertia = Mat3::Zero();
-    const auto add = [&](double m, const Vec3& x, const Vec3& v) {
-      const Vec3 arm = x - centre_;
-      turning += m * arm.cross(v - velocity_);
-      inertia += m * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
-    };
-    visit_vertices(add);
-    visit_boxes([&](const RigidBox& box) {
-      add(box.mass, box.position, box.velocity);
-      const Mat3 own = inertia_in_world(box);
-      turning += own * box.angular_velocity;
-      inertia += own;
-    });
-    angular_velocity_ = inertia.ldlt().solve(turning);
-  }
-
-  /// m/s, of the rigid motion.
-  Vec3 at_point(const Vec3& point) const {
-    return velocity_ + angular_velocity_.cross(point - centre_);
-  }
-
-  World& world_;
-  SweptMemory& memory_;
-  int island_;
-  Vec3 centre_ = Vec3::Zero();
-  Vec3 velocity_ = Vec3::Zero();
-  Vec3 angular_velocity_ = Vec3::Zero();
-};
 
 bool has_pins(const World& world, SweptMemory& memory, int island) {
   for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
@@ -272,7 +154,7 @@ double energy_of_fall(const Settings& settings, double mass) {
 double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
   const Holder holder = holder_of(world, memory, island);
   if (holder == Holder::moved) return 0.0;
-  IslandMotion motion(world, memory, island);
+  GroupMotion motion = motion_of_island(world, memory, island);
   if (holder == Holder::none) {
     motion.leave_out_common();
   } else if (motion.has_soft_bodies()) {

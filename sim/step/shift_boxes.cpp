@@ -1,5 +1,10 @@
 #include "sim/step/shift_boxes.h"
 
+#include <cmath>
+#include <utility>
+
+#include "sim/response/group_motion.h"
+
 namespace pneuma::sim {
 namespace {
 
@@ -31,13 +36,70 @@ bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   return true;
 }
 
+/// Which boxes the shifts that were solved for move away from each other.
+void group_shifted_boxes(SweptMemory& memory) {
+  ShiftedGroups& groups = memory.shifted;
+  groups.sets.reset();
+  std::ranges::fill(groups.is_held, std::uint8_t{0});
+  const auto box = [&](const SurfacePoint& point) { return memory.bodies.box(point.body); };
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    const SweptImpulse& impulse = memory.impulses[i];
+    if (impulse.given().isZero(0.0)) continue;
+    const SweptContact& contact = memory.contacts[i];
+    const bool first = impulse.first().moves(), second = impulse.second().moves();
+    if (!first && !second) continue;
+    if (first && second) {
+      groups.sets.unite(box(contact.first), box(contact.second));
+    } else {
+      groups.is_held[at(box(first ? contact.first : contact.second))] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < groups.order.size(); ++i) groups.order[i] = static_cast<int>(i);
+  std::ranges::sort(groups.order, {}, [&](int i) { return std::pair(groups.sets.find(i), i); });
+}
+
+/// Of the boxes in `memory.members`, which nothing holds. Returns its work.
+double give_back_angular_momentum(World& world, SweptMemory& memory, const Vec3& gained) {
+  GroupMotion motion(world, memory.members);
+  const double before = motion.energy();
+  motion.turn(-gained);
+  double work = GroupMotion(world, memory.members).energy() - before;
+  if (!(work > 0.0)) return work;
+  motion.leave_out_common();
+  const double there_is = motion.energy();
+  const double taken = std::min(work, there_is);
+  if (taken > 0.0) motion.slow(std::sqrt(1.0 - taken / there_is));
+  return work - taken;
+}
+
 }  // namespace
+
+double keep_angular_momentum(World& world, SweptMemory& memory) {
+  if (!memory.bodies.has_shifts()) return 0.0;
+  ShiftedGroups& groups = memory.shifted;
+  double work = 0.0;
+  for (auto begin = groups.order.begin(); begin != groups.order.end();) {
+    const int set = groups.sets.find(*begin);
+    memory.members.clear();
+    Vec3 gained = Vec3::Zero();
+    bool is_held = false;
+    for (; begin != groups.order.end() && groups.sets.find(*begin) == set; ++begin) {
+      memory.members.push_back(memory.bodies.of_box(*begin));
+      gained += memory.bodies.angular_momentum_of_shift(world, *begin);
+      is_held = is_held || groups.is_held[at(*begin)] != 0;
+    }
+    if (memory.members.size() < 2 || is_held) continue;
+    work += give_back_angular_momentum(world, memory, gained);
+  }
+  return work;
+}
 
 bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   memory.bodies.forget_shifts();
   if (world.rigid.empty()) return false;
   const bool shifts = find_shifts(memory, search, fraction);
   if (shifts) {
+    group_shifted_boxes(memory);
     memory.bodies.take_as_shifts();
     memory.bodies.shift_boxes(world);
     memory.work += memory.bodies.work_of_shifts(world);

@@ -8,6 +8,7 @@
 
 #include "sim/collision/bounding_sphere.h"
 #include "sim/mesh/primitives.h"
+#include "sim/rigid/inertia.h"
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stages.h"
@@ -334,6 +335,18 @@ double SweptBodies::work_of_shifts(const World& world) const {
     work -= world.rigid[i].mass * world.settings.gravity.dot(to_vec3(shifts_[i].velocity));
   }
   return work;
+}
+
+Vec3 SweptBodies::angular_momentum_of_shift(const World& world, int box) const {
+  const RigidBox& shifted = world.rigid[at(box)];
+  const BoxChange& shift = shifts_[at(box)];
+  const auto spin_at = [&](const Eigen::Quaterniond& orientation) -> Vec3 {
+    const Vec3 local = orientation.conjugate() * shifted.angular_velocity;
+    return orientation * body_inertia(shifted).cwiseProduct(local);
+  };
+  const Eigen::Quaterniond before = turned(shifted.orientation, -to_vec3(shift.angular_velocity));
+  return shifted.mass * to_vec3(shift.velocity).cross(shifted.velocity) +
+         spin_at(shifted.orientation) - spin_at(before);
 }
 
 void SweptBodies::shift_boxes(World& world) const {

@@ -87,6 +87,9 @@ class SweptBodies {
   Vec3 shift(const SurfacePoint& point) const;
   /// J, the work of the shifts against gravity.
   double work_of_shifts(const World& world) const;
+  /// kg m^2/s, by which a box's shift changes its angular momentum, at the velocities that it has.
+  Vec3 angular_momentum_of_shift(const World& world, int box) const;
+  bool has_shifts() const { return !shifts_.empty(); }
   /// Gives the boxes their shifts.
   void shift_boxes(World& world) const;
 

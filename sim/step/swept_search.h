@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/collision/box_contact.h"
 #include "sim/collision/oriented_box.h"
 #include "sim/response/carried_boxes.h"
@@ -30,6 +31,15 @@ struct ReturnedEnergyMemory {
   std::vector<Vec3> given;            // N s, per contact
 };
 
+/// Boxes that shifts have moved away from each other.
+struct ShiftedGroups {
+  explicit ShiftedGroups(std::size_t boxes) : sets(boxes), is_held(boxes), order(boxes) {}
+
+  base::DisjointSets sets;
+  std::vector<std::uint8_t> is_held;  // per box: away from what does not give way
+  std::vector<int> order;             // the boxes, set by set
+};
+
 /// Contacts of the same features, when another search has other candidates.
 struct RecalledContact {
   int first = 0;
@@ -48,8 +58,11 @@ struct SweptMemory {
       : bodies(world),
         solver(bodies.count(), static_cast<int>(world.soft.size())),
         starts(max_halvings + 1),
+        shifted(world.rigid.size()),
         carried_boxes(world),
-        fall_asleep(world) {}
+        fall_asleep(world) {
+    members.reserve(at(bodies.count()));
+  }
 
   SweptBodies bodies;
   SweptSolver solver;
@@ -71,6 +84,8 @@ struct SweptMemory {
   std::vector<Vec3> given_at_start;  // N s, per contact of the end: of the same features
   ReturnedEnergyMemory returned_energy;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
+  std::vector<int> members;             // bodies of an island, or of other groups
+  ShiftedGroups shifted;
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;  // bodies with candidates

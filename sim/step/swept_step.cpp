@@ -199,6 +199,7 @@ class SweptStep {
 
   std::optional<Divergence> finish() {
     count_work_of_start();
+    m_.work += keep_angular_momentum(world_, m_);
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
