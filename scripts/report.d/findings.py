@@ -82,13 +82,13 @@ def errors(out):
     ratios = []
     for path in sorted(out.glob("error*/*_ratios.csv")):
         for row in read_rows(path):
-            ratio = number(row["cvode_over_ours"] or "")
+            ratio = number(row["sundials_over_ours"] or "")
             if ratio and abs(float(row["error"]) / 1e-3 - 1) < 1e-6:
                 ratios.append((ratio, row["scene"], row["our_method"]))
     if not ratios:
         return None
     low, high = min(ratios), max(ratios)
-    return (f"For an error of a thousandth of the radius SUNDIALS' CVODE takes {low[0]:.3g} ({low[1]}, beside {low[2]}) to "
+    return (f"For an error of a thousandth of the radius the best of SUNDIALS takes {low[0]:.3g} ({low[1]}, beside {low[2]}) to "
             f"{high[0]:.3g} times ({high[1]}, beside {high[2]}) as long as the best of our integrators.")
 
 

@@ -84,18 +84,18 @@ std::string next_longer(const ErrorStudy& study, const ErrorRun& run) {
 std::string reason(const ErrorStudy& study, const Choice& choice, double wanted) {
   const double evaluation = study.evaluation_time;
   const ErrorRun& ours = *choice.ours;
-  const ErrorRun& cvode = *choice.cvode;
-  const double own_work = std::max(0.0, 1.0 - cvode.evaluations * evaluation / cvode.run_time);
+  const ErrorRun& peer = *choice.peer;
+  const double own_work = std::max(0.0, 1.0 - peer.evaluations * evaluation / peer.run_time);
   const std::string theirs = fmt::format(
       "Per simulated second {} evaluates the forces {} times, at {} us each, and spends {:.0f} % "
       "of "
       "its time on other work;",
-      cvode.method, readable(cvode.evaluations), in_microseconds(evaluation), 100.0 * own_work);
+      peer.method, readable(peer.evaluations), in_microseconds(evaluation), 100.0 * own_work);
   return fmt::format(
       "{} {} at 1/{} s takes as long as {} evaluations{}. To be {:g} times ahead it would have to "
       "take no longer than {}.",
       theirs, ours.method, ours.steps_per_second, readable(ours.run_time / evaluation),
-      next_longer(study, ours), wanted, readable(cvode.run_time / wanted / evaluation));
+      next_longer(study, ours), wanted, readable(peer.run_time / wanted / evaluation));
 }
 
 double wanted_ratio(double error) { return error == 1e-2 || error == 1e-3 ? 10.0 : 1.0; }
@@ -107,13 +107,13 @@ std::string shortfall(const ErrorStudy& study, const Choice& choice, double want
   if (!choice.known) return fmt::format("nothing can be said: {}", not_known);
   if (!choice.ours) {
     return fmt::format("{}: none of our steps studied reaches it",
-                       choice.cvode ? "CVODE is ahead" : "neither can be chosen");
+                       choice.peer ? "SUNDIALS is ahead" : "neither can be chosen");
   }
-  if (!choice.cvode || *choice.ratio() >= wanted) return "";
+  if (!choice.peer || *choice.ratio() >= wanted) return "";
   const double ratio = *choice.ratio();
   const std::string how_far =
-      ratio < 1.0 ? fmt::format("behind CVODE, {:.2g} times as fast", ratio)
-                  : fmt::format("{:.1f} times ahead of CVODE, not {:g}", ratio, wanted);
+      ratio < 1.0 ? fmt::format("behind SUNDIALS, {:.2g} times as fast", ratio)
+                  : fmt::format("{:.1f} times ahead of SUNDIALS, not {:g}", ratio, wanted);
   return fmt::format("ours is {}. {}", how_far, reason(study, choice, wanted));
 }
 
@@ -132,8 +132,8 @@ std::vector<ObservedOrder> observed_orders(const ErrorStudy& study) {
 }
 
 std::optional<double> Choice::ratio() const {
-  if (!ours || !cvode) return std::nullopt;
-  return cvode->run_time / ours->run_time;
+  if (!ours || !peer) return std::nullopt;
+  return peer->run_time / ours->run_time;
 }
 
 Choice choose(const ErrorStudy& study, double error) {
@@ -143,7 +143,7 @@ Choice choose(const ErrorStudy& study, double error) {
   if (!choice.known) return choice;
   for (const ErrorRun& run : study.runs) {
     if (run.status != Status::stable || !(error_of(run) <= error)) continue;
-    keep_cheaper(run.ours ? choice.ours : choice.cvode, run);
+    keep_cheaper(run.ours ? choice.ours : choice.peer, run);
   }
   return choice;
 }

@@ -1,4 +1,5 @@
-// What an error study says: orders, recommendations, and where we stand beside CVODE. All of it
+// What an error study says: orders, recommendations, and where we stand beside
+// SUNDIALS. All of it
 // follows from the study's numbers.
 #pragma once
 
@@ -34,11 +35,11 @@ std::vector<ObservedOrder> observed_orders(const ErrorStudy& study);
 
 /// The cheapest runs that are good enough.
 struct Choice {
-  double error = 0.0;             // asked for
-  bool known = true;              // the reference is known well enough to tell
-  std::optional<ErrorRun> ours;   // nothing when none is good enough
-  std::optional<ErrorRun> cvode;  // likewise; always with contacts
-  /// Run time of CVODE's over ours; only when there are both.
+  double error = 0.0;            // asked for
+  bool known = true;             // the reference is known well enough to tell
+  std::optional<ErrorRun> ours;  // nothing when none is good enough
+  std::optional<ErrorRun> peer;  // likewise; always with contacts
+  /// Run time of SUNDIALS' over ours; only when there are both.
   std::optional<double> ratio() const;
 };
 
@@ -51,7 +52,7 @@ inline constexpr std::array compared_errors = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-
 /// 1.6e-3)", or why there is none.
 std::string recommendation(const Choice& choice);
 
-/// Whether ours is ahead of CVODE at every error compared, and ten times at 1e-2 and 1e-3; where
+/// Whether ours is ahead of SUNDIALS at every error compared, and ten times at 1e-2 and 1e-3; where
 /// not, a sentence each that says so and why. Empty when all of it holds.
 std::vector<std::string> shortfalls(const ErrorStudy& study);
 

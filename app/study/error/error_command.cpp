@@ -11,8 +11,8 @@
 #include "app/host/errors.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
-#include "app/study/error/cvode.h"
 #include "app/study/error/error_report.h"
+#include "app/study/error/sundials.h"
 #include "app/study/report_text.h"
 #include "app/study/study_command.h"
 #include "app/study/study_folder.h"
@@ -113,7 +113,7 @@ void print(const ErrorArguments& typed, const ErrorOptions& options, const Study
     fmt::print("{}", json);
     return;
   }
-  fmt::print("{}{}CVODE: SUNDIALS {}.\n{}", findings.text, provenance_text(report["date"]),
+  fmt::print("{}{}SUNDIALS {}.\n{}", findings.text, provenance_text(report["date"]),
              sundials_version(), warnings_text(findings.warnings));
 }
 

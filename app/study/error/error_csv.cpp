@@ -58,13 +58,13 @@ std::string runs_csv(const ErrorStudy& study) {
 
 std::string ratios_csv(const ErrorStudy& study) {
   Csv csv({"scene", "error", "our_method", "our_step_s", "our_error",
-           "our_run_time_s_per_simulated_s", "cvode_method", "cvode_tolerance", "cvode_error",
-           "cvode_run_time_s_per_simulated_s", "cvode_over_ours"});
+           "our_run_time_s_per_simulated_s", "sundials_method", "sundials_tolerance",
+           "sundials_error", "sundials_run_time_s_per_simulated_s", "sundials_over_ours"});
   for (const double error : compared_errors) {
     const Choice choice = choose(study, error);
     std::vector<std::string> cells = {csv_cell(study.name), csv_cell(error)};
     add_choice(cells, choice.ours);
-    add_choice(cells, choice.cvode);
+    add_choice(cells, choice.peer);
     cells.push_back(choice.ratio() ? csv_cell(*choice.ratio()) : "");
     csv.add_row(cells);
   }

@@ -29,20 +29,20 @@ double height(const ErrorRun& run) {
 
 struct Looks {
   int ours = 0;
-  int cvode = 6;  // black and grey
+  int peer = 6;  // black and grey
 };
 
 /// One series per method, and another for its unstable runs.
 template <class Place, class Name>
-std::vector<DiagramSeries> series_of(const ErrorStudy& study, bool with_cvode, const Place& place,
+std::vector<DiagramSeries> series_of(const ErrorStudy& study, bool with_peers, const Place& place,
                                      const Name& name) {
   std::vector<DiagramSeries> all;
   std::string method;
   Looks next;
   for (const ErrorRun& run : study.runs) {
-    if (!run.ours && !with_cvode) continue;
+    if (!run.ours && !with_peers) continue;
     if (std::exchange(method, run.method) != run.method) {
-      const int look = run.ours ? next.ours++ : next.cvode++;
+      const int look = run.ours ? next.ours++ : next.peer++;
       all.push_back({.name = name(method),
                      .points = {},
                      .style = run.ours ? Style::line_with_marks : Style::dashed_with_marks,

@@ -50,8 +50,8 @@ json choice_json(const Choice& choice) {
   return {{"error", choice.error},
           {"sentence", recommendation(choice)},
           {"ours", choice.ours ? run_json(*choice.ours) : json(nullptr)},
-          {"cvode", choice.cvode ? run_json(*choice.cvode) : json(nullptr)},
-          {"cvode_over_ours", choice.ratio() ? json(*choice.ratio()) : json(nullptr)}};
+          {"sundials", choice.peer ? run_json(*choice.peer) : json(nullptr)},
+          {"sundials_over_ours", choice.ratio() ? json(*choice.ratio()) : json(nullptr)}};
 }
 
 }  // namespace

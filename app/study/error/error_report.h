@@ -9,7 +9,7 @@
 
 namespace pneuma::app {
 
-/// Tables of at most 120 columns, orders, recommendations, comparison with CVODE.
+/// Tables of at most 120 columns, orders, recommendations, comparison with SUNDIALS.
 std::string error_text(const ErrorStudy& study);
 
 /// All figures. Times in seconds; what was not measured is null.
@@ -18,7 +18,7 @@ nlohmann::json error_json(const ErrorStudy& study);
 /// A row per run.
 std::string runs_csv(const ErrorStudy& study);
 
-/// A row per error of `compared_errors`: the cheapest of ours and of CVODE, and their ratio.
+/// A row per error of `compared_errors`: the cheapest of ours and of SUNDIALS, and their ratio.
 std::string ratios_csv(const ErrorStudy& study);
 
 /// Error over run time. Unstable runs stand along the top edge, a row for each method.

@@ -60,11 +60,11 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
       };
     }
   }
-  // Contacts that are impulses are none of CVODE's business.
+  // Contacts that are impulses are none of SUNDIALS' business.
   if (flight.contacts && flight.world.settings.contact != sim::ContactMethod::potential) {
     return methods;
   }
-  for (const CvodeMethod kind : {CvodeMethod::adams, CvodeMethod::bdf}) {
+  for (const SundialsMethod kind : sundials_methods) {
     Method& method = methods.emplace_back();
     for (const double tolerance : options.tolerances) {
       Candidate& candidate = method.emplace_back();

@@ -1,4 +1,5 @@
-// Error against run time of one scene: every integrator over the steps, CVODE over its tolerances.
+// Error against run time of one scene: every integrator over the steps, those of
+// SUNDIALS over their tolerances.
 #pragma once
 
 #include <functional>
@@ -16,7 +17,7 @@ namespace pneuma::app {
 struct ErrorOptions {
   FlightOptions flight;
   std::vector<int> steps_per_second;  // ascending, multiples of samples_per_second, not empty
-  std::vector<double> tolerances;     // of CVODE, from loose to tight
+  std::vector<double> tolerances;     // of SUNDIALS, from loose to tight
   int repeats = 5;                    // of each run, for its time
   /// s of processor time: a method is not taken to shorter steps (or tighter tolerances) after a
   /// run that took longer than this, and the runs of a repetition are not repeated beyond it.
@@ -37,9 +38,9 @@ struct ErrorRun {
   };
 
   std::string method;
-  bool ours = true;          // else CVODE
+  bool ours = true;          // else SUNDIALS'
   int steps_per_second = 0;  // ours
-  double tolerance = 0.0;    // CVODE's
+  double tolerance = 0.0;    // SUNDIALS'
   Status status = Status::stable;
   std::string failure;       // of an unstable or skipped one: what, and when
   double run_time = 0.0;     // s of processor time per simulated second, min. of the repeats

@@ -25,13 +25,15 @@ std::string time_cell(const ErrorRun& run) {
   return run.status == Status::skipped ? "-" : microseconds(run.run_time);
 }
 
-/// A row for each step or tolerance, and for each method its error and its time in it.
-std::string runs_table(const ErrorStudy& study, bool ours) {
+/// Of our methods, or of a peer's whose names begin so: a row for each step or tolerance, and for
+/// each method its error and its time in it.
+std::string runs_table(const ErrorStudy& study, std::string_view peer) {
+  const bool ours = peer.empty();
   std::vector<Table::Column> columns = {{ours ? "step, s" : "tolerance"}};
   std::vector<std::pair<std::string, std::vector<std::string>>> rows;
   std::string method;
   for (const ErrorRun& run : study.runs) {
-    if (run.ours != ours) continue;
+    if (run.ours != ours || !run.method.starts_with(peer)) continue;
     if (run.method != method) {
       method = run.method;
       columns.push_back({"error", Align::right, method});
@@ -128,10 +130,10 @@ std::string comparison_text(const ErrorStudy& study) {
                {"method", Align::left, "ours"},
                {"step, s", Align::right, "ours"},
                {"us", Align::right, "ours"},
-               {"method", Align::left, "CVODE, given the same forces"},
-               {"tolerance", Align::right, "CVODE, given the same forces"},
-               {"us", Align::right, "CVODE, given the same forces"},
-               {"CVODE /\nours"}});
+               {"method", Align::left, "SUNDIALS, given the same forces"},
+               {"tolerance", Align::right, "SUNDIALS, given the same forces"},
+               {"us", Align::right, "SUNDIALS, given the same forces"},
+               {"SUNDIALS /\nours"}});
   for (const double error : compared_errors) {
     const Choice choice = choose(study, error);
     std::vector<std::string> cells = {power_of_ten(error)};
@@ -144,7 +146,7 @@ std::string comparison_text(const ErrorStudy& study) {
       return cells.end();
     };
     add(choice.ours);
-    add(choice.cvode);
+    add(choice.peer);
     cells.push_back(choice.ratio() ? fmt::format("{:.2f}x", *choice.ratio()) : "-");
     table.add_row(std::move(cells));
   }
@@ -152,7 +154,7 @@ std::string comparison_text(const ErrorStudy& study) {
   const std::vector<std::string> sentences = shortfalls(study);
   if (sentences.empty()) {
     return text +
-           "Ours is ahead of CVODE at all of these errors, and ten times at 1e-2 and 1e-3.\n";
+           "Ours is ahead of SUNDIALS at all of these errors, and ten times at 1e-2 and 1e-3.\n";
   }
   text += "Wanted: ahead everywhere, and ten times at 1e-2 and 1e-3. But:\n";
   for (const std::string& sentence : sentences) text += list_item(sentence);
@@ -162,8 +164,11 @@ std::string comparison_text(const ErrorStudy& study) {
 }  // namespace
 
 std::string error_text(const ErrorStudy& study) {
-  std::string text = heading(study) + "\n" + runs_table(study, true) + "\n";
-  if (!study.flight.contacts) text += runs_table(study, false) + "\n";
+  std::string text = heading(study) + "\n" + runs_table(study, "") + "\n";
+  for (const char* peer : {"cvode", "arkode"}) {
+    const std::string table = study.flight.contacts ? "" : runs_table(study, peer);
+    if (!table.empty()) text += table + "\n";
+  }
   text += orders_text(study) + "\n" + recommendations_text(study);
   if (!study.flight.contacts) text += fmt::format("\n{}", comparison_text(study));
   return text;

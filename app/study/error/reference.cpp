@@ -62,8 +62,8 @@ bool is_by_potential(const Flight& flight) {
 }
 
 Runs potential_runs(const Flight& flight) {
-  return {make_peer_solver(flight.world, CvodeMethod::adams, potential_tolerance),
-          make_peer_solver(flight.world, CvodeMethod::adams, potential_check_tolerance),
+  return {make_peer_solver(flight.world, SundialsMethod::cvode_adams, potential_tolerance),
+          make_peer_solver(flight.world, SundialsMethod::cvode_adams, potential_check_tolerance),
           potential_agreement};
 }
 

@@ -1,11 +1,12 @@
-// The ways to compute a motion that are compared: our integrators at a step, CVODE at a tolerance.
+// The ways to compute a motion that are compared: our integrators at a step, SUNDIALS' at
+// a tolerance.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "app/study/error/cvode.h"
 #include "app/study/error/samples.h"
+#include "app/study/error/sundials.h"
 #include "sim/step/plan.h"
 
 namespace pneuma::app {
@@ -34,11 +35,11 @@ class Solver {
 /// motion.
 std::unique_ptr<Solver> make_stepper_solver(sim::World world, bool contacts);
 
-/// CVODE on the simulation's own right-hand side, of the whole world with its contacts where these
-/// are a potential, so that only the method differs. Its tolerance is
-/// relative to the rest radius of each body and, for velocities, to that times the frequency of a
-/// vertex on a spring, sqrt(k / m): neither the body's place nor its fall loosens it.
-std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod method,
+/// SUNDIALS on the simulation's own right-hand side, of the whole world with its contacts where
+/// these are a potential, so that only the method differs. Its tolerance is relative to the rest
+/// radius of each body and, for velocities, to that times the frequency of a vertex on a spring,
+/// sqrt(k / m): neither the body's place nor its fall loosens it.
+std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod method,
                                          double tolerance);
 
 /// CVODE's Adams method on the equation written down again.

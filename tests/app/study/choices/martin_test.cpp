@@ -15,7 +15,7 @@ TEST(CompareMartin, TakesTheStepsThatAreStableForBoth) {
   ErrorStudy study = made_up_study();
   study.runs = {made_up_unstable_run("martin", 15), made_up_run("martin", 60, 0.4, 4e-4),
                 made_up_run("rk4", 15, 0.1, 1e-4), made_up_run("rk4", 60, 2e-4, 5e-4),
-                made_up_cvode_run(1e-2, 1e-2, 1e-3, 100.0)};
+                made_up_peer_run(1e-2, 1e-2, 1e-3, 100.0)};
   const auto comparisons = compare_martin(study);
   ASSERT_EQ(comparisons.size(), 1u);
   EXPECT_EQ(comparisons[0].other, "rk4");

@@ -46,7 +46,7 @@ TEST(ObservedOrders, AreNotMadeUpWhereThereIsNone) {
   for (const int rate : {15, 30, 60}) study.runs.push_back(made_up_unstable_run("martin", rate));
   study.runs.push_back(made_up_run("martin", 120, 0.05, 1e-3));
   study.runs.push_back(made_up_run("martin", 240, 0.02, 1e-3));
-  study.runs.push_back(made_up_cvode_run(1e-3, 1e-3, 1e-3, 100.0));
+  study.runs.push_back(made_up_peer_run(1e-3, 1e-3, 1e-3, 100.0));
   const auto orders = observed_orders(study);
   ASSERT_EQ(orders.size(), 1u);
   EXPECT_FALSE(orders[0].law);
@@ -69,28 +69,28 @@ TEST(ObservedOrders, OfContactsAreOverAllSteps) {
   EXPECT_EQ(observed_orders(study)[0].points, 4u);
 }
 
-/// Two of ours and two of CVODE's.
+/// Two of ours and two of SUNDIALS'.
 ErrorStudy study_of_four() {
   ErrorStudy study = made_up_study();
   study.runs = {made_up_run("martin", 960, 8e-3, 5e-3), made_up_run("rk4", 60, 2e-3, 400e-6),
-                made_up_cvode_run(1e-2, 9e-3, 1440e-6, 80.0),
-                made_up_cvode_run(1e-4, 5e-5, 3000e-6, 150.0)};
+                made_up_peer_run(1e-2, 9e-3, 1440e-6, 80.0),
+                made_up_peer_run(1e-4, 5e-5, 3000e-6, 150.0)};
   return study;
 }
 
 TEST(Choose, TakesTheCheapestThatIsGoodEnough) {
   const Choice loose = choose(study_of_four(), 1e-2);
-  ASSERT_TRUE(loose.ours && loose.cvode);
+  ASSERT_TRUE(loose.ours && loose.peer);
   EXPECT_EQ(loose.ours->method, "rk4");
-  EXPECT_EQ(loose.cvode->tolerance, 1e-2);
+  EXPECT_EQ(loose.peer->tolerance, 1e-2);
   EXPECT_NEAR(*loose.ratio(), 3.6, 1e-12);
 
   const Choice tight = choose(study_of_four(), 1e-3);
   EXPECT_FALSE(tight.ours);
-  ASSERT_TRUE(tight.cvode);
-  EXPECT_EQ(tight.cvode->tolerance, 1e-4);
+  ASSERT_TRUE(tight.peer);
+  EXPECT_EQ(tight.peer->tolerance, 1e-4);
   EXPECT_FALSE(tight.ratio());
-  EXPECT_FALSE(choose(study_of_four(), 1e-5).cvode);
+  EXPECT_FALSE(choose(study_of_four(), 1e-5).peer);
 }
 
 TEST(Choose, TakesNoUnstableRunAndNoneBeyondWhatIsKnown) {
@@ -120,14 +120,14 @@ TEST(Shortfalls, SayHowFarAheadAndWhy) {
   // ours.
   ASSERT_EQ(sentences.size(), 5u);
   EXPECT_TRUE(
-      contains(sentences[0], "at an error of 1e-2 ours is 3.6 times ahead of CVODE, not 10"));
+      contains(sentences[0], "at an error of 1e-2 ours is 3.6 times ahead of SUNDIALS, not 10"));
   EXPECT_TRUE(contains(sentences[0], "evaluates the forces 80.0 times"));
   // 1440 us less 80 times 2 us.
   EXPECT_TRUE(contains(sentences[0], "spends 89 % of its time"));
   EXPECT_TRUE(contains(sentences[0], "as long as 200 evaluations"));
   EXPECT_TRUE(contains(sentences[0], "no longer than 72.0."));
-  EXPECT_TRUE(contains(sentences[1], "at an error of 1e-3 CVODE is ahead"));
-  EXPECT_TRUE(contains(sentences[2], "at an error of 1e-4 CVODE is ahead"));
+  EXPECT_TRUE(contains(sentences[1], "at an error of 1e-3 SUNDIALS is ahead"));
+  EXPECT_TRUE(contains(sentences[2], "at an error of 1e-4 SUNDIALS is ahead"));
 }
 
 TEST(Shortfalls, SayWhenNeitherIsGoodEnough) {
@@ -145,16 +145,16 @@ TEST(Shortfalls, SayWhyNotTheNextLongerStep) {
 
 TEST(Shortfalls, SayWhenOursIsBehind) {
   ErrorStudy study = made_up_study();
-  study.runs = {made_up_run("rk4", 60, 1e-7, 1e-3), made_up_cvode_run(1e-8, 1e-7, 5e-4, 50.0)};
+  study.runs = {made_up_run("rk4", 60, 1e-7, 1e-3), made_up_peer_run(1e-8, 1e-7, 5e-4, 50.0)};
   const auto sentences = shortfalls(study);
   ASSERT_EQ(sentences.size(), compared_errors.size());
   EXPECT_TRUE(
-      contains(sentences[5], "at an error of 1e-6 ours is behind CVODE, 0.5 times as fast"));
+      contains(sentences[5], "at an error of 1e-6 ours is behind SUNDIALS, 0.5 times as fast"));
 }
 
 TEST(Shortfalls, AreNoneWhereOursIsAhead) {
   ErrorStudy study = made_up_study();
-  study.runs = {made_up_run("rk4", 60, 1e-7, 1e-4), made_up_cvode_run(1e-8, 1e-7, 1.1e-3, 50.0)};
+  study.runs = {made_up_run("rk4", 60, 1e-7, 1e-4), made_up_peer_run(1e-8, 1e-7, 1.1e-3, 50.0)};
   EXPECT_TRUE(shortfalls(study).empty());
   study.runs[1].run_time = 0.9e-3;  // nine times
   EXPECT_EQ(shortfalls(study).size(), 2u);

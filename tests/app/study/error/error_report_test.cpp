@@ -23,7 +23,7 @@ ErrorStudy study_with_all() {
                 made_up_run("rk4", 30, 2e-3, 2e-4),
                 made_up_run("rk4", 60, 1.25e-4, 4e-4),
                 made_up_run("rk4", 120, 0.0, 8e-4),
-                made_up_cvode_run(1e-2, 9e-3, 1440e-6, 80.0)};
+                made_up_peer_run(1e-2, 9e-3, 1440e-6, 80.0)};
   study.runs[7].status = ErrorRun::Status::skipped;
   study.runs[7].failure = "the run before it took 20 s";
   return study;
@@ -68,7 +68,7 @@ TEST(ErrorText, WithContactsComparesOnlyOurs) {
   ErrorStudy study = study_with_all();
   study.runs.pop_back();
   study.flight.contacts = true;
-  EXPECT_EQ(error_text(study).find("CVODE"), std::string::npos);
+  EXPECT_EQ(error_text(study).find("SUNDIALS"), std::string::npos);
 }
 
 TEST(RunsCsv, HasARowPerRunWithEmptyCellsWhereNothingWasMeasured) {
@@ -98,10 +98,11 @@ TEST(ErrorJson, SaysTheSameForMachines) {
   EXPECT_TRUE(json["runs"][0]["max"].is_null());
   EXPECT_EQ(json["runs"][1]["max"]["position"], 5e-2);
   EXPECT_EQ(json["choices"][1]["ours"]["method"], "rk4");
-  EXPECT_NEAR(json["choices"][1]["cvode_over_ours"], 7.2, 1e-9);
+  EXPECT_NEAR(json["choices"][1]["sundials_over_ours"], 7.2, 1e-9);
   EXPECT_EQ(json["orders"][0]["observed"]["points"], 3);
-  expect_nulls_only_at(json, {"/tolerance", "/steps_per_second", "/evaluations_per_simulated_s",
-                              "/end", "/max", "/ours", "/cvode", "/cvode_over_ours", "/observed"});
+  expect_nulls_only_at(
+      json, {"/tolerance", "/steps_per_second", "/evaluations_per_simulated_s", "/end", "/max",
+             "/ours", "/sundials", "/sundials_over_ours", "/observed"});
 }
 
 /// The series of unstable runs behind that of the name.
@@ -133,7 +134,7 @@ TEST(ErrorDiagrams, PlaceRunsByTheirTimeOrStep) {
   EXPECT_DOUBLE_EQ(work_diagram(study).series[0].points[0].x, 200.0);  // microseconds
   EXPECT_DOUBLE_EQ(step_diagram(study).series[0].points[0].x, 1.0 / 30.0);
   EXPECT_EQ(work_diagram(study).series.size(), 6u);
-  EXPECT_EQ(step_diagram(study).series.size(), 4u);  // CVODE has no step of ours
+  EXPECT_EQ(step_diagram(study).series.size(), 4u);  // SUNDIALS has no step of ours
 }
 
 TEST(ErrorDiagrams, HaveAPlaceForAnErrorOfNothing) {

@@ -9,6 +9,7 @@
 
 #include "app/host/version.h"
 #include "app/study/error/conclusions.h"
+#include "app/study/error/sundials.h"
 #include "scenes/loader/integrator_names.h"
 #include "tests/app/study/error/small_study.h"
 #include "tests/support/worlds.h"
@@ -61,11 +62,11 @@ double error_after(const std::string& method, int rate, double seconds) {
   return (found.rows() - exact.rows()).norm() / std::sqrt(58.0) / 3.0;
 }
 
-TEST(StudyErrors, RunsEveryIntegratorAtEveryStepAndCvode) {
-  std::size_t ours = 0, cvode = 0;
-  for (const ErrorRun& run : small_study().runs) (run.ours ? ours : cvode) += 1;
+TEST(StudyErrors, RunsEveryIntegratorAtEveryStepAndSundials) {
+  std::size_t ours = 0, peers = 0;
+  for (const ErrorRun& run : small_study().runs) (run.ours ? ours : peers) += 1;
   EXPECT_EQ(ours, 8 * scenes::integrator_names().size());
-  EXPECT_EQ(cvode, 2 * short_sweep().tolerances.size());
+  EXPECT_EQ(peers, sundials_methods.size() * short_sweep().tolerances.size());
   EXPECT_FALSE(small_study().flight.contacts);
   EXPECT_EQ(small_study().vertices, 58);
   EXPECT_NEAR(small_study().rest_radius, 3.0, 1e-12);
@@ -122,7 +123,7 @@ TEST(StudyErrorsTiming, RecommendsRk4AndNotThePapersMethod) {
   EXPECT_GT(run_of("martin", 960).run_time, 2.0 * run_of("symplectic_euler", 960).run_time);
 }
 
-TEST(StudyErrorsTiming, FindsOursAheadOfCvode) {
+TEST(StudyErrorsTiming, FindsOursAheadOfSundials) {
   if (is_debug_build()) GTEST_SKIP() << "only one of the two is compiled for debugging";
   for (const double error : compared_errors) {
     const Choice choice = choose(small_study(), error);

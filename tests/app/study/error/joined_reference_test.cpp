@@ -2,8 +2,8 @@
 // velocities and amounts of gas of all bodies together.
 #include <gtest/gtest.h>
 
-#include "app/study/error/cvode.h"
 #include "app/study/error/reference_equation.h"
+#include "app/study/error/sundials.h"
 #include "tests/sim/joints/gas_worlds.h"
 
 namespace pneuma::app {
@@ -123,11 +123,11 @@ class WholeEquation {
 std::vector<double> solved(const World& world) {
   const auto equation = std::make_shared<WholeEquation>(world);
   const std::vector<double> start = equation->start();
-  Cvode solver(CvodeMethod::adams,
-               [equation](const double* state, double* derivative) {
-                 return (*equation)(state, derivative);
-               },
-               start, {1e-11, std::vector<double>(start.size(), 1e-12)});
+  Sundials solver(SundialsMethod::cvode_adams,
+                  [equation](const double* state, double* derivative) {
+                    return (*equation)(state, derivative);
+                  },
+                  start, {1e-11, std::vector<double>(start.size(), 1e-12)});
   EXPECT_TRUE(solver.advance_to(seconds));
   return solver.state();
 }

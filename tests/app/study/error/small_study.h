@@ -40,8 +40,8 @@ inline ErrorRun made_up_run(const std::string& method, int steps_per_second, dou
   return run;
 }
 
-inline ErrorRun made_up_cvode_run(double tolerance, double error, double run_time,
-                                  double evaluations) {
+inline ErrorRun made_up_peer_run(double tolerance, double error, double run_time,
+                                 double evaluations) {
   ErrorRun run = made_up_run("cvode_adams", 0, error, run_time);
   run.ours = false;
   run.tolerance = tolerance;

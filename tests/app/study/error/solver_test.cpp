@@ -52,7 +52,7 @@ TEST(Peer, ComesCloserWithTheTolerance) {
   const sim::World world = small_world();
   const auto reference = make_reference_solver(world, 1e-12);
   const Trajectory expected = follow(*reference);
-  for (const CvodeMethod method : {CvodeMethod::adams, CvodeMethod::bdf}) {
+  for (const SundialsMethod method : sundials_methods) {
     const auto loose = make_peer_solver(world, method, 1e-2);
     const auto tight = make_peer_solver(world, method, 1e-8);
     const double far = error(world, *loose, expected), near = error(world, *tight, expected);
@@ -68,8 +68,8 @@ TEST(Peer, DoesNotDependOnThePlace) {
   for (int v = 0; v < there.soft[0].positions.size(); ++v) {
     there.soft[0].positions[v] += sim::Vec3(1e3, 0.0, 0.0);
   }
-  const auto near = make_peer_solver(here, CvodeMethod::adams, 1e-4);
-  const auto far = make_peer_solver(there, CvodeMethod::adams, 1e-4);
+  const auto near = make_peer_solver(here, SundialsMethod::cvode_adams, 1e-4);
+  const auto far = make_peer_solver(there, SundialsMethod::cvode_adams, 1e-4);
   follow(*near);
   follow(*far);
   EXPECT_EQ(near->evaluations(), far->evaluations());
@@ -79,7 +79,7 @@ TEST(Peer, TakesSeveralBodies) {
   sim::World world = small_world();
   world.soft.push_back(sim::make_body(sim::make_torus(3.0, 1.0, 6, 5), {20.0, 0.0, 5.0}));
   const auto reference = make_reference_solver(world, 1e-12);
-  const auto peer = make_peer_solver(world, CvodeMethod::adams, 1e-8);
+  const auto peer = make_peer_solver(world, SundialsMethod::cvode_adams, 1e-8);
   EXPECT_LT(error(world, *peer, follow(*reference)), 1e-6);
 }
 
@@ -94,7 +94,7 @@ TEST(Peer, TakesBoxesWhereContactIsAPotential) {
   for (sim::RigidBox& box : world.rigid) box.surface = {1.0, 0.0};
   world.rigid[1].angular_velocity = {2.0, 3.0, 1.0};
   world.rigid[1].velocity = {0, 0, -2.0};
-  const auto peer = make_peer_solver(world, CvodeMethod::adams, 1e-10);
+  const auto peer = make_peer_solver(world, SundialsMethod::cvode_adams, 1e-10);
   const auto ours = make_stepper_solver(world, true);
   const Trajectory expected = follow(*peer);
   EXPECT_LT(error(world, *ours, expected), 1e-5);

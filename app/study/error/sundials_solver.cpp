@@ -14,7 +14,7 @@
 namespace pneuma::app {
 namespace {
 
-/// The simulation's right-hand side on CVODE's numbers.
+/// The simulation's right-hand side on SUNDIALS' numbers.
 class FastEquation {
  public:
   FastEquation(std::span<const sim::SoftBody> bodies, const sim::Vec3& gravity) {
@@ -195,12 +195,12 @@ std::vector<double> absolute_tolerances(const sim::World& world, double toleranc
   return result;
 }
 
-class CvodeSolver final : public Solver {
+class SundialsSolver final : public Solver {
  public:
   /// Gives a world the bodies of a state.
   using Read = std::function<void(std::span<const double>, sim::World&)>;
 
-  CvodeSolver(sim::World world, Cvode solver, Read read)
+  SundialsSolver(sim::World world, Sundials solver, Read read)
       : world_(std::move(world)), solver_(std::move(solver)), read_(std::move(read)) {}
 
   bool advance(std::size_t i) override {
@@ -216,14 +216,14 @@ class CvodeSolver final : public Solver {
   }
 
   std::string failure() const override {
-    return failed_ ? fmt::format("CVODE gave up before {:.4g} s", reached_) : "";
+    return failed_ ? fmt::format("it gave up before {:.4g} s", reached_) : "";
   }
   double failure_time() const override { return reached_; }
   long evaluations() const override { return solver_.evaluations(); }
 
  private:
   sim::World world_;
-  Cvode solver_;
+  Sundials solver_;
   Read read_;
   double reached_ = 0.0;
   bool failed_ = false;
@@ -235,7 +235,7 @@ void read_soft(std::span<const double> state, sim::World& world) {
 
 }  // namespace
 
-std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod method,
+std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod method,
                                          double tolerance) {
   // std::function wants to be able to copy.
   if (world.settings.contact == sim::ContactMethod::potential) {
@@ -246,20 +246,20 @@ std::unique_ptr<Solver> make_peer_solver(const sim::World& world, CvodeMethod me
     const auto read = [equation](std::span<const double> state, sim::World& into) {
       equation->set(state.data(), into);
     };
-    return std::make_unique<CvodeSolver>(
+    return std::make_unique<SundialsSolver>(
         world,
-        Cvode(method, evaluate, equation->start(),
-              {0.0, absolute_tolerances(world, tolerance, frequency)}),
+        Sundials(method, evaluate, equation->start(),
+                 {0.0, absolute_tolerances(world, tolerance, frequency)}),
         read);
   }
   const auto equation = std::make_shared<FastEquation>(world.soft, world.settings.gravity);
   const auto evaluate = [equation](const double* state, double* derivative) {
     return (*equation)(state, derivative);
   };
-  return std::make_unique<CvodeSolver>(
+  return std::make_unique<SundialsSolver>(
       world,
-      Cvode(method, evaluate, flat_state(world.soft),
-            {0.0, absolute_tolerances(world, tolerance, frequency)}),
+      Sundials(method, evaluate, flat_state(world.soft),
+               {0.0, absolute_tolerances(world, tolerance, frequency)}),
       read_soft);
 }
 
@@ -275,10 +275,10 @@ std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double to
   const auto evaluate = [problem](const double* state, double* derivative) {
     return problem->equation(state, derivative);
   };
-  return std::make_unique<CvodeSolver>(
+  return std::make_unique<SundialsSolver>(
       world,
-      Cvode(CvodeMethod::adams, evaluate, flat_state(world.soft),
-            {tolerance, absolute_tolerances(world, tolerance, one_per_second)}),
+      Sundials(SundialsMethod::cvode_adams, evaluate, flat_state(world.soft),
+               {tolerance, absolute_tolerances(world, tolerance, one_per_second)}),
       read_soft);
 }
 
