@@ -36,15 +36,14 @@ bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   return true;
 }
 
-/// Which boxes the shifts that were solved for move away from each other.
-void group_shifted_boxes(SweptMemory& memory) {
-  ShiftedGroups& groups = memory.shifted;
+/// Which boxes are near each other, and which of these near something else.
+void group_near_boxes(SweptMemory& memory) {
+  NearGroups& groups = memory.near_groups;
   groups.sets.reset();
   std::ranges::fill(groups.is_held, std::uint8_t{0});
   const auto box = [&](const SurfacePoint& point) { return memory.bodies.box(point.body); };
   for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
     const SweptImpulse& impulse = memory.impulses[i];
-    if (impulse.given().isZero(0.0)) continue;
     const SweptContact& contact = memory.contacts[i];
     const bool first = impulse.first().moves(), second = impulse.second().moves();
     if (!first && !second) continue;
@@ -76,7 +75,7 @@ double give_back_angular_momentum(World& world, SweptMemory& memory, const Vec3&
 
 double keep_angular_momentum(World& world, SweptMemory& memory) {
   if (!memory.bodies.has_shifts()) return 0.0;
-  ShiftedGroups& groups = memory.shifted;
+  NearGroups& groups = memory.near_groups;
   double work = 0.0;
   for (auto begin = groups.order.begin(); begin != groups.order.end();) {
     const int set = groups.sets.find(*begin);
@@ -99,7 +98,7 @@ bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, do
   if (world.rigid.empty()) return false;
   const bool shifts = find_shifts(memory, search, fraction);
   if (shifts) {
-    group_shifted_boxes(memory);
+    group_near_boxes(memory);
     memory.bodies.take_as_shifts();
     memory.bodies.shift_boxes(world);
     memory.work += memory.bodies.work_of_shifts(world);

@@ -23,10 +23,10 @@ inline double missing_distance(const SweptContact& contact) {
 /// free motion. `fraction`: of a whole step, which may have been halved. Whether any was moved.
 bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction);
 
-/// Shifts keep the centre of mass of boxes that nothing holds, but at different velocities they
-/// change the angular momentum: it is given back as a rotation of all as one rigid body, at the end
-/// of the step's motion. What that adds to their energy is taken from what they do besides. Returns
-/// the work of both (J).
+/// Shifts keep the centre of mass of boxes that are near nothing but each other, but at different
+/// velocities they change the angular momentum: it is given back as a rotation of all as one rigid
+/// body, at the end of the step's motion. What that adds to their energy is taken from what they do
+/// besides. Returns the work of both (J).
 double keep_angular_momentum(World& world, SweptMemory& memory);
 
 }  // namespace pneuma::sim

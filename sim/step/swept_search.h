@@ -31,12 +31,12 @@ struct ReturnedEnergyMemory {
   std::vector<Vec3> given;            // N s, per contact
 };
 
-/// Boxes that shifts have moved away from each other.
-struct ShiftedGroups {
-  explicit ShiftedGroups(std::size_t boxes) : sets(boxes), is_held(boxes), order(boxes) {}
+/// Boxes that are near each other, directly or through others.
+struct NearGroups {
+  explicit NearGroups(std::size_t boxes) : sets(boxes), is_held(boxes), order(boxes) {}
 
   base::DisjointSets sets;
-  std::vector<std::uint8_t> is_held;  // per box: away from what does not give way
+  std::vector<std::uint8_t> is_held;  // per box: near what does not give way
   std::vector<int> order;             // the boxes, set by set
 };
 
@@ -58,7 +58,7 @@ struct SweptMemory {
       : bodies(world),
         solver(bodies.count(), static_cast<int>(world.soft.size())),
         starts(max_halvings + 1),
-        shifted(world.rigid.size()),
+        near_groups(world.rigid.size()),
         carried_boxes(world),
         fall_asleep(world) {
     members.reserve(at(bodies.count()));
@@ -85,7 +85,7 @@ struct SweptMemory {
   ReturnedEnergyMemory returned_energy;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
-  ShiftedGroups shifted;
+  NearGroups near_groups;
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;  // bodies with candidates
