@@ -72,14 +72,35 @@ std::string missing_command_complaint(const NamedCommand& named) {
                      choice_in(*named.command), fmt::join(names, ", "));
 }
 
+/// Full names of the commands below that have the option.
+void add_commands_with(const CLI::App& above, const std::string& option,
+                       std::vector<std::string>& names) {
+  for (const CLI::App* command : above.get_subcommands({})) {
+    if (command->get_option_no_throw(option) != nullptr) names.push_back(full_name(*command));
+    add_commands_with(*command, option, names);
+  }
+}
+
+/// "; pneuma check has it", for an option that belongs to few commands, none of them this one.
+std::string where_it_belongs(const CLI::App& command, const std::string& option) {
+  const CLI::App* root = &command;
+  while (root->get_parent() != nullptr) root = root->get_parent();
+  constexpr std::size_t most_named = 3;
+  std::vector<std::string> names;
+  add_commands_with(*root, option, names);
+  if (names.empty() || names.size() > most_named) return "";
+  return fmt::format("; {} {} it", fmt::join(names, " and "), names.size() == 1 ? "has" : "have");
+}
+
 std::string unknown_option_complaint(const CLI::App& command, const std::string& typed) {
   const std::string name = typed.substr(0, typed.find('='));
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& long_name : option->get_lnames()) known.push_back("--" + long_name);
   }
-  return fmt::format("{} has no option {}{}", full_name(command), scenes::in_quotes(name),
-                     scenes::suggestion_and_all(name, views(known)));
+  return fmt::format("{} has no option {}{}{}", full_name(command), scenes::in_quotes(name),
+                     scenes::suggestion_and_all(name, views(known)),
+                     where_it_belongs(command, name));
 }
 
 /// What to say of words that the command takes no notice of; empty where there are none. After an

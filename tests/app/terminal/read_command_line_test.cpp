@@ -55,6 +55,12 @@ TEST(UnknownOption, IsNamedWithTheNearestAndWithoutTheWordsBehindIt) {
   EXPECT_SAYS(complaint_about("study error --shrot"), "pneuma study error has no option '--shrot'");
 }
 
+TEST(UnknownOption, OfOtherCommandsNamesThem) {
+  EXPECT_SAYS(complaint_about("--keys"), "; pneuma sweep and pneuma check have it\n");
+  EXPECT_SAYS(complaint_about("check one_sphere --turntable 30"), "; pneuma render has it\n");
+  EXPECT_EQ(complaint_about("list --nonsense").find("has it"), std::string::npos);
+}
+
 TEST(ExtraWords, AreListedAsTyped) {
   EXPECT_SAYS(complaint_about("render a b c d"), "does not expect: b c d\n");
 }
