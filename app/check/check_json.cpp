@@ -92,6 +92,8 @@ json run_statistics_json(const RunStatistics& run) {
         {"last_parted_s", run.start_overlap.parted},
         {"bodies", run.start_overlap.bodies}}},
       {"self_crossings", crossings_json(run.self_crossings)},
+      {"divided_steps", run.divided_steps},
+      {"most_parts_of_a_step", run.most_parts},
       {"overlap_at_end_m", run.end_overlap},
       {"overlap_at_end_bodies", run.end_overlap_bodies},
       {"penetration_m",

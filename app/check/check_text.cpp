@@ -231,6 +231,11 @@ std::string start_overlap_text(const StartOverlapStatistics& start) {
 std::string run_statistics_text(const RunStatistics& run, const sim::Settings& settings) {
   std::string text = fmt::format("Run of {} steps, {:g} s\n", grouped(run.steps), run.seconds);
   if (run.divergence) text += named_line("DIVERGED", *run.divergence);
+  if (run.divided_steps > 0) {
+    text += named_line("divided steps",
+                       fmt::format("{}, which diverged and were done again in up to {} parts",
+                                   grouped(run.divided_steps), run.most_parts));
+  }
   text += penetration_text(run, settings);
   text += crossings_text("crossings", run.crossings, run.frames);
   if (run.touching_frames > 0) {

@@ -88,11 +88,16 @@ class Observer {
     }
   }
 
-  void after_step(const sim::World& world, const sim::Stepper& stepper) {
-    result_.contacts.add(stepper.contacts());
-    if (result_.driven_work) *result_.driven_work += stepper.driven_work();
-    if (result_.gas_work) *result_.gas_work += stepper.gas_work();
-    if (2 * world.steps > all_steps_) result_.settled_contacts.add(stepper.contacts());
+  void after_step(const Simulation& simulation) {
+    const auto contacts = simulation.stepper().contacts();
+    result_.contacts.add(contacts);
+    if (result_.driven_work) *result_.driven_work += simulation.driven_work();
+    if (result_.gas_work) *result_.gas_work += simulation.gas_work();
+    if (2 * simulation.world().steps > all_steps_) result_.settled_contacts.add(contacts);
+    for (const int parts : simulation.step_parts()) {
+      ++result_.divided_steps;
+      result_.most_parts = std::max(result_.most_parts, parts);
+    }
   }
 
   void after_frame(const sim::World& world) {
@@ -206,19 +211,21 @@ class Observer {
 }  // namespace
 
 RunStatistics run_statistics(const scenes::Scene& scene, int threads) {
-  sim::World world = build_world(scene);
-  sim::Stepper stepper(world, {.threads = threads, .plan = {}});
+  Simulation simulation(scene, build_world(scene), threads);
+  const sim::World& world = simulation.world();
   const int steps_per_frame = scenes::steps_per_frame(scene);
   const std::int64_t all_steps = scenes::frame_count(scene) * steps_per_frame;
   Observer observer(world, all_steps);
 
   while (world.steps < all_steps) {
     throw_if_interrupted();
-    if (const auto divergence = stepper.step(world)) {
-      observer.diverged(divergence_error(scene.name, *divergence, world).what());
+    try {
+      simulation.advance_step();
+    } catch (const DivergenceError& error) {
+      observer.diverged(error.what());
       break;
     }
-    observer.after_step(world, stepper);
+    observer.after_step(simulation);
     if (world.steps % steps_per_frame == 0) observer.after_frame(world);
   }
   return observer.finish(world);

@@ -50,6 +50,9 @@ struct RunStatistics {
   double seconds = 0.0;                   // of the scene's time
   std::optional<std::string> divergence;  // where the run ended early; what follows is up to there
 
+  int divided_steps = 0;  // that diverged and were done again in parts
+  int most_parts = 0;     // of one of them
+
   Peak penetration;                  // m, over the whole run
   double start_penetration = 0.0;    // m
   double settled_penetration = 0.0;  // m, over the last half of it
@@ -91,7 +94,8 @@ struct RunStatistics {
 /// 1/60 s, which the contact takes away again: the third of it is what may be left over.
 inline constexpr double rest_speed = 0.05;
 
-/// Runs the scene without pictures. `threads` changes nothing but the time that takes.
+/// Runs the scene without pictures, as `pneuma render` does: a step that diverges is done in parts
+/// where it is short enough for small motions. `threads` changes nothing but the time that takes.
 RunStatistics run_statistics(const scenes::Scene& scene, int threads);
 
 }  // namespace pneuma::app

@@ -18,6 +18,7 @@ struct UsageError : std::runtime_error {
 
 struct DivergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
+  bool tried_parts = false;  // of the step, which diverged too
 };
 
 struct Interrupted : std::runtime_error {

@@ -84,8 +84,9 @@ std::string resume_command(std::vector<std::string> command_line) {
 DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request) {
   return DivergenceError(fmt::format(
       "{}\nThe frames so far are whole. To go on from the last of them, add what is to be done "
-      "otherwise, a --set simulation.KEY=VALUE or --on-divergence substep, to: {}",
-      error.what(), resume_command(request.command_line)));
+      "otherwise, a --set simulation.KEY=VALUE{}, to: {}",
+      error.what(), error.tried_parts ? "" : " or --on-divergence substep",
+      resume_command(request.command_line)));
 }
 
 /// Scene -> world -> step stages -> frame -> PNG; the last three are in draw_frames.

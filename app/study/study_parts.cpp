@@ -155,6 +155,8 @@ void write_workflow(SplitOptions typed, const std::string& study,
                   fmt::arg("here", snakemake_text(shell_line(std::span(&here, 1)))),
                   fmt::arg("command", snakemake_text(part_command(typed, "--quiet"))));
   fmt::print("{}\n", StudyFolder(typed.out).write("Snakefile", text).string());
+  fmt::print(stderr, "{} parts; here: cd {} && snakemake --cores 1\n", parts.size(),
+             shell_line(std::span(&typed.out, 1)));
 }
 
 }  // namespace

@@ -91,7 +91,9 @@ std::vector<std::string> measure_names() {
   for (const ShortName& known : short_names) names.emplace_back(known.name);
   const nlohmann::json paths = example().flatten();
   for (const auto& [path, value] : paths.items()) {
-    if (value.is_primitive() && path != "/units") names.push_back(with_dots(path));
+    const std::string name = with_dots(path);
+    const bool is_listed = std::ranges::find(names, name) != names.end();
+    if (value.is_primitive() && path != "/units" && !is_listed) names.push_back(name);
   }
   return names;
 }

@@ -167,7 +167,7 @@ std::string repairs_text(const std::vector<std::string>& repaired) {
 
 std::string bending_text(const sim::SoftMaterial& material) {
   if (material.bending == 0.0) return "";
-  return fmt::format("bending = {}  # N m: springs alone hold neither flat nor concave faces\n",
+  return fmt::format("bending = {:.4g}  # N m: springs alone hold neither flat nor concave faces\n",
                      material.bending);
 }
 
@@ -214,8 +214,8 @@ steps_per_second = {}    # for the masses and springs below
 ambient_pressure = {}  # Pa: with it the gas resists a change of its volume
 
 [camera]
-eye = [{}, {}, {}]
-target = [0.0, 0.0, {}]
+eye = [{:g}, {:g}, {:g}]
+target = [0.0, 0.0, {:g}]
 
 [picture]
 frames_per_second = {}

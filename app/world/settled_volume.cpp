@@ -1,5 +1,6 @@
 #include "app/world/settled_volume.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -68,9 +69,18 @@ double volume_of(const sim::World& world) {
   return sim::volume(body.mesh->topology, body.positions);
 }
 
-}  // namespace
+/// kg per N/m of a whole body at most: where it rests does not depend on its mass, and what swings
+/// so slowly that it moves little in a step of quiet_world would be taken for settled. The lightest
+/// swing ten times in such a step, if others find no rest.
+constexpr double moderate = 2.0, lightest = 0.1;
 
-std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body) {
+sim::SoftBody with_mass_per_k(sim::SoftBody body, double most) {
+  const double mass = most * body.material.k / body.positions.size();
+  if (mass > 0.0) body.material.vertex_mass = std::min(mass, body.material.vertex_mass);
+  return body;
+}
+
+std::optional<sim::SoftBody> find_settled(const sim::SoftBody& body) {
   sim::World world = quiet_world(body);
   double last = volume_of(world);
   sim::Stepper stepper(world);
@@ -83,18 +93,7 @@ std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body) {
   return std::nullopt;
 }
 
-std::optional<double> settled_volume(const sim::SoftBody& body) {
-  const sim::GasLaw law = sim::gas_law(body.material);
-  const bool gas = law.strength > 0.0;
-  if (gas && body.material.k == 0.0) return balanced_volume(law);
-  if (!gas) return sim::volume(body.mesh->topology, body.positions);
-  const auto settled = settled_body(body);
-  if (!settled) return std::nullopt;
-  return sim::volume(settled->mesh->topology, settled->positions);
-}
-
-std::optional<double> held_pressure(const sim::SoftBody& body, double volume) {
-  if (body.material.k == 0.0) return 0.0;
+std::optional<double> find_held_pressure(const sim::SoftBody& body, double volume) {
   sim::World world = quiet_world(body);
   sim::SoftBody& alone = world.soft.front();
   sim::SoftMaterial& material = alone.material;
@@ -113,6 +112,31 @@ std::optional<double> held_pressure(const sim::SoftBody& body, double volume) {
     if (settled) return held;
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body) {
+  auto settled = find_settled(with_mass_per_k(body, moderate));
+  if (!settled) settled = find_settled(with_mass_per_k(body, lightest));
+  if (settled) settled->material.vertex_mass = body.material.vertex_mass;
+  return settled;
+}
+
+std::optional<double> settled_volume(const sim::SoftBody& body) {
+  const sim::GasLaw law = sim::gas_law(body.material);
+  const bool gas = law.strength > 0.0;
+  if (gas && body.material.k == 0.0) return balanced_volume(law);
+  if (!gas) return sim::volume(body.mesh->topology, body.positions);
+  const auto settled = settled_body(body);
+  if (!settled) return std::nullopt;
+  return sim::volume(settled->mesh->topology, settled->positions);
+}
+
+std::optional<double> held_pressure(const sim::SoftBody& body, double volume) {
+  if (body.material.k == 0.0) return 0.0;
+  const auto held = find_held_pressure(with_mass_per_k(body, moderate), volume);
+  return held ? held : find_held_pressure(with_mass_per_k(body, lightest), volume);
 }
 
 }  // namespace pneuma::app

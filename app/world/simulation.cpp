@@ -1,12 +1,15 @@
 #include "app/world/simulation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "app/world/build_world.h"
 #include "app/world/step_advice.h"
+#include "app/world/touch.h"
+#include "sim/inspect/closed_surface.h"
 
 namespace pneuma::app {
 namespace {
@@ -44,15 +47,39 @@ std::string cause_and_remedy(const sim::World& world, const sim::Divergence& div
   return "";
 }
 
+/// "; near it are left, right and the ground"; empty for a body that is near nothing, or not named.
+std::string what_is_near(const sim::World& world, const std::string& name) {
+  const int count = static_cast<int>(world.soft.size() + world.rigid.size());
+  int body = 0;
+  while (body < count && sim::body_name(world, body) != name) ++body;
+  if (body == count) return "";
+  const sim::Bounds own = body_bounds(world, body);
+  const double reach = 0.02 * own.size().norm();
+  std::vector<std::string> near;
+  for (int other = 0; other < count; ++other) {
+    const sim::Bounds bounds = body_bounds(world, other);
+    const bool is_apart = ((bounds.low - own.high).array() > reach).any() ||
+                          ((own.low - bounds.high).array() > reach).any();
+    if (other != body && !is_apart) near.push_back(sim::body_name(world, other));
+  }
+  if (world.settings.ground && own.low.z() < reach) near.emplace_back("the ground");
+  constexpr std::size_t most_named = 4;
+  if (near.empty() || near.size() > most_named) return "";
+  const std::string last = near.back();
+  near.pop_back();
+  if (near.empty()) return "; near it is " + last;
+  return fmt::format("; near it are {} and {}", fmt::join(near, ", "), last);
+}
+
 }  // namespace
 
 DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
                                  const sim::World& world) {
   const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
-  return DivergenceError(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}", scene_name,
-                                     divergence.step, time, sim::to_string(divergence.stage),
-                                     divergence.body, divergence.what,
-                                     cause_and_remedy(world, divergence)));
+  return DivergenceError(
+      fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name, divergence.step,
+                  time, sim::to_string(divergence.stage), divergence.body, divergence.what,
+                  what_is_near(world, divergence.body), cause_and_remedy(world, divergence)));
 }
 
 Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
@@ -73,8 +100,15 @@ void Simulation::advance_frame() {
     require_near(box.name, box.position.cwiseAbs().maxCoeff());
 }
 
+void Simulation::advance_step() {
+  step_parts_.clear();
+  step();
+}
+
 void Simulation::step() {
   const auto divergence = stepper_.step(world_);
+  driven_work_ = stepper_.driven_work();
+  gas_work_ = stepper_.gas_work();
   if (!divergence) return;
   const bool may_divide = divides();
   if (may_divide) {
@@ -84,8 +118,10 @@ void Simulation::step() {
   }
   const DivergenceError error = divergence_error(scene_.name, *divergence, world_);
   if (!may_divide) throw error;
-  throw DivergenceError(
+  DivergenceError of_parts(
       fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));
+  of_parts.tried_parts = true;
+  throw of_parts;
 }
 
 /// In parts a step that is too long for small motions of the start would go on without end, and
@@ -103,9 +139,14 @@ bool Simulation::step_in_parts(int parts) {
   finer.settings.steps_per_second *= parts;
   finer.steps *= parts;
   sim::Stepper stepper(finer, {.threads = threads_, .plan = {}});
+  double driven_work = 0.0, gas_work = 0.0;
   for (int i = 0; i < parts; ++i) {
     if (stepper.step(finer)) return false;
+    driven_work += stepper.driven_work();
+    gas_work += stepper.gas_work();
   }
+  driven_work_ = driven_work;
+  gas_work_ = gas_work;
   finer.settings = world_.settings;
   finer.steps = world_.steps + 1;
   world_ = std::move(finer);

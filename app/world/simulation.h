@@ -12,8 +12,8 @@
 
 namespace pneuma::app {
 
-/// Names the scene, step, time, stage and body, what happened, its likely cause and what to do.
-/// `world`: in its last valid state.
+/// Names the scene, step, time, stage and body, what is near it, what happened, its likely cause
+/// and what to do. `world`: in its last valid state.
 DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
                                  const sim::World& world);
 
@@ -33,9 +33,14 @@ class Simulation {
   /// The steps from one picture to the next. Throws DivergenceError, also for a body that is beyond
   /// all reason away; the world is then in its last valid state.
   void advance_frame();
+  /// One of them; step_parts() is then of the last step. Throws likewise.
+  void advance_step();
 
   const sim::World& world() const { return world_; }
   const sim::Stepper& stepper() const { return stepper_; }
+  /// J, of the last step: see Stepper.
+  double driven_work() const { return driven_work_; }
+  double gas_work() const { return gas_work_; }
   /// Of the steps to the present frame that were done in parts: in how many.
   const std::vector<int>& step_parts() const { return step_parts_; }
   /// The frame that shows the present state; frame 0 is the start.
@@ -54,6 +59,8 @@ class Simulation {
   sim::World world_;
   sim::Stepper stepper_;
   std::vector<int> step_parts_;
+  double driven_work_ = 0.0;
+  double gas_work_ = 0.0;
 };
 
 }  // namespace pneuma::app

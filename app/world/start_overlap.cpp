@@ -68,26 +68,31 @@ std::string way_apart(const sim::World& world, int first, int second) {
   return moved(shortest, direction);
 }
 
-constexpr const char* remedy =
-    "or let simulation.contact = \"impulses\" part what starts in each other";
+/// Bodies that stand still or are moved want swept contacts.
+std::string remedy(const sim::World& world) {
+  for (int body = 0; body < static_cast<int>(world.soft.size() + world.rigid.size()); ++body) {
+    if (sim::is_kinematic(world, body)) return "";
+  }
+  return ", or let simulation.contact = \"impulses\" part what starts in each other";
+}
 
-StartOverlap in_the_ground(const sim::Overlap& overlap) {
-  return {overlap.first, fmt::format("starts {:.3g} m deep in the ground; {}, {}", overlap.depth,
-                                     moved(overlap.depth, "+z"), remedy)};
+StartOverlap in_the_ground(const sim::World& world, const sim::Overlap& overlap) {
+  return {overlap.first, fmt::format("starts {:.3g} m deep in the ground; {}{}", overlap.depth,
+                                     moved(overlap.depth, "+z"), remedy(world))};
 }
 
 StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap) {
   return {overlap.second,
-          fmt::format("starts {:.3g} m deep in body '{}'; {}, {}", overlap.depth,
+          fmt::format("starts {:.3g} m deep in body '{}'; {}{}", overlap.depth,
                       name_of(world, overlap.first),
-                      way_apart(world, overlap.first, overlap.second), remedy),
+                      way_apart(world, overlap.first, overlap.second), remedy(world)),
           overlap.first};
 }
 
 StartOverlap through_another(const sim::World& world, const sim::CrossingPair& pair) {
   return {pair.second,
-          fmt::format("starts through the surface of body '{}'; {}, {}", name_of(world, pair.first),
-                      way_apart(world, pair.first, pair.second), remedy),
+          fmt::format("starts through the surface of body '{}'; {}{}", name_of(world, pair.first),
+                      way_apart(world, pair.first, pair.second), remedy(world)),
           pair.first};
 }
 
@@ -97,7 +102,7 @@ std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
   for (const sim::Overlap& overlap : sim::overlaps(world)) {
     if (!is_deep(world, overlap)) continue;
     const bool on_ground = overlap.second == sim::ground_body;
-    found.push_back(on_ground ? in_the_ground(overlap) : in_another(world, overlap));
+    found.push_back(on_ground ? in_the_ground(world, overlap) : in_another(world, overlap));
     pairs.emplace_back(overlap.first, overlap.second);
   }
   for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
@@ -147,6 +152,13 @@ std::optional<StartOverlap> find_potential_start(const sim::World& world) {
                                   touching->distance, other, touching->reach)};
 }
 
+std::string what_parts_copies(const scenes::BodyScene& body) {
+  std::string text = "more spacing";
+  if (body.jitter > 0.0) text += ", or less jitter,";
+  if (body.tumble) text += ", enough for their diagonals as they tumble,";
+  return text + " parts them all";
+}
+
 }  // namespace
 
 void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
@@ -167,8 +179,7 @@ void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
     const bool are_copies =
         overlap.other != sim::ground_body && &in_scene(scene, overlap.other) == &body;
     const std::string reason =
-        overlap.reason +
-        (are_copies ? "; they are copies: more spacing or less jitter parts them all" : "");
+        overlap.reason + (are_copies ? "; they are copies: " + what_parts_copies(body) : "");
     diagnostics.push_back(
         body_diagnostic(scene, body.position_place, name_of(start, overlap.body), reason));
   }

@@ -346,7 +346,7 @@ class SweptStep {
     if (fraction_ > std::ldexp(1.0, -max_halvings)) return divergence;
     divergence.body = name(search_.blocked()->first);
     divergence.what = "it cannot be kept from passing through " + name(search_.blocked()->second) +
-                      ", whatever the step";
+                      " in parts of the step either";
     return divergence;
   }
 

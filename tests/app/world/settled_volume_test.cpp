@@ -54,6 +54,20 @@ TEST(SettledVolume, OfAnIcosahedronHasAClosedForm) {
   }
 }
 
+TEST(SettledVolume, DoesNotDependOnTheMass) {
+  SoftBody body = sim::make_body(sim::make_icosphere(50.0, 3));
+  body.material.k = 2e6;
+  body.material.n = 0.5 * body.material.k;
+  const double light = settled_volume(body).value();
+  const double held = held_pressure(body, 1.1 * volume_of(body)).value();
+  for (const double vertex_mass : {7e3, 7e6}) {
+    body.material.vertex_mass = vertex_mass;
+    EXPECT_NEAR(settled_volume(body).value() / light, 1.0, 1e-3) << vertex_mass;
+    EXPECT_NEAR(held_pressure(body, 1.1 * volume_of(body)).value() / held, 1.0, 1e-3)
+        << vertex_mass;
+  }
+}
+
 TEST(SettledVolume, StaysWithoutGasOrInEquilibrium) {
   SoftBody body = sim::make_body(sim::make_sphere(3.0, 8, 8));
   const double start = volume_of(body);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/check/run_statistics.h"
 #include "app/world/build_world.h"
 #include "scenes/loader/load_scene.h"
 #include "tests/support/worlds.h"
@@ -32,6 +33,24 @@ TEST(DivergenceError, NamesAStableStepUnlessShorterOnesHaveFailed) {
   }
 }
 
+TEST(DivergenceError, NamesWhatIsNear) {
+  sim::World world;
+  world.soft.push_back(sim::make_body(sim::make_sphere(3.0, 8, 8), {0.0, 0.0, 3.0}));
+  world.soft[0].name = "ball";
+  for (const double x : {3.5, -3.5, 9.0}) {
+    world.rigid.push_back(sim::make_rigid({1.0, 1.0, 1.0}, {x, 0.0, 3.0}, 1.0));
+    world.rigid.back().name = x > 5.0 ? "far" : x > 0.0 ? "right" : "left";
+  }
+  const auto said = [&](const char* body) -> std::string {
+    return divergence_error("scene", {Stage::resolve_contacts, 7, body, "it broke"}, world).what();
+  };
+  EXPECT_NE(said("ball").find("it broke; near it are right, left and the ground"),
+            std::string::npos)
+      << said("ball");
+  EXPECT_NE(said("right").find("; near it is ball"), std::string::npos) << said("right");
+  EXPECT_EQ(said("far").find("near"), std::string::npos) << said("far");
+}
+
 /// Thrown at the ground so hard that no whole step holds it.
 scenes::Scene thrown_scene(double k) {
   return scenes::parse_scene(
@@ -51,6 +70,14 @@ TEST(OnDivergence, DividesStepsThatAreShortEnoughForSmallMotions) {
   EXPECT_NO_THROW(advance(soft, OnDivergence::substep));
   EXPECT_THROW(advance(soft, OnDivergence::stop), DivergenceError);
   EXPECT_THROW(advance(stiff, OnDivergence::automatic), DivergenceError);
+}
+
+TEST(OnDivergence, OfARunWithoutPicturesIsThatOfOneWithThem) {
+  const RunStatistics run = run_statistics(thrown_scene(50.0), 1);
+  EXPECT_FALSE(run.divergence) << *run.divergence;
+  EXPECT_GT(run.divided_steps, 0);
+  EXPECT_GE(run.most_parts, 2);
+  EXPECT_TRUE(run_statistics(thrown_scene(1e6), 1).divergence);
 }
 
 }  // namespace
