@@ -9,7 +9,6 @@
 #include "app/record/shape_deviation.h"
 #include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
-#include "app/world/simulation.h"
 #include "app/world/touch.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
@@ -89,7 +88,7 @@ class Observer {
   }
 
   void after_step(const Simulation& simulation) {
-    const auto contacts = simulation.stepper().contacts();
+    const auto contacts = simulation.contacts();
     result_.contacts.add(contacts);
     if (result_.driven_work) *result_.driven_work += simulation.driven_work();
     if (result_.gas_work) *result_.gas_work += simulation.gas_work();
@@ -210,8 +209,8 @@ class Observer {
 
 }  // namespace
 
-RunStatistics run_statistics(const scenes::Scene& scene, int threads) {
-  Simulation simulation(scene, build_world(scene), threads);
+RunStatistics run_statistics(const scenes::Scene& scene, int threads, OnDivergence on_divergence) {
+  Simulation simulation(scene, build_world(scene), threads, on_divergence);
   const sim::World& world = simulation.world();
   const int steps_per_frame = scenes::steps_per_frame(scene);
   const std::int64_t all_steps = scenes::frame_count(scene) * steps_per_frame;

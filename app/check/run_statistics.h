@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/record/contact_tally.h"
+#include "app/world/simulation.h"
 #include "scenes/loader/scene.h"
 #include "sim/inspect/inspect.h"
 
@@ -94,8 +95,10 @@ struct RunStatistics {
 /// 1/60 s, which the contact takes away again: the third of it is what may be left over.
 inline constexpr double rest_speed = 0.05;
 
-/// Runs the scene without pictures, as `pneuma render` does: a step that diverges is done in parts
-/// where it is short enough for small motions. `threads` changes nothing but the time that takes.
-RunStatistics run_statistics(const scenes::Scene& scene, int threads);
+/// Runs the scene without pictures, by default as `pneuma render` does: a step that diverges is
+/// done in parts where it is short enough for small motions. `threads` changes nothing but the time
+/// that takes.
+RunStatistics run_statistics(const scenes::Scene& scene, int threads,
+                             OnDivergence on_divergence = OnDivergence::automatic);
 
 }  // namespace pneuma::app

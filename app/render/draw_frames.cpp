@@ -72,7 +72,7 @@ class FrameWriter {
 
  private:
   render::Frame build(const Simulation& simulation, const Show& show) const {
-    return output_.builder.build(simulation.world(), simulation.stepper().contacts(), show);
+    return output_.builder.build(simulation.world(), simulation.contacts(), show);
   }
 
   void finish(DrawnFrame& frame) const {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/inspect/inspect.h"
+#include "sim/joints/gas_flow.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -53,29 +53,28 @@ void CrossedFrames::summarise(Progress& progress) const {
 void PressedBodies::add(const sim::World& world) {
   if (shapes_.empty()) {
     for (const sim::SoftBody& body : world.soft) {
-      shapes_.push_back(
-          {sim::volume(body.mesh->topology, body.mesh->rest_positions), body.material.n});
+      shapes_.push_back(sim::volume(body.mesh->topology, body.mesh->rest_positions));
     }
   }
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const sim::SoftBody& body = world.soft[i];
-    const auto& [volume, n] = shapes_[i];
-    if (n <= 0.0 || body.material.n < n || volume <= 0.0) continue;  // empty, or leaking
-    const double share = sim::volume(body.mesh->topology, body.positions) / volume;
-    if (share >= least_share_) continue;
-    least_share_ = share;
+    const bool keeps_gas = body.material.n > 0.0 && !sim::has_gas_flow(world, static_cast<int>(i));
+    if (!keeps_gas || shapes_[i] <= 0.0) continue;
+    const double volume = std::max(0.0, sim::volume(body.mesh->topology, body.positions));
+    if (volume / shapes_[i] >= least_fraction_) continue;
+    least_fraction_ = volume / shapes_[i];
     time_ = sim::time(world);
     body_ = body.name;
   }
 }
 
 void PressedBodies::summarise(Progress& progress) const {
-  constexpr double pressed_share = 0.1;
-  if (least_share_ >= pressed_share) return;
+  constexpr double pressed_fraction = 0.1;
+  if (least_fraction_ >= pressed_fraction) return;
   progress.say(fmt::format(
       "body '{}' was pressed to {:.2g} % of its shape's volume, at t = {:.2f} s: more gas (n, "
       "gauge_pressure) carries more, and what closes in on it can leave it more room",
-      body_, 100.0 * least_share_, time_));
+      body_, 100.0 * least_fraction_, time_));
 }
 
 }  // namespace pneuma::app

@@ -46,13 +46,8 @@ class PressedBodies {
   void summarise(Progress& progress) const;
 
  private:
-  struct Shape {
-    double volume;  // m^3
-    double n;       // mol at the first frame
-  };
-
-  std::vector<Shape> shapes_;  // of the soft bodies; empty before the first frame
-  double least_share_ = 1.0;
+  std::vector<double> shapes_;  // m^3, of the soft bodies; empty before the first frame
+  double least_fraction_ = 1.0;
   double time_ = 0.0;  // s
   std::string body_;
 };

@@ -78,8 +78,16 @@ fs::path part_file(const fs::path& folder, const StudyPart& part) {
   return folder / "parts" / (part.name + ".json");
 }
 
-void measure_part(const SplitOptions& typed, const std::string& fingerprint,
-                  std::span<const StudyPart> parts) {
+/// Leaves it in the folder too, so that --gather finds what was done before an interruption.
+json measure_part(const StudyFolder& folder, const std::string& fingerprint,
+                  const StudyPart& part) {
+  json report = provenance_json();
+  report.update({{"study", fingerprint}, {"part", part.name}, {"measured", part.measure()}});
+  folder.write(part.name + ".json", report.dump() + '\n');
+  return report["measured"];
+}
+
+const StudyPart& named_part(const SplitOptions& typed, std::span<const StudyPart> parts) {
   const auto part = std::ranges::find(parts, typed.part, &StudyPart::name);
   if (part == parts.end()) {
     std::vector<std::string> names;
@@ -87,10 +95,7 @@ void measure_part(const SplitOptions& typed, const std::string& fingerprint,
     throw UsageError(
         fmt::format("--part {}: the study's parts are {}", typed.part, fmt::join(names, ", ")));
   }
-  const StudyFolder folder(fs::path(typed.out) / "parts");
-  json report = provenance_json();
-  report.update({{"study", fingerprint}, {"part", part->name}, {"measured", part->measure()}});
-  fmt::print("{}\n", folder.write(part->name + ".json", report.dump() + '\n').string());
+  return *part;
 }
 
 json read_part(const fs::path& path, const std::string& fingerprint) {
@@ -134,7 +139,7 @@ rule all:
 
 rule part:
     output: "parts/{{part}}.json"
-    retries: 3
+    retries: 1
     shell: "cd {here} && {command} --part {{wildcards.part}}"
 
 rule gather:
@@ -169,7 +174,8 @@ void add_split_options(CLI::App& command, SplitOptions& options,
   auto* snakemake = command
                         .add_option("--snakemake", options.snakemake,
                                     "Measure nothing: write a workflow of parts for Snakemake")
-                        ->type_name("DIR");
+                        ->type_name("DIR")
+                        ->excludes(command.get_option("--out"));
   auto* part =
       command
           .add_option("--part", options.part, "Measure only this part of the workflow, into parts/")
@@ -202,14 +208,18 @@ std::optional<std::vector<json>> measure_parts(const SplitOptions& typed, const 
     return {};
   }
   const std::string fingerprint = fingerprint_of(typed, scenes);
+  if (typed.gather) return read_parts(typed, fingerprint, parts);
+  const StudyFolder folder(fs::path(typed.out) / "parts");
   if (!typed.part.empty()) {
-    measure_part(typed, fingerprint, parts);
+    const StudyPart& part = named_part(typed, parts);
+    measure_part(folder, fingerprint, part);
+    fmt::print("{}\n", part_file(typed.out, part).string());
     return {};
   }
-  if (typed.gather) return read_parts(typed, fingerprint, parts);
-  const StudyFolder folder(typed.out);  // before anything is measured, so that it can be written
   std::vector<json> measured;
-  for (const StudyPart& part : parts) measured.push_back(part.measure());
+  for (const StudyPart& part : parts) {
+    measured.push_back(measure_part(folder, fingerprint, part));
+  }
   return measured;
 }
 

@@ -32,11 +32,11 @@ struct StudyPart {
 /// Letters, digits, '-', '.' and '_' of these words, joined by '.': "one_sphere.rk4".
 std::string part_name(std::initializer_list<std::string> words);
 
-/// What all parts measured, in their order: measured now or, with --gather, read from the folder.
-/// Nothing when --part leaves one of them in parts/NAME.json, or --snakemake the workflow. `study`
-/// is its name, and its JSON file's, which the workflow makes. Throws UsageError for two parts of
-/// one name and for a part that there is not; base::IoError for parts that are missing or of
-/// another command, scene or program.
+/// What all parts measured, in their order: measured now, and left in parts/ too, or, with
+/// --gather, read from the folder. Nothing when --part leaves one of them in parts/NAME.json, or
+/// --snakemake the workflow. `study` is its name, and its JSON file's, which the workflow makes.
+/// Throws UsageError for two parts of one name and for a part that there is not; base::IoError for
+/// parts that are missing or of another command, scene or program.
 std::optional<std::vector<nlohmann::json>> measure_parts(const SplitOptions& typed,
                                                          const std::string& study,
                                                          std::span<const scenes::Scene> scenes,

@@ -32,7 +32,7 @@ std::string chosen_steps(const scenes::Scene& scene) {
 void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::path& folder) {
   const scenes::Scene scene = open_scene(run.scene_path, run.overrides(sweep));
   refuse_start_overlap(scene, build_world(scene));
-  const RunStatistics statistics = run_statistics(scene, 1);
+  const RunStatistics statistics = run_statistics(scene, 1, OnDivergence::stop);
   const nlohmann::json json = run_statistics_json(statistics);
   for (const Measure& measure : sweep.measures) row.values[measure.name] = measured(measure, json);
   if (statistics.divergence) throw DivergenceError(*statistics.divergence);

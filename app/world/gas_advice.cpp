@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/world/distinct_bodies.h"
@@ -54,9 +55,13 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
   advice.light_vertex_mass = body.material.vertex_mass *
                              sim::gauge_pressure(law, carried_share * advice.volume) * area /
                              weight;
-  advice.carrying_pressure = needed * std::pow(carried_share, law.exponent) - law.ambient_pressure;
+  advice.carrying_pressure =
+      std::max(0.0, needed * std::pow(carried_share, law.exponent) - law.ambient_pressure);
   const double pressure = sim::gauge_pressure(law, advice.volume);
-  if (pressure > 0.0) advice.strengthened = advice.carrying_pressure / pressure;
+  // Beside an ambient pressure gas is not in proportion to what springs hold.
+  if (pressure > 0.0 && law.ambient_pressure == 0.0) {
+    advice.strengthened = advice.carrying_pressure / pressure;
+  }
 }
 
 GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, int max_vertices) {

@@ -26,7 +26,7 @@ struct GasAdvice {
   double light_vertex_mass = 0.0;      // kg
   double carrying_pressure = 0.0;      // Pa above the ambient pressure, at the start
   std::optional<double> strengthened;  // times its gas and its springs, which keeps its shape;
-                                       // none: its gas does not press
+                                       // none: its gas does not press, or air does too
 
   bool blown_up() const;  // to more than twice its volume
   bool crushed() const;   // by its weight, to less than half its volume

@@ -189,11 +189,15 @@ sim::Vec3 rotation_of_up(std::string_view axis) {
   return sim::Vec3::Zero();
 }
 
+sim::Vec3 model_rotation(const fs::path& model, const ModelChoice& choice) {
+  return choice.rotation.value_or(rotation_of_up(is_y_up(model) ? "y" : "z"));
+}
+
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   assets::CleanOptions options;
   options.component = given.component;
   options.repair = given.repair;
-  options.rotation = given.rotation.value_or(rotation_of_up(is_y_up(path) ? "y" : "z"));
+  options.rotation = model_rotation(path, given);
   const auto size_of = [](const assets::CleanModel& model) {
     return sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
   };

@@ -30,6 +30,9 @@ struct ModelChoice {
 /// The rotation that turns the model's "x", "y" or "z" upwards.
 sim::Vec3 rotation_of_up(std::string_view axis);
 
+/// Degrees: as chosen, or as files of its format stand.
+sim::Vec3 model_rotation(const std::filesystem::path& model, const ModelChoice& choice);
+
 /// The scene as TOML, to be kept and edited: only what is not a default, with the reasons and what
 /// was repaired. Reads the model, by its absolute path. Throws assets::ModelError.
 std::string model_scene_text(const std::filesystem::path& model, const ModelChoice& choice = {});

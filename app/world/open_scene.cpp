@@ -56,15 +56,18 @@ void choose_step(scenes::Scene& scene) {
   steps = shortest->steps_per_second;
 }
 
-/// An override turns the model before it is measured, so that it still starts above the ground.
-ModelChoice turned(ModelChoice choice, std::span<const std::string> overrides) {
-  for (const std::string& override : overrides) {
-    if (!override.starts_with("body.model.rotation=")) continue;
-    const std::string model = "[[body]]\nshape = \"model\"\nmodel.file = \"it.ply\"\n";
-    const scenes::Scene scene = scenes::parse_scene(model, "it.toml", std::span(&override, 1));
-    choice.rotation = scene.bodies.front().model.rotation;
-  }
-  return choice;
+/// A model that an override turns is measured as it then stands, so that it starts above the
+/// ground.
+scenes::Scene model_scene(const std::filesystem::path& model, ModelChoice choice,
+                          std::span<const std::string> overrides) {
+  const auto parse = [&] {
+    return scenes::parse_scene(model_scene_text(model, choice), model_scene_file(model), overrides);
+  };
+  const scenes::Scene scene = parse();
+  const sim::Vec3 rotation = scene.bodies.front().model.rotation;
+  if (rotation == model_rotation(model, choice)) return scene;
+  choice.rotation = rotation;
+  return parse();
 }
 
 }  // namespace
@@ -72,9 +75,7 @@ ModelChoice turned(ModelChoice choice, std::span<const std::string> overrides) {
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice) {
   if (assets::has_model_ending(name)) {
-    const std::filesystem::path model = find_model(name, "");
-    return scenes::parse_scene(model_scene_text(model, turned(choice, overrides)),
-                               model_scene_file(model), overrides);
+    return model_scene(find_model(name, ""), choice, overrides);
   }
   if (choice.repair || choice.rotation || !choice.component.empty()) {
     throw UsageError(

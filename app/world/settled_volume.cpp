@@ -70,8 +70,8 @@ double volume_of(const sim::World& world) {
 }
 
 /// kg per N/m of a whole body at most: where it rests does not depend on its mass, and what swings
-/// so slowly that it moves little in a step of quiet_world would be taken for settled. The lightest
-/// swing ten times in such a step, if others find no rest.
+/// so slowly that it moves little in a step of quiet_world would be taken for settled. The
+/// lightest are for those that find no rest.
 constexpr double moderate = 2.0, lightest = 0.1;
 
 sim::SoftBody with_mass_per_k(sim::SoftBody body, double most) {

@@ -94,18 +94,17 @@ Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads
 void Simulation::advance_frame() {
   step_parts_.clear();
   for (int i = 0; i < steps_per_frame_; ++i) step();
-  for (const sim::SoftBody& body : world_.soft)
-    require_near(body.name, body.positions.rows().cwiseAbs().maxCoeff());
-  for (const sim::RigidBox& box : world_.rigid)
-    require_near(box.name, box.position.cwiseAbs().maxCoeff());
+  require_all_near();
 }
 
 void Simulation::advance_step() {
   step_parts_.clear();
   step();
+  if (world_.steps % steps_per_frame_ == 0) require_all_near();
 }
 
 void Simulation::step() {
+  was_divided_ = false;
   const auto divergence = stepper_.step(world_);
   driven_work_ = stepper_.driven_work();
   gas_work_ = stepper_.gas_work();
@@ -145,6 +144,8 @@ bool Simulation::step_in_parts(int parts) {
     driven_work += stepper.driven_work();
     gas_work += stepper.gas_work();
   }
+  was_divided_ = true;
+  contacts_of_parts_.assign(stepper.contacts().begin(), stepper.contacts().end());
   driven_work_ = driven_work;
   gas_work_ = gas_work;
   finer.settings = world_.settings;
@@ -152,6 +153,15 @@ bool Simulation::step_in_parts(int parts) {
   world_ = std::move(finer);
   step_parts_.push_back(parts);
   return true;
+}
+
+void Simulation::require_all_near() const {
+  for (const sim::SoftBody& body : world_.soft) {
+    require_near(body.name, body.positions.rows().cwiseAbs().maxCoeff());
+  }
+  for (const sim::RigidBox& box : world_.rigid) {
+    require_near(box.name, box.position.cwiseAbs().maxCoeff());
+  }
 }
 
 void Simulation::require_near(const std::string& body, double distance) const {

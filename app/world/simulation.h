@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,15 @@ class Simulation {
   /// The steps from one picture to the next. Throws DivergenceError, also for a body that is beyond
   /// all reason away; the world is then in its last valid state.
   void advance_frame();
-  /// One of them; step_parts() is then of the last step. Throws likewise.
+  /// One of these steps; step_parts() is then of it alone. Throws likewise.
   void advance_step();
 
   const sim::World& world() const { return world_; }
   const sim::Stepper& stepper() const { return stepper_; }
+  /// Of the last step, or of the last of its parts: see Stepper.
+  std::span<const sim::Contact> contacts() const {
+    return was_divided_ ? std::span<const sim::Contact>(contacts_of_parts_) : stepper_.contacts();
+  }
   /// J, of the last step: see Stepper.
   double driven_work() const { return driven_work_; }
   double gas_work() const { return gas_work_; }
@@ -50,6 +55,7 @@ class Simulation {
   void step();
   bool divides() const;
   bool step_in_parts(int parts);
+  void require_all_near() const;
   void require_near(const std::string& body, double distance) const;
 
   scenes::Scene scene_;
@@ -59,6 +65,8 @@ class Simulation {
   sim::World world_;
   sim::Stepper stepper_;
   std::vector<int> step_parts_;
+  std::vector<sim::Contact> contacts_of_parts_;
+  bool was_divided_ = false;  // the last step
   double driven_work_ = 0.0;
   double gas_work_ = 0.0;
 };

@@ -82,7 +82,7 @@ def errors(out):
     ratios = []
     for path in sorted(out.glob("error*/*_ratios.csv")):
         for row in read_rows(path):
-            ratio = number(row["sundials_over_ours"] or "")
+            ratio = number(row.get("sundials_over_ours") or "")
             if ratio and abs(float(row["error"]) / 1e-3 - 1) < 1e-6:
                 ratios.append((ratio, row["scene"], row["our_method"]))
     if not ratios:

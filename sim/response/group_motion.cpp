@@ -39,14 +39,15 @@ void GroupMotion::visit_boxes(const Visit& visit) const {
 
 void GroupMotion::leave_out_common() {
   find_mean();
-  Vec3 turning = Vec3::Zero();
+  Vec3 angular_momentum = Vec3::Zero();
   visit_vertices([&](double m, const Vec3& x, const Vec3& v) {
-    turning += m * (x - centre_).cross(v - velocity_);
+    angular_momentum += m * (x - centre_).cross(v - velocity_);
   });
   visit_boxes([&](const RigidBox& box) {
-    turning += box.mass * (box.position - centre_).cross(box.velocity - velocity_) + spin(box);
+    angular_momentum +=
+        box.mass * (box.position - centre_).cross(box.velocity - velocity_) + spin(box);
   });
-  angular_velocity_ = inertia().ldlt().solve(turning);
+  angular_velocity_ = inertia().ldlt().solve(angular_momentum);
 }
 
 double GroupMotion::energy() const {
@@ -55,9 +56,9 @@ double GroupMotion::energy() const {
     sum += 0.5 * mass * (v - common(x)).squaredNorm();
   });
   visit_boxes([&](const RigidBox& box) {
-    const Vec3 turning = box.angular_velocity - angular_velocity_;
+    const Vec3 own_spin = box.angular_velocity - angular_velocity_;
     sum += 0.5 * box.mass * (box.velocity - common(box.position)).squaredNorm() +
-           0.5 * turning.dot(own_inertia(box) * turning);
+           0.5 * own_spin.dot(own_inertia(box) * own_spin);
   });
   return sum;
 }
@@ -78,15 +79,15 @@ void GroupMotion::slow(double factor) {
 
 void GroupMotion::turn(const Vec3& angular_momentum) {
   find_mean();
-  const Vec3 turning = inertia().ldlt().solve(angular_momentum);
+  const Vec3 angular_velocity = inertia().ldlt().solve(angular_momentum);
   visit_soft([&](SoftBody& body) {
     for (int v = 0; v < body.positions.size(); ++v) {
-      body.velocities[v] += turning.cross(body.positions[v] - centre_);
+      body.velocities[v] += angular_velocity.cross(body.positions[v] - centre_);
     }
   });
   visit_boxes([&](RigidBox& box) {
-    box.velocity += turning.cross(box.position - centre_);
-    box.angular_velocity += turning;
+    box.velocity += angular_velocity.cross(box.position - centre_);
+    box.angular_velocity += angular_velocity;
   });
 }
 

@@ -20,7 +20,7 @@ Recorder::Recorder(const scenes::Scene& scene, const sim::World& world,
 
 void Recorder::add(const Simulation& simulation) {
   const sim::World& world = simulation.world();
-  const auto& contacts = simulation.stepper().contacts();
+  const auto contacts = simulation.contacts();
   render::Frame drawn = builder_.build(world);
   RecordedFrame frame;
   frame.camera = drawn.camera;

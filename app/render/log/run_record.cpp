@@ -156,7 +156,7 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"momentum", momentum_json<Json>(sim::momentum(world))},
                {"volumes", volumes_json(world)},
                {"gas", gas_of_bodies_json<Json>(world)},
-               {"contacts", contacts_json(simulation.stepper().contacts())},
+               {"contacts", contacts_json(simulation.contacts())},
                {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
                {"crossings", crossings_json(crossings)}};
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();

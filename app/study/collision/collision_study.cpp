@@ -127,7 +127,7 @@ bool runs_on_its_own(const SearchSetting& setting) {
 double penetration_in_own_run(scenes::Scene scene, const SearchSetting& setting) {
   scene.settings.soft_search = setting.search;
   scene.settings.particles = setting.particles;
-  const RunStatistics run = run_statistics(scene, 1);
+  const RunStatistics run = run_statistics(scene, 1, OnDivergence::stop);
   if (run.divergence) throw DivergenceError(*run.divergence);
   return run.penetration.value;
 }

@@ -45,12 +45,12 @@ ErrorOptions sweep(const ErrorArguments& typed) {
 
 /// A scene is one part, because its runs' times are compared.
 nlohmann::json measure_scene(const scenes::Scene& scene, const ErrorOptions& options,
-                             Progress& progress) {
+                             const std::vector<std::string>& warnings, Progress& progress) {
   const auto say = [&](const std::string& what) {
     progress.show(fmt::format("{}: {}", scene.name, what));
   };
-  nlohmann::json measured = {{"name", scene.name}, {"machine", machine_json()}};
-  measured["warnings"] = timing_warnings(timing_conditions());
+  nlohmann::json measured = {
+      {"name", scene.name}, {"machine", machine_json()}, {"warnings", warnings}};
   try {
     const ErrorStudy study = study_errors(scene, options, say);
     measured.update(
@@ -82,7 +82,7 @@ void add_warning(Findings& findings, const std::string& warning) {
 void add_scene(const nlohmann::json& measured, const StudyFolder& folder, Findings& findings) {
   for (const std::string warning : measured["warnings"]) add_warning(findings, warning);
   const std::string name = measured["name"];
-  if (measured["machine"] != machine_json()) {
+  if (measured["machine"]["cpu"] != machine().cpu) {
     add_warning(findings, fmt::format("{} was measured on another machine: {}", name,
                                       measured["machine"]["cpu"].get<std::string>()));
   }
@@ -97,6 +97,7 @@ void add_scene(const nlohmann::json& measured, const StudyFolder& folder, Findin
     write_script(folder, file, script);
   }
   findings.scenes.push_back(measured["scene"]);
+  findings.scenes.back()["machine"] = measured["machine"];
   findings.text += measured["text"].get<std::string>() + "\n";
 }
 
@@ -121,10 +122,12 @@ ExitCode study(const ErrorArguments& typed) {
   const std::vector<scenes::Scene> scenes = load_scenes(typed.scenes, typed.overrides);
   const ErrorOptions options = sweep(typed);
   Progress progress(progress_style(typed.quiet));
+  // Before anything is measured, which is load itself.
+  const std::vector<std::string> warnings = timing_warnings(timing_conditions());
   std::vector<StudyPart> parts;
   for (const scenes::Scene& scene : scenes) {
-    parts.push_back(
-        {part_name({scene.name}), [&] { return measure_scene(scene, options, progress); }});
+    parts.push_back({part_name({scene.name}),
+                     [&] { return measure_scene(scene, options, warnings, progress); }});
   }
   const auto measured = measure_parts(typed, "error", scenes, parts);
   if (!measured) return ExitCode::done;

@@ -52,6 +52,7 @@ constexpr auto set_arkode_data = ARKodeSetUserData;
 constexpr auto set_arkode_steps = ARKodeSetMaxNumSteps;
 constexpr auto set_arkode_order = ARKodeSetOrder;
 constexpr auto set_arkode_tolerances = ARKodeSVtolerances;
+constexpr auto stop_arkode_at = ARKodeSetStopTime;
 constexpr auto evolve_arkode = ARKodeEvolve;
 constexpr auto free_arkode = ARKodeFree;
 
@@ -72,6 +73,7 @@ constexpr auto set_arkode_data = ERKStepSetUserData;
 constexpr auto set_arkode_steps = ERKStepSetMaxNumSteps;
 constexpr auto set_arkode_order = ERKStepSetOrder;
 constexpr auto set_arkode_tolerances = ERKStepSVtolerances;
+constexpr auto stop_arkode_at = ERKStepSetStopTime;
 constexpr auto evolve_arkode = ERKStepEvolve;
 constexpr auto free_arkode = ERKStepFree;
 
@@ -201,7 +203,11 @@ Sundials& Sundials::operator=(Sundials&&) noexcept = default;
 bool Sundials::advance_to(double time) {
   sunrealtype reached = 0.0;
   const Memory& m = *memory_;
-  if (m.is_arkode) return evolve_arkode(m.solver, time, m.state, &reached, ARK_NORMAL) >= 0;
+  if (m.is_arkode) {
+    // Its interpolation is of an order below that of the method.
+    require(stop_arkode_at(m.solver, time), "SetStopTime");
+    return evolve_arkode(m.solver, time, m.state, &reached, ARK_NORMAL) >= 0;
+  }
   return CVode(m.solver, time, m.state, &reached, CV_NORMAL) >= 0;
 }
 

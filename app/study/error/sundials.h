@@ -48,8 +48,8 @@ class Sundials {
   Sundials(Sundials&&) noexcept;
   Sundials& operator=(Sundials&&) noexcept;
 
-  /// To `time` (s), beyond all times before, with steps of the method's own choice; the state is
-  /// interpolated between them. False when it gave up.
+  /// To `time` (s), beyond all times before, with steps of the method's own choice; CVODE
+  /// interpolates between them, ARKODE ends one there. False when it gave up.
   [[nodiscard]] bool advance_to(double time);
 
   const std::vector<double>& state() const;

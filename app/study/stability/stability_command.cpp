@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/record/provenance.h"
 #include "app/study/stability/stability_parts.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
@@ -57,6 +58,7 @@ nlohmann::json measure_costs(const StabilityArguments& typed, const Say& say) {
   const std::vector<StiffChoice> choices =
       study_stiffness(load, stiffnesses(typed.is_short), typed.is_short, say);
   return {
+      {"machine", machine_json()},
       {"csv", {{"step_cost", step_cost_csv(costs)}, {"stiffness", stiffness_csv(choices)}}},
       {"text", fmt::format("Processor time of a step of 1/60 s\n\n{}\n"
                            "{} in free flight, for an error of 1e-2 of its radius\n\n{}\n",
@@ -104,6 +106,10 @@ ExitCode run_stability_study(const StabilityArguments& typed) {
     fmt::print("{}\n", stability_text(study));
   }
   folder.write("stability.json", json.dump(2) + '\n');
+  if (left.front()["machine"]["cpu"] != machine().cpu) {
+    fmt::print(stderr, "costs were measured on another machine: {}\n",
+               left.front()["machine"]["cpu"].get<std::string>());
+  }
   for (const auto& [file, text] : left.front()["csv"].items()) folder.write(file + ".csv", text);
   fmt::print("{}{}\n", left.front()["text"].get<std::string>(), folder.path().string());
   return ExitCode::done;

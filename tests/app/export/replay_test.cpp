@@ -109,7 +109,7 @@ TEST_F(ReplayTest, HasTheContactsAndParticlesOfEachFrame) {
   std::size_t at = 0;
   std::size_t particles = 0;
   for (std::size_t frame = 0; frame < counts.size(); ++frame) {
-    const auto& contacts = simulation.stepper().contacts();
+    const auto contacts = simulation.contacts();
     ASSERT_EQ(counts[frame], contacts.size()) << "frame " << frame;
     for (const sim::Contact& contact : contacts) {
       for (int axis = 0; axis < 3; ++axis) {

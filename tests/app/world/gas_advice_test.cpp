@@ -76,6 +76,22 @@ TEST(GasAdvice, TooHeavyBodiesAreCarriedByTheSpringsAndGasThatItNames) {
   }
 }
 
+TEST(GasAdvice, BesideAnAmbientPressureTooHeavyBodiesAreCarriedByTheGasThatItNames) {
+  const auto ball = [](const std::string& gas) {
+    return "simulation.ambient_pressure = 500\nsimulation.steps_per_second = 960\n"
+           "[[body]]\nposition = [0, 0, 3.1]\ndensity = 300\nthickness = 0.1\nk = 2e4\n" +
+           gas;
+  };
+  const GasAdvice heavy = advices_on(ball("inflation = 1.01\n")).at(0);
+  ASSERT_TRUE(heavy.crushed());
+  const std::string warning = weight_warning(heavy);
+  EXPECT_EQ(warning.find("times as strong"), std::string::npos) << warning;
+  const std::string mended =
+      ball("gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n");
+  EXPECT_FALSE(advices_on(mended).at(0).crushed()) << warning;
+  EXPECT_GT(volume_after(mended, 4.0), 0.75 * heavy.volume) << warning;
+}
+
 TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
   EXPECT_EQ(advices_on("[[body]]\ncopies = [2, 2, 1]\n[[body]]\n[[body]]\nn = 1\n").size(), 2u);
   EXPECT_TRUE(advices_on("[[body]]\nkind = \"rigid\"\n").empty());

@@ -77,6 +77,12 @@ TEST(OnDivergence, OfARunWithoutPicturesIsThatOfOneWithThem) {
   EXPECT_FALSE(run.divergence) << *run.divergence;
   EXPECT_GT(run.divided_steps, 0);
   EXPECT_GE(run.most_parts, 2);
+  Simulation with_pictures(thrown_scene(50.0), build_world(thrown_scene(50.0)), 1);
+  for (int frame = 0; frame < scenes::frame_count(thrown_scene(50.0)); ++frame) {
+    with_pictures.advance_frame();
+  }
+  EXPECT_EQ(run.state_hash, sim::state_hash(with_pictures.world()));
+  EXPECT_TRUE(run_statistics(thrown_scene(50.0), 1, OnDivergence::stop).divergence);
   EXPECT_TRUE(run_statistics(thrown_scene(1e6), 1).divergence);
 }
 
