@@ -1,0 +1,64 @@
+#include "benchmarks/peer/bullet_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pneuma::benchmarks {
+namespace {
+
+constexpr BulletOptions by_hand{.position_iterations = 2, .gas_fraction = 0.05};
+
+struct SceneSetting {
+  std::string_view scene;
+  BulletOptions options;
+};
+
+/// Of the contact scenes of spheres none simulates them as ours: what rests is not inflated.
+constexpr auto scene_settings = std::to_array<SceneSetting>({
+    {"one_sphere", {.link_stiffness = 0.05, .gas_fraction = 3.38, .voxel_size = 4.0, .drag = 0.05}},
+    {"one_torus", {.link_stiffness = 0.4, .gas_fraction = 1.63, .voxel_size = 2.0, .drag = 0.02}},
+    {"two_spheres", {.link_stiffness = 0.1, .gas_fraction = 2.59, .drag = 0.02}},
+    {"two_spheres_contact",
+     {.substeps = 2, .gas_fraction = 2.6, .margin = 0.1, .voxel_size = 4.0, .drag = 0.05}},
+    {"three_spheres",
+     {.link_stiffness = 0.1, .gas_fraction = 2.61, .voxel_size = 2.0, .drag = 0.05}},
+    {"three_spheres_contact",
+     {.substeps = 2, .gas_fraction = 3.55, .margin = 0.1, .voxel_size = 2.0, .drag = 0.05}},
+    {"sphere_in_torus",
+     {.position_iterations = 2,
+      .link_stiffness = 0.01,
+      .gas_fraction = 0.275,
+      .margin = 0.1,
+      .voxel_size = 4.0,
+      .drag = 0.05}},
+    {"torus_four_cubes",
+     {.position_iterations = 4, .link_stiffness = 0.07, .gas_fraction = 1.37, .voxel_size = 0.5}},
+    {"cubes_on_torus",
+     {.position_iterations = 4, .link_stiffness = 0.07, .gas_fraction = 1.37, .voxel_size = 0.5}},
+});
+
+const SceneSetting* find_setting(std::string_view scene) {
+  const auto* const found = std::ranges::find(scene_settings, scene, &SceneSetting::scene);
+  return found == scene_settings.end() ? nullptr : found;
+}
+
+}  // namespace
+
+const BulletOptions& bullet_setting(std::string_view scene) {
+  const SceneSetting* const found = find_setting(scene);
+  return found == nullptr ? by_hand : found->options;
+}
+
+bool has_bullet_setting(std::string_view scene) { return find_setting(scene) != nullptr; }
+
+std::string setting_text(const BulletOptions& options) {
+  return fmt::format(
+      "{} x {} iterations, kLST {:.3g}, gas {:.3g}, margin {:.3g} m, {} of {:.3g} m{}",
+      options.substeps, options.position_iterations, options.link_stiffness, options.gas_fraction,
+      options.margin, options.ground == BulletGround::box ? "box, voxels" : "plane, voxels",
+      options.voxel_size, options.drag > 0.0 ? fmt::format(", drag {:.3g}", options.drag) : "");
+}
+
+}  // namespace pneuma::benchmarks
