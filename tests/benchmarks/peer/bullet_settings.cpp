@@ -15,28 +15,38 @@ struct SceneSetting {
   BulletOptions options;
 };
 
-/// Of the contact scenes of spheres none simulates them as ours: what rests is not inflated.
+/// Where the comment says so, nothing that was tried simulates the scene as ours.
 constexpr auto scene_settings = std::to_array<SceneSetting>({
-    {"one_sphere", {.link_stiffness = 0.05, .gas_fraction = 3.38, .voxel_size = 4.0, .drag = 0.05}},
-    {"one_torus", {.link_stiffness = 0.4, .gas_fraction = 1.63, .voxel_size = 2.0, .drag = 0.02}},
-    {"two_spheres", {.link_stiffness = 0.1, .gas_fraction = 2.59, .drag = 0.02}},
-    {"two_spheres_contact",
-     {.substeps = 2, .gas_fraction = 2.6, .margin = 0.1, .voxel_size = 4.0, .drag = 0.05}},
+    {"one_sphere", {.link_stiffness = 0.03, .gas_fraction = 2.03, .voxel_size = 2.0, .drag = 0.05}},
+    {"one_torus", {.link_stiffness = 0.4, .gas_fraction = 1.59}},
+    {"two_spheres", {.link_stiffness = 0.1, .gas_fraction = 2.88, .voxel_size = 2.0, .drag = 0.05}},
+    // What rests is not inflated.
+    {"two_spheres_contact", {.substeps = 2, .gas_fraction = 3.53, .voxel_size = 4.0, .drag = 0.05}},
     {"three_spheres",
-     {.link_stiffness = 0.1, .gas_fraction = 2.61, .voxel_size = 2.0, .drag = 0.05}},
+     {.link_stiffness = 0.1, .gas_fraction = 2.71, .voxel_size = 4.0, .drag = 0.05}},
+    // What rests is not inflated.
     {"three_spheres_contact",
-     {.substeps = 2, .gas_fraction = 3.55, .margin = 0.1, .voxel_size = 2.0, .drag = 0.05}},
+     {.substeps = 2, .gas_fraction = 3.55, .margin = 0.1, .voxel_size = 4.0, .drag = 0.05}},
     {"sphere_in_torus",
-     {.position_iterations = 2,
+     {.substeps = 2,
       .link_stiffness = 0.01,
-      .gas_fraction = 0.275,
+      .gas_fraction = 0.355,
       .margin = 0.1,
       .voxel_size = 4.0,
       .drag = 0.05}},
+    // Corners of cubes get between the nodes: with 3 % more or less gas by 0.052 m.
     {"torus_four_cubes",
-     {.position_iterations = 4, .link_stiffness = 0.07, .gas_fraction = 1.37, .voxel_size = 0.5}},
+     {.position_iterations = 2,
+      .substeps = 2,
+      .link_stiffness = 0.05,
+      .gas_fraction = 1.88,
+      .voxel_size = 0.5}},
     {"cubes_on_torus",
-     {.position_iterations = 4, .link_stiffness = 0.07, .gas_fraction = 1.37, .voxel_size = 0.5}},
+     {.position_iterations = 2,
+      .substeps = 2,
+      .link_stiffness = 0.05,
+      .gas_fraction = 1.88,
+      .voxel_size = 0.5}},
 });
 
 const SceneSetting* find_setting(std::string_view scene) {

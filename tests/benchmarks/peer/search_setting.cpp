@@ -175,6 +175,10 @@ SearchGrid search_grid(const sim::World& world) {
                      .margins = {0.25, 0.1},
                      .drags = {0.0, 0.05},
                      .voxel_sizes = {1.0}};
+  if (world.rigid.empty() && world.soft.size() == 1) {
+    grid.stiffnesses = {1.0, 0.6, 0.4, 0.3, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01};
+    grid.drags = {0.0, 0.02, 0.05};
+  }
   if (!world.rigid.empty()) grid.voxel_sizes = {0.5};  // large ones blunt the corners of boxes
   if (world.rigid.size() > 20) {                       // of which a run takes seconds
     grid.efforts.resize(4);

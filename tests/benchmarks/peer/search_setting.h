@@ -32,7 +32,7 @@ struct SearchGrid {
   std::vector<double> voxel_sizes;  // m
 };
 
-/// Some 500 settings, as the gas is searched for at each point.
+/// Finer for one body alone, whose runs are short.
 SearchGrid search_grid(const sim::World& world);
 
 /// From `world`, for `seconds` a setting; for each point of the grid the gas that inflates the
