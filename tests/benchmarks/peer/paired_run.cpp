@@ -1,7 +1,6 @@
 #include "benchmarks/peer/paired_run.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -85,25 +84,35 @@ class Side {
   SideResult result_;
 };
 
-/// Ours, after a first run at the least rate that is stable.
+/// Ours, at the least rate at which it is stable and simulates as well as `other` does, if given.
 Side stable_side(const std::string& name, sim::World world, sim::Integrator integrator,
-                 const PairedRunOptions& options) {
+                 const Quality* other, const PairedRunOptions& options) {
   world.settings.integrator = integrator;
-  const int greatest_rate = 8 * world.settings.steps_per_second;
-  while (true) {
+  const auto make = [&](int rate) {
+    world.settings.steps_per_second = rate;
     const auto start = [=] { return simulate_by_ours(world, name, options.threads); };
     Side side(world.settings, start, options);
+    side.judge(options.seconds);
+    return side;
+  };
+  return make(least_rate(world.settings.steps_per_second, [&](int rate) {
     try {
-      side.judge(options.seconds);
-      return side;
+      const Side side = make(rate);
+      return other == nullptr || reaches(side.result().quality, *other);
     } catch (const app::DivergenceError&) {
-      world.settings.steps_per_second *= 2;
-      if (world.settings.steps_per_second > greatest_rate) throw;
+      return false;
     }
-  }
+  }));
 }
 
 }  // namespace
+
+int least_rate(int rate, const std::function<bool(int)>& is_good) {
+  for (int factor = 1; factor < 8; factor *= 2) {
+    if (is_good(factor * rate)) return factor * rate;
+  }
+  return 8 * rate;
+}
 
 /// Nothing sleeps on either side: what a step with all its bodies takes is compared.
 PairedRun run_paired(const std::string& name, const sim::World& given,
@@ -115,8 +124,9 @@ PairedRun run_paired(const std::string& name, const sim::World& given,
   Side bullet(
       world.settings, [&] { return simulate_by_bullet(world, bullet_options); }, one_thread);
   bullet.judge(options.seconds);
-  Side rk4 = stable_side(name, world, sim::Integrator::rk4, options);
-  Side verlet = stable_side(name, world, sim::Integrator::velocity_verlet, options);
+  Side rk4 = stable_side(name, world, sim::Integrator::rk4, nullptr, options);
+  const Quality reference = rk4.result().quality;
+  Side verlet = stable_side(name, world, sim::Integrator::velocity_verlet, &reference, options);
   for (int i = 0; i < options.repeats; ++i) {
     bullet.run();
     rk4.run();

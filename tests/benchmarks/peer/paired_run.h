@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,10 +38,13 @@ struct PairedRunOptions {
 
 /// Bullet runs with `bullet`, ours with rk4 and with velocity_verlet. All start from `world`, with
 /// its steps per second; an integrator of ours that diverges at those takes twice as many, up to
-/// eight times. The time of every piece of a few steps is the least of all repeats, which are taken
-/// in turns: whatever else the machine does strikes both sides alike, and drops out. Throws
-/// app::DivergenceError.
+/// eight times, and so does velocity_verlet where it falls short of rk4. The time of every piece of
+/// a few steps is the least of all repeats, which are taken in turns: whatever else the machine
+/// does strikes both sides alike, and drops out. Throws app::DivergenceError.
 PairedRun run_paired(const std::string& name, const sim::World& world, const BulletOptions& bullet,
                      const PairedRunOptions& options);
+
+/// The first good one of `rate` and two and four times as much; eight times if none is.
+int least_rate(int rate, const std::function<bool(int)>& is_good);
 
 }  // namespace pneuma::benchmarks

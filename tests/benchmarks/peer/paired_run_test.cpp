@@ -37,6 +37,13 @@ TEST(PairedRun, OursTakesMoreStepsWhereItDiverges) {
   EXPECT_EQ(run.velocity_verlet.steps_per_second, 120);
 }
 
+TEST(LeastRate, IsTheFirstGoodOneOfFour) {
+  for (const int needed : {60, 61, 200, 10'000}) {
+    const int expected = needed == 60 ? 60 : needed == 61 ? 120 : needed == 200 ? 240 : 480;
+    EXPECT_EQ(least_rate(60, [&](int rate) { return rate >= needed; }), expected) << needed;
+  }
+}
+
 TEST(CheapestGood, IsTheCheapestOfThoseWithinTenPercent) {
   const std::vector<QualityTry> tries = {
       {"bad", 1.0, 0.2}, {"dear", 3.0, 0.01}, {"good", 2.0, 0.09}};
