@@ -34,7 +34,7 @@ constexpr auto scene_settings = std::to_array<SceneSetting>({
       .margin = 0.1,
       .voxel_size = 4.0,
       .drag = 0.05}},
-    // Corners of cubes get between the nodes: with 3 % more or less gas by 0.052 m.
+    // Corners of cubes get between the nodes: by 0.052 m.
     {"torus_four_cubes",
      {.position_iterations = 2,
       .substeps = 2,
