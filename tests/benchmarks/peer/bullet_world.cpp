@@ -1,9 +1,12 @@
 #include "benchmarks/peer/bullet_world.h"
 
 #include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <vector>
@@ -12,11 +15,6 @@
 
 namespace pneuma::benchmarks {
 namespace {
-
-/// Bullet keeps the distance to boxes and ground on a sparse grid of voxels (0.25 m by default),
-/// which bodies of several metres wander through faster than it pays. The distance to a plane face
-/// is linear, so that larger ones are as good. Only Reset() takes a new size over.
-constexpr double chosen_voxel_size = 1.0;  // m
 
 btScalar scalar(double value) { return static_cast<btScalar>(value); }
 btVector3 vector(const sim::Vec3& v) { return {scalar(v.x()), scalar(v.y()), scalar(v.z())}; }
@@ -43,21 +41,23 @@ struct BulletWorld::Parts {
   std::vector<std::unique_ptr<btRigidBody>> rigid;
   std::vector<std::unique_ptr<btSoftBody>> soft;
 
-  double step_seconds;
+  BulletOptions options;
+  double substep_seconds;
 
-  explicit Parts(const sim::Settings& settings);
+  Parts(const sim::Settings& settings, const BulletOptions& given);
   ~Parts();
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  void add(const sim::SoftBody& body, const BulletOptions& options);
+  void add(const sim::SoftBody& body, bool several_soft);
   void add(const sim::RigidBox& box);
   void add_ground(const sim::ContactMaterial& surface);
   btRigidBody& add_rigid(std::unique_ptr<btCollisionShape> shape, double mass,
                          const btTransform& place, const sim::ContactMaterial& surface);
 };
 
-BulletWorld::Parts::Parts(const sim::Settings& settings) : step_seconds(sim::time_step(settings)) {
+BulletWorld::Parts::Parts(const sim::Settings& settings, const BulletOptions& given)
+    : options(given), substep_seconds(sim::time_step(settings) / given.substeps) {
   world.setGravity(vector(settings.gravity));
   btSoftBodyWorldInfo& info = world.getWorldInfo();
   info.m_gravity = vector(settings.gravity);
@@ -66,8 +66,8 @@ BulletWorld::Parts::Parts(const sim::Settings& settings) : step_seconds(sim::tim
   info.m_dispatcher = &dispatcher;
   info.m_broadphase = &broadphase;
   info.m_sparsesdf.Initialize();
-  info.m_sparsesdf.setDefaultVoxelsz(scalar(chosen_voxel_size));
-  info.m_sparsesdf.Reset();
+  info.m_sparsesdf.setDefaultVoxelsz(scalar(options.voxel_size));
+  info.m_sparsesdf.Reset();  // only this takes the size over
 }
 
 BulletWorld::Parts::~Parts() {
@@ -75,7 +75,7 @@ BulletWorld::Parts::~Parts() {
   for (const auto& body : rigid) world.removeRigidBody(body.get());
 }
 
-void BulletWorld::Parts::add(const sim::SoftBody& body, const BulletOptions& options) {
+void BulletWorld::Parts::add(const sim::SoftBody& body, bool several_soft) {
   std::vector<btVector3> positions;
   for (int v = 0; v < body.positions.size(); ++v) positions.push_back(vector(body.positions[v]));
   const std::vector<btScalar> masses(positions.size(), scalar(body.material.vertex_mass));
@@ -85,10 +85,13 @@ void BulletWorld::Parts::add(const sim::SoftBody& body, const BulletOptions& opt
   const sim::MeshTopology& topology = body.mesh->topology;
   for (const auto& [a, b] : topology.edges()) made->appendLink(a, b);
   for (const auto& [a, b, c] : topology.triangles()) made->appendFace(a, b, c);
-  made->m_cfg.collisions = btSoftBody::fCollision::SDF_RS | btSoftBody::fCollision::VF_SS;
+  made->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
+  if (several_soft) made->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;  // a tree of faces
   made->m_cfg.piterations = options.position_iterations;
-  // A share of the velocity per step, where rho_g is one per 1/60 s.
-  made->m_cfg.kDP = scalar(1.0 - std::pow(1.0 - body.material.rho_g, 60.0 * step_seconds));
+  // A fraction of the velocity per substep, where rho_g and drag are such per 1/60 s.
+  const double kept = (1.0 - body.material.rho_g) * (1.0 - options.drag);
+  made->m_cfg.kDP = scalar(1.0 - std::pow(kept, 60.0 * substep_seconds));
+  made->getCollisionShape()->setMargin(scalar(options.margin));
   made->m_cfg.kDF = friction(body.material.surface);
   made->m_cfg.kPR =  // pressure: kPR / V
       scalar(options.gas_fraction * sim::gas_strength(body.material));
@@ -125,20 +128,23 @@ void BulletWorld::Parts::add(const sim::RigidBox& box) {
   body.setAngularVelocity(vector(box.angular_velocity));
 }
 
-/// A box whose top is z = 0, as in Bullet's own demos: it tests nodes against a static plane, which
-/// it takes for a concave shape, ten times as slowly.
 void BulletWorld::Parts::add_ground(const sim::ContactMaterial& surface) {
-  const btVector3 half_size(500, 500, 10);
   btTransform place = btTransform::getIdentity();
+  if (options.ground == BulletGround::plane) {
+    const btVector3 up(0, 0, 1);
+    add_rigid(std::make_unique<btStaticPlaneShape>(up, scalar(0)), 0.0, place, surface);
+    return;
+  }
+  const btVector3 half_size(500, 500, 10);
   place.setOrigin({0, 0, -half_size.z()});
   add_rigid(std::make_unique<btBoxShape>(half_size), 0.0, place, surface);
 }
 
 BulletWorld::BulletWorld(const sim::World& world, const BulletOptions& options)
-    : parts_(std::make_unique<Parts>(world.settings)) {
+    : parts_(std::make_unique<Parts>(world.settings, options)) {
   if (world.settings.ground) parts_->add_ground(*world.settings.ground);
   for (const sim::RigidBox& box : world.rigid) parts_->add(box);
-  for (const sim::SoftBody& body : world.soft) parts_->add(body, options);
+  for (const sim::SoftBody& body : world.soft) parts_->add(body, world.soft.size() > 1);
 }
 
 BulletWorld::~BulletWorld() = default;
@@ -146,7 +152,9 @@ BulletWorld::BulletWorld(BulletWorld&&) noexcept = default;
 BulletWorld& BulletWorld::operator=(BulletWorld&&) noexcept = default;
 
 void BulletWorld::step() {
-  parts_->world.stepSimulation(scalar(parts_->step_seconds), 0);  // 0: one step of just that length
+  for (int i = 0; i < parts_->options.substeps; ++i) {
+    parts_->world.stepSimulation(scalar(parts_->substep_seconds), 0);  // 0: one of just that length
+  }
 }
 
 void BulletWorld::copy_state(sim::World& world) const {
@@ -196,6 +204,20 @@ sim::Vec3 BulletWorld::mean_velocity(int body) const {
     sum += sim::Vec3(velocity.x(), velocity.y(), velocity.z());
   }
   return sum / soft.m_nodes.size();
+}
+
+/// Debian's package says nothing of its flags: these are of debian/rules and dpkg-buildflags of
+/// bullet 3.24+dfsg-2, for the baseline of its architecture.
+std::string bullet_build() {
+  Dl_info found{};
+  const bool known =
+      dladdr(reinterpret_cast<void*>(&btSoftBodyHelpers::CreatePatchUV), &found) != 0;
+  const std::string path = known ? found.dli_fname : "";
+  const bool is_debian = path.starts_with("/lib/") || path.starts_with("/usr/lib/");
+  return fmt::format("{} ({})", path,
+                     is_debian ? "Debian's: GNU -O2 -g -DNDEBUG -fstack-protector-strong "
+                                 "-D_FORTIFY_SOURCE=2, no -march"
+                               : "built by hand, with flags of which it does not tell");
 }
 
 }  // namespace pneuma::benchmarks

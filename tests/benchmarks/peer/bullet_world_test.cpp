@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "support/worlds.h"
 
@@ -68,9 +69,11 @@ sim::World dropped_sphere() {
   return world;
 }
 
+constexpr BulletOptions little_gas{.position_iterations = 2, .gas_fraction = 0.05};
+
 TEST(BulletWorld, ADroppedSphereComesToRestAndKeepsItsShape) {
   const sim::World world = dropped_sphere();
-  BulletWorld peer(world, at_rest);
+  BulletWorld peer(world, little_gas);
   const double before = peer.volume(0);
   for (int i = 0; i < 600; ++i) peer.step();
   EXPECT_LT(peer.mean_velocity(0).norm(), 0.1);  // with all of the gas: 6.3 m/s
@@ -79,6 +82,72 @@ TEST(BulletWorld, ADroppedSphereComesToRestAndKeepsItsShape) {
 
 TEST(BulletWorld, TheVoxelSizeTakesEffect) {
   EXPECT_EQ(BulletWorld(dropped_sphere()).voxel_size(), 1.0);  // Bullet's own is 0.25 m
+  EXPECT_EQ(BulletWorld(dropped_sphere(), {.voxel_size = 2.0}).voxel_size(), 2.0);
+}
+
+/// After `seconds` of steps.
+sim::World after(double seconds, const sim::World& world, const BulletOptions& options) {
+  BulletWorld peer(world, options);
+  for (int i = 0; i < static_cast<int>(60.0 * seconds); ++i) peer.step();
+  sim::World end = world;
+  peer.copy_state(end);
+  return end;
+}
+
+double lowest(const sim::World& world) { return sim::bounds(world).low.z(); }
+
+TEST(BulletWorld, SubstepsAreThatOfOneStep) {
+  sim::World world = dropped_sphere();
+  world.soft[0].material.rho_g = 0.0;
+  const auto fallen = [&](int substeps) {
+    return 5.0 - lowest(after(0.5, world, {.substeps = substeps, .gas_fraction = 1e-6}));
+  };
+  // Symplectic Euler falls by g t (t + h) / 2, h being the substep.
+  EXPECT_NEAR(fallen(1), 0.5 * 9.81 * 0.5 * (0.5 + 1.0 / 60.0), 0.001);
+  EXPECT_NEAR(fallen(4), 0.5 * 9.81 * 0.5 * (0.5 + 1.0 / 240.0), 0.001);
+}
+
+TEST(BulletWorld, SoftLinksLetTheGasInflateABody) {
+  const auto volume = [](double stiffness) { return BulletOptions{.link_stiffness = stiffness}; };
+  sim::World world = sim::make_free_world(dropped_sphere().soft[0]);
+  const auto end = [&](double stiffness) {
+    const sim::World at_end = after(3.0, world, volume(stiffness));
+    return sim::volume(at_end.soft[0].mesh->topology, at_end.soft[0].positions);
+  };
+  EXPECT_GT(end(0.05), 1.5 * end(1.0));
+}
+
+TEST(BulletWorld, TheMarginKeepsABodyAboveTheGround) {
+  const auto height = [](double margin) {
+    BulletOptions options = little_gas;
+    options.margin = margin;
+    return lowest(after(5.0, dropped_sphere(), options));
+  };
+  EXPECT_NEAR(height(0.5) - height(0.25), 0.25, 0.1);  // a node sinks in by what links press it
+}
+
+TEST(BulletWorld, APlaneHoldsABodyAsABoxDoes) {
+  BulletOptions options = little_gas;
+  const double on_box = lowest(after(5.0, dropped_sphere(), options));
+  options.ground = BulletGround::plane;
+  EXPECT_NEAR(lowest(after(5.0, dropped_sphere(), options)), on_box, 0.1);
+}
+
+TEST(BulletWorld, DragTakesItsFractionInEverySixtiethOfASecond) {
+  sim::World world = sim::make_free_world(dropped_sphere().soft[0]);
+  world.soft[0].material.rho_g = 0.0;
+  for (int v = 0; v < world.soft[0].velocities.size(); ++v) {
+    world.soft[0].velocities[v] = sim::Vec3(1.0, 0.0, 0.0);
+  }
+  for (const int substeps : {1, 2}) {
+    BulletWorld peer(world, {.substeps = substeps, .gas_fraction = 1e-6, .drag = 0.02});
+    for (int i = 0; i < 60; ++i) peer.step();
+    EXPECT_NEAR(peer.mean_velocity(0).x(), std::pow(0.98, 60), 1e-4);
+  }
+}
+
+TEST(BulletWorld, TellsWhichLibraryItIs) {
+  EXPECT_NE(bullet_build().find("libBulletSoftBody"), std::string::npos);
 }
 
 }  // namespace

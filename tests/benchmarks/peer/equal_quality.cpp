@@ -10,7 +10,7 @@
 #include "app/host/clock.h"
 #include "app/world/build_world.h"
 #include "benchmarks/peer/bullet_world.h"
-#include "benchmarks/peer/paired_run.h"
+#include "benchmarks/peer/quality.h"
 #include "scenes/loader/integrator_names.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/step/stepper.h"

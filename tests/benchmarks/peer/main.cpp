@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <array>
+#include <cstdio>
 #include <exception>
 
 #include "app/host/timing_conditions.h"
@@ -13,8 +14,11 @@
 #include "app/terminal/table.h"
 #include "app/world/build_world.h"
 #include "app/world/find_scene.h"
+#include "benchmarks/peer/bullet_settings.h"
 #include "benchmarks/peer/equal_quality.h"
 #include "benchmarks/peer/paired_run.h"
+#include "benchmarks/peer/print_runs.h"
+#include "benchmarks/peer/search_setting.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::benchmarks {
@@ -23,8 +27,9 @@ namespace {
 using app::readable;
 
 constexpr std::array paper_scenes = {
-    "one_sphere",      "one_torus",        "two_spheres_contact", "three_spheres_contact",
-    "sphere_in_torus", "torus_four_cubes", "cubes_on_torus"};
+    "one_sphere",          "one_torus",        "two_spheres",
+    "two_spheres_contact", "three_spheres",    "three_spheres_contact",
+    "sphere_in_torus",     "torus_four_cubes", "cubes_on_torus"};
 
 sim::World spheres(int along) {
   const std::string text = fmt::format(
@@ -34,37 +39,6 @@ sim::World spheres(int along) {
 }
 
 std::string times(double ratio) { return fmt::format("{:.1f}x", ratio); }
-
-void print_runs(const std::vector<PairedRun>& runs) {
-  using Align = app::Table::Align;
-  app::Table table({{"scene", Align::left},
-                    {"Bullet", Align::right, "us per 1/60 s"},
-                    {"rk4", Align::right, "us per 1/60 s"},
-                    {"verlet", Align::right, "us per 1/60 s"},
-                    {"rk4", Align::right, "Bullet takes"},
-                    {"verlet", Align::right, "Bullet takes"},
-                    {"Bullet", Align::right, "contacts"},
-                    {"rk4", Align::right, "contacts"},
-                    {"Bullet", Align::right, "V end / V start"},
-                    {"rk4", Align::right, "V end / V start"},
-                    {"Bullet", Align::right, "m/s at the end"},
-                    {"rk4", Align::right, "m/s at the end"}});
-  for (const PairedRun& run : runs) {
-    const auto microseconds = [](const SideResult& side) {
-      const int steps = side.steps_per_second / 60;
-      const std::string text = readable(1e6 * side.frame_seconds());
-      return steps > 1 ? fmt::format("{} ({} steps)", text, steps) : text;
-    };
-    const double bullet = run.bullet.frame_seconds();
-    table.add_row({run.name, microseconds(run.bullet), microseconds(run.rk4),
-                   microseconds(run.velocity_verlet), times(bullet / run.rk4.frame_seconds()),
-                   times(bullet / run.velocity_verlet.frame_seconds()),
-                   readable(run.bullet.contacts_per_step), readable(run.rk4.contacts_per_step),
-                   readable(run.bullet.volume_ratio), readable(run.rk4.volume_ratio),
-                   readable(run.bullet.end_speed), readable(run.rk4.end_speed)});
-  }
-  fmt::print("{}\n", table.text());
-}
 
 void print_tries(const std::string& side, const std::vector<QualityTry>& tries) {
   app::Table table({{side, app::Table::Align::left},
@@ -96,36 +70,57 @@ void print(const QualityComparison& comparison) {
 struct Typed {
   std::vector<std::string> scenes;
   bool is_short = false;
+  bool searches = false;
 };
 
+sim::World load(const std::string& scene) {
+  return app::build_world(scenes::load_scene(app::find_scene(scene)));
+}
+
+void search(const std::vector<std::string>& scenes, double seconds) {
+  for (const std::string& scene : scenes) {
+    const sim::World world = load(scene);
+    fmt::print("{}\n",
+               search_text(scene, search_setting(scene, world, seconds, search_grid(world))));
+    std::fflush(stdout);  // a scene takes minutes
+  }
+}
+
+void compare(const Typed& typed, const std::vector<std::string>& scenes, PairedRunOptions options) {
+  std::vector<PairedRun> runs;
+  for (const std::string& scene : scenes) {
+    runs.push_back(run_paired(scene, load(scene), bullet_setting(scene), options));
+  }
+  fmt::print("{}\n", runs_text(runs));
+  if (!typed.scenes.empty()) return;
+  runs.clear();
+  const BulletOptions& many = bullet_setting("three_spheres");  // of the same material
+  if (!typed.is_short) options.seconds = 2.0;
+  runs.push_back(run_paired("100 spheres", spheres(10), many, options));
+  if (!typed.is_short) {
+    options.repeats = 3;
+    runs.push_back(run_paired("1,000 spheres", spheres(32), many, options));
+    options.threads = 2;
+    runs.push_back(run_paired("the same, ours on 2 threads", spheres(32), many, options));
+  }
+  fmt::print("{}\n", runs_text(runs));
+  for (const int subdivisions : {4, 5}) {
+    if (typed.is_short && subdivisions == 5) break;
+    print(compare_quality(subdivisions, typed.is_short ? 1.0 : 5.0));
+  }
+}
+
 void run(const Typed& typed) {
-  fmt::print("{}\n", app::provenance_text(app::utc_date()));
+  fmt::print("{}{}\n", app::provenance_text(app::utc_date()), builds_text());
   for (const std::string& warning : app::timing_warnings(app::timing_conditions())) {
     fmt::print("warning: {}\n", warning);
   }
   PairedRunOptions options;
   if (typed.is_short) options = {.seconds = 1.0, .repeats = 1};
-  std::vector<std::string> names = typed.scenes;
-  if (names.empty()) names.assign(paper_scenes.begin(), paper_scenes.end());
-  std::vector<PairedRun> runs;
-  for (const std::string& name : names) {
-    const sim::World world = app::build_world(scenes::load_scene(app::find_scene(name)));
-    runs.push_back(run_paired(name, world, options));
-  }
-  if (!typed.scenes.empty()) return print_runs(runs);
-  if (!typed.is_short) options.seconds = 2.0;
-  runs.push_back(run_paired("100 spheres", spheres(10), options));
-  if (!typed.is_short) {
-    options.repeats = 3;
-    runs.push_back(run_paired("1,000 spheres", spheres(32), options));
-    options.threads = 2;
-    runs.push_back(run_paired("the same, ours on 2 threads", spheres(32), options));
-  }
-  print_runs(runs);
-  for (const int subdivisions : {4, 5}) {
-    if (typed.is_short && subdivisions == 5) break;
-    print(compare_quality(subdivisions, typed.is_short ? 1.0 : 5.0));
-  }
+  std::vector<std::string> scenes = typed.scenes;
+  if (scenes.empty()) scenes.assign(paper_scenes.begin(), paper_scenes.end());
+  if (typed.searches) return search(scenes, options.seconds);
+  compare(typed, scenes, options);
 }
 
 }  // namespace
@@ -137,6 +132,8 @@ int main(int argc, char** argv) {
   Typed typed;
   command.add_option("SCENE", typed.scenes, "Scenes [the paper's, many spheres, fine spheres]");
   command.add_flag("--short", typed.is_short, "One second of each, once");
+  command.add_flag("--search", typed.searches,
+                   "Look for the cheapest setting of Bullet that simulates each scene as ours");
   CLI11_PARSE(command, argc, argv);
   try {
     run(typed);

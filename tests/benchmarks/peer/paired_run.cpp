@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "app/host/clock.h"
 #include "app/host/errors.h"
-#include "app/world/replay.h"
-#include "benchmarks/peer/bullet_world.h"
-#include "sim/mesh/measure.h"
-#include "sim/step/stepper.h"
 
 namespace pneuma::benchmarks {
 namespace {
 
 /// Steps between two readings of the clock: enough for a piece of the lightest scene to be a
 /// hundred times what a reading takes.
-constexpr std::int64_t piece = 20;
+constexpr int piece = 20;
 
 /// Least time of each piece so far.
 class LeastTimes {
@@ -33,32 +30,39 @@ class LeastTimes {
   std::vector<double> least_;
 };
 
+double wall_seconds() {
+  return std::chrono::duration<double>(app::Clock::now().time_since_epoch()).count();
+}
+
 /// A side's least times over the repeats, and what the last of them did.
 class Side {
  public:
-  Side(const sim::World& start, const PairedRunOptions& options)
-      : start_(start), pieces_(piece_count(start, options)), times_(pieces_) {
-    result_.steps_per_second = start.settings.steps_per_second;
+  using Start = std::function<std::unique_ptr<Simulation>()>;
+
+  Side(const sim::Settings& settings, Start start, const PairedRunOptions& options)
+      : start_(std::move(start)),
+        // The processor time of this thread says nothing of the others'.
+        now_(options.threads == 1 ? app::thread_seconds : wall_seconds),
+        pieces_(piece_count(settings, options)),
+        times_(pieces_) {
+    result_.steps_per_second = settings.steps_per_second;
   }
 
-  /// `run_piece` steps a piece, `contacts` are those after it. The first half is not measured.
-  template <class RunPiece, class CountContacts>
-  void run(const RunPiece& run_piece, const CountContacts& contacts, double (*now)()) {
-    std::size_t sum = 0;
-    for (std::int64_t i = 0; i < pieces_; ++i) run_piece();
+  /// The first half is not measured.
+  void run() {
+    const std::unique_ptr<Simulation> simulation = start_();
+    std::size_t contacts = 0;
+    for (std::int64_t i = 0; i < pieces_; ++i) simulation->advance(piece);
     for (std::int64_t i = 0; i < pieces_; ++i) {
-      const double before = now();
-      run_piece();
-      times_.add(i, now() - before);
-      sum += contacts();
+      const double before = now_();
+      simulation->advance(piece);
+      times_.add(i, now_() - before);
+      contacts += simulation->contact_count();
     }
-    result_.contacts_per_step = static_cast<double>(sum) / static_cast<double>(pieces_);
+    result_.contacts_per_step = static_cast<double>(contacts) / static_cast<double>(pieces_);
   }
 
-  void end_with(double volume, double speed) {
-    result_.volume_ratio = volume / soft_volume(start_);
-    result_.end_speed = speed;
-  }
+  void judge(double seconds) { result_.quality = try_out(*start_(), seconds).quality; }
 
   SideResult result() const {
     SideResult result = result_;
@@ -67,98 +71,71 @@ class Side {
     return result;
   }
 
-  const sim::World& start() const { return start_; }
-
  private:
-  static std::int64_t piece_count(const sim::World& world, const PairedRunOptions& options) {
-    const double steps = 0.5 * options.seconds * world.settings.steps_per_second;
+  static std::int64_t piece_count(const sim::Settings& settings, const PairedRunOptions& options) {
+    const double steps = 0.5 * options.seconds * settings.steps_per_second;
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(steps) / piece);
   }
 
-  sim::World start_;
+  Start start_;
+  double (*now_)();
   std::int64_t pieces_;
   LeastTimes times_;
   SideResult result_;
 };
 
-double wall_seconds() {
-  return std::chrono::duration<double>(app::Clock::now().time_since_epoch()).count();
-}
-
-void run_bullet(Side& side) {
-  const sim::World& start = side.start();
-  BulletWorld world(start, at_rest);
-  const auto run_piece = [&] {
-    for (std::int64_t i = 0; i < piece; ++i) world.step();
-  };
-  side.run(
-      run_piece, [&] { return world.contact_count(); }, app::thread_seconds);
-  double volume = 0.0;
-  double speed = 0.0;
-  for (int b = 0; b < std::ssize(start.soft); ++b) {
-    volume += world.volume(b);
-    speed = std::max(speed, world.mean_velocity(b).norm());
-  }
-  side.end_with(volume, speed);
-}
-
-void run_ours(Side& side, const std::string& name, const PairedRunOptions& options) {
-  sim::World world = side.start();
-  sim::StepperOptions stepping;
-  stepping.threads = options.threads;
-  sim::Stepper stepper(world, stepping);
-  // The processor time of this thread says nothing of the others'.
-  side.run([&] { app::advance(stepper, world, piece, name); },
-           [&] { return stepper.contacts().size(); },
-           options.threads == 1 ? app::thread_seconds : wall_seconds);
-  double speed = 0.0;
-  for (const sim::SoftBody& body : world.soft) {
-    speed = std::max(speed, body.velocities.rows().rowwise().mean().norm());
-  }
-  side.end_with(soft_volume(world), speed);
-}
-
-/// Ours, after a first run at the least rate that is stable.
+/// Ours, at the least rate at which it is stable and simulates as well as `other` does, if given.
 Side stable_side(const std::string& name, sim::World world, sim::Integrator integrator,
-                 const PairedRunOptions& options) {
+                 const Quality* other, const PairedRunOptions& options) {
   world.settings.integrator = integrator;
-  const int greatest_rate = 8 * world.settings.steps_per_second;
-  while (true) {
-    Side side(world, options);
+  const auto make = [&](int rate) {
+    world.settings.steps_per_second = rate;
+    const auto start = [=] { return simulate_by_ours(world, name, options.threads); };
+    Side side(world.settings, start, options);
+    side.judge(options.seconds);
+    return side;
+  };
+  return make(least_rate(world.settings.steps_per_second, [&](int rate) {
     try {
-      run_ours(side, name, options);
-      return side;
+      const Quality quality = make(rate).result().quality;
+      if (other == nullptr) return true;
+      Quality nearly = *other;
+      nearly.end_speed *= 1.1;  // where bodies still move, no two integrators have one speed
+      return reaches(quality, nearly);
     } catch (const app::DivergenceError&) {
-      world.settings.steps_per_second *= 2;
-      if (world.settings.steps_per_second > greatest_rate) throw;
+      return false;
     }
-  }
+  }));
 }
 
 }  // namespace
 
-double soft_volume(const sim::World& world) {
-  double sum = 0.0;
-  for (const sim::SoftBody& body : world.soft) {
-    sum += sim::volume(body.mesh->topology, body.positions);
+int least_rate(int rate, const std::function<bool(int)>& is_good) {
+  for (int factor = 1; factor < 8; factor *= 2) {
+    if (is_good(factor * rate)) return factor * rate;
   }
-  return sum;
+  return 8 * rate;
 }
 
 /// Nothing sleeps on either side: what a step with all its bodies takes is compared.
 PairedRun run_paired(const std::string& name, const sim::World& given,
-                     const PairedRunOptions& options) {
+                     const BulletOptions& bullet_options, const PairedRunOptions& options) {
   sim::World world = given;
   world.settings.sleep_speed = 0.0;
-  Side bullet(world, options);
-  Side rk4 = stable_side(name, world, sim::Integrator::rk4, options);
-  Side verlet = stable_side(name, world, sim::Integrator::velocity_verlet, options);
+  PairedRunOptions one_thread = options;
+  one_thread.threads = 1;
+  Side bullet(
+      world.settings, [&] { return simulate_by_bullet(world, bullet_options); }, one_thread);
+  bullet.judge(options.seconds);
+  Side rk4 = stable_side(name, world, sim::Integrator::rk4, nullptr, options);
+  const Quality reference = rk4.result().quality;
+  Side verlet = stable_side(name, world, sim::Integrator::velocity_verlet, &reference, options);
   for (int i = 0; i < options.repeats; ++i) {
-    run_bullet(bullet);
-    run_ours(rk4, name, options);
-    run_ours(verlet, name, options);
+    bullet.run();
+    rk4.run();
+    verlet.run();
   }
-  return {name, bullet.result(), rk4.result(), verlet.result()};
+  return {name, bullet_options, bullet.result(), rk4.result(), verlet.result()};
 }
 
 }  // namespace pneuma::benchmarks

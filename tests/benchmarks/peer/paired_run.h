@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "benchmarks/peer/quality.h"
 #include "sim/world/world.h"
 
 namespace pneuma::benchmarks {
@@ -14,8 +16,7 @@ struct SideResult {
   int steps_per_second = 60;
   double seconds_per_second = 0.0;  // run time per simulated second, least of the repeats
   double contacts_per_step = 0.0;   // mean; ours are regions, Bullet's nodes
-  double volume_ratio = 1.0;        // of all soft bodies at the end / at the start
-  double end_speed = 0.0;           // m/s at the end, of the centre of the fastest soft body
+  Quality quality;                  // of a run that was not timed
 
   /// What the work of 1/60 s takes: one step, unless it needs shorter ones.
   double frame_seconds() const { return seconds_per_second / 60.0; }
@@ -23,6 +24,7 @@ struct SideResult {
 
 struct PairedRun {
   std::string name;
+  BulletOptions bullet_options;
   SideResult bullet;
   SideResult rk4;
   SideResult velocity_verlet;
@@ -34,14 +36,15 @@ struct PairedRunOptions {
   int threads = 1;  // of ours; Bullet's soft bodies know one
 };
 
-/// Both start from `world`, with its steps per second; an integrator of ours that diverges at those
-/// takes twice as many, up to eight times. The time of every piece of a few steps is the least of
-/// all repeats, which are taken in turns: whatever else the machine does strikes both sides alike,
-/// and drops out. Throws app::DivergenceError.
-PairedRun run_paired(const std::string& name, const sim::World& world,
+/// Bullet runs with `bullet`, ours with rk4 and with velocity_verlet. All start from `world`, with
+/// its steps per second; an integrator of ours that diverges at those takes twice as many, up to
+/// eight times, and so does velocity_verlet where it falls short of rk4. The time of every piece of
+/// a few steps is the least of all repeats, which are taken in turns: whatever else the machine
+/// does strikes both sides alike, and drops out. Throws app::DivergenceError.
+PairedRun run_paired(const std::string& name, const sim::World& world, const BulletOptions& bullet,
                      const PairedRunOptions& options);
 
-/// Volume of all soft bodies, m^3.
-double soft_volume(const sim::World& world);
+/// The first good one of `rate` and two and four times as much; eight times if none is.
+int least_rate(int rate, const std::function<bool(int)>& is_good);
 
 }  // namespace pneuma::benchmarks

@@ -6,6 +6,7 @@
 
 #include "app/host/clock.h"
 #include "app/world/replay.h"
+#include "benchmarks/peer/bullet_settings.h"
 #include "benchmarks/peer/bullet_world.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
@@ -99,7 +100,7 @@ PileResult run_ours(const PileWorld& pile, const PileOptions& options) {
 
 PileResult run_bullet(const PileWorld& pile, const PileOptions& options) {
   sim::World world = pile.world;
-  BulletWorld bullet(world, at_rest);
+  BulletWorld bullet(world, bullet_setting(pile.name));
   PileLog log(pile, options);
   for (int i = 0; i < log.steps(); ++i) {
     const double before = app::thread_seconds();
