@@ -135,11 +135,6 @@ double kinetic_energy(const RigidBox& box, const RigidState& state) {
          0.5 * state.angular_velocity.dot(spin(box, state));
 }
 
-Vec3 spin(const RigidBox& box, const RigidState& state) {
-  const Eigen::Quaterniond& q = state.orientation;
-  return q * body_inertia(box).cwiseProduct(q.conjugate() * state.angular_velocity);
-}
-
 Vec3 rate_of(const RigidBox& box, const Eigen::Quaterniond& orientation, const Vec3& momentum) {
   return orientation *
          body_inertia(box).cwiseInverse().cwiseProduct(orientation.conjugate() * momentum);

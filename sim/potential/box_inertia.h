@@ -63,8 +63,6 @@ Vec3 rate_of(const RigidBox& box, const Eigen::Quaterniond& orientation, const V
 /// Of a box with these positions of its corners, their velocities.
 void move_corners(const RigidState& box, int first_vertex, const VertexArray& positions,
                   VertexArray& velocities);
-/// kg m^2/s, about its centre.
-Vec3 spin(const RigidBox& box, const RigidState& state);
 
 /// What the second derivative gains, by dtheta, as turning corners move along curves: of forces
 /// that are the slopes of an energy by the corners' ways.

@@ -1,18 +1,12 @@
 #include "sim/response/group_motion.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "sim/rigid/inertia.h"
 
 namespace pneuma::sim {
-namespace {
-
-Mat3 own_inertia(const RigidBox& box) {
-  const Mat3 axes = box.orientation.toRotationMatrix();
-  return axes * body_inertia(box).asDiagonal() * axes.transpose();
-}
-
-}  // namespace
 
 template <class Visit>
 void GroupMotion::visit_soft(const Visit& visit) const {
@@ -38,7 +32,9 @@ void GroupMotion::visit_boxes(const Visit& visit) const {
 }
 
 void GroupMotion::leave_out_common() {
-  find_mean();
+  const Mean all = mean();
+  centre_ = all.centre;
+  velocity_ = all.velocity;
   Vec3 angular_momentum = Vec3::Zero();
   visit_vertices([&](double m, const Vec3& x, const Vec3& v) {
     angular_momentum += m * (x - centre_).cross(v - velocity_);
@@ -47,7 +43,7 @@ void GroupMotion::leave_out_common() {
     angular_momentum +=
         box.mass * (box.position - centre_).cross(box.velocity - velocity_) + spin(box);
   });
-  angular_velocity_ = inertia().ldlt().solve(angular_momentum);
+  angular_velocity_ = inertia(centre_).ldlt().solve(angular_momentum);
 }
 
 double GroupMotion::energy() const {
@@ -58,9 +54,17 @@ double GroupMotion::energy() const {
   visit_boxes([&](const RigidBox& box) {
     const Vec3 own_spin = box.angular_velocity - angular_velocity_;
     sum += 0.5 * box.mass * (box.velocity - common(box.position)).squaredNorm() +
-           0.5 * own_spin.dot(own_inertia(box) * own_spin);
+           0.5 * own_spin.dot(world_inertia(box) * own_spin);
   });
   return sum;
+}
+
+double GroupMotion::take(double energy) {
+  const double there_is = this->energy();
+  const double taken = std::min(energy, there_is);
+  if (!(taken > 0.0)) return 0.0;
+  slow(std::sqrt(1.0 - taken / there_is));
+  return taken;
 }
 
 void GroupMotion::slow(double factor) {
@@ -78,15 +82,15 @@ void GroupMotion::slow(double factor) {
 }
 
 void GroupMotion::turn(const Vec3& angular_momentum) {
-  find_mean();
-  const Vec3 angular_velocity = inertia().ldlt().solve(angular_momentum);
+  const Vec3 centre = mean().centre;
+  const Vec3 angular_velocity = inertia(centre).ldlt().solve(angular_momentum);
   visit_soft([&](SoftBody& body) {
     for (int v = 0; v < body.positions.size(); ++v) {
-      body.velocities[v] += angular_velocity.cross(body.positions[v] - centre_);
+      body.velocities[v] += angular_velocity.cross(body.positions[v] - centre);
     }
   });
   visit_boxes([&](RigidBox& box) {
-    box.velocity += angular_velocity.cross(box.position - centre_);
+    box.velocity += angular_velocity.cross(box.position - centre);
     box.angular_velocity += angular_velocity;
   });
 }
@@ -105,30 +109,29 @@ double GroupMotion::mass() const {
   return sum;
 }
 
-void GroupMotion::find_mean() {
+GroupMotion::Mean GroupMotion::mean() const {
   double mass = 0.0;
-  centre_ = velocity_ = Vec3::Zero();
+  Mean sum;
   const auto add = [&](double m, const Vec3& x, const Vec3& v) {
     mass += m;
-    centre_ += m * x;
-    velocity_ += m * v;
+    sum.centre += m * x;
+    sum.velocity += m * v;
   };
   visit_vertices(add);
   visit_boxes([&](const RigidBox& box) { add(box.mass, box.position, box.velocity); });
-  centre_ /= mass;
-  velocity_ /= mass;
+  return {sum.centre / mass, sum.velocity / mass};
 }
 
-Mat3 GroupMotion::inertia() const {
+Mat3 GroupMotion::inertia(const Vec3& centre) const {
   Mat3 sum = Mat3::Zero();
   const auto add = [&](double m, const Vec3& x) {
-    const Vec3 arm = x - centre_;
+    const Vec3 arm = x - centre;
     sum += m * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
   };
   visit_vertices([&](double m, const Vec3& x, const Vec3&) { add(m, x); });
   visit_boxes([&](const RigidBox& box) {
     add(box.mass, box.position);
-    sum += own_inertia(box);
+    sum += world_inertia(box);
   });
   return sum;
 }

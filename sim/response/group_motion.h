@@ -13,13 +13,14 @@ class GroupMotion {
   /// `bodies`, which must outlive it: soft bodies by their place in the world, boxes after them.
   GroupMotion(World& world, std::span<const int> bodies) : world_(world), bodies_(bodies) {}
 
-  /// From now on `energy` and `slow` are of what is not common.
+  /// From now on `energy` and `take` are of what is not common.
   void leave_out_common();
 
   /// J, of motion.
   double energy() const;
-  /// Multiplies velocities by a factor.
-  void slow(double factor);
+  /// Takes so much of it (J), or all that there is, by one factor for all velocities: at contacts
+  /// what parts still parts. Returns what was taken, >= 0.
+  double take(double energy);
   /// Gives all of them, as one rigid body at its centre of mass, this angular momentum besides
   /// what they have, kg m^2/s. Momentum stays as it is.
   void turn(const Vec3& angular_momentum);
@@ -29,6 +30,7 @@ class GroupMotion {
   double mass() const;
 
  private:
+  void slow(double factor);
   template <class Visit>
   void visit_soft(const Visit& visit) const;
   template <class Visit>
@@ -36,9 +38,13 @@ class GroupMotion {
   template <class Visit>
   void visit_boxes(const Visit& visit) const;
 
-  void find_mean();
-  /// kg m^2, about the centre, in world axes.
-  Mat3 inertia() const;
+  struct Mean {
+    Vec3 centre = Vec3::Zero();    // m
+    Vec3 velocity = Vec3::Zero();  // m/s
+  };
+  Mean mean() const;
+  /// kg m^2, about a centre, in world axes.
+  Mat3 inertia(const Vec3& centre) const;
   /// m/s, of the common motion.
   Vec3 common(const Vec3& point) const {
     return velocity_ + angular_velocity_.cross(point - centre_);

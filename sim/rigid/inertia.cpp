@@ -7,6 +7,11 @@ Vec3 body_inertia(const RigidBox& box) {
   return box.mass / 12.0 * (Vec3::Constant(squares.sum()) - squares);
 }
 
+Mat3 world_inertia(const RigidBox& box) {
+  const Mat3 rotation = box.orientation.toRotationMatrix();
+  return rotation * body_inertia(box).asDiagonal() * rotation.transpose();
+}
+
 Mat3 world_inverse_inertia(const RigidBox& box) {
   const Mat3 rotation = box.orientation.toRotationMatrix();
   return rotation * body_inertia(box).cwiseInverse().asDiagonal() * rotation.transpose();

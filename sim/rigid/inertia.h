@@ -9,6 +9,9 @@ namespace pneuma::sim {
 /// width, height and depth along x, y, z.
 Vec3 body_inertia(const RigidBox& box);
 
+/// R diag(I) R^T: the inertia in world axes, kg m^2.
+Mat3 world_inertia(const RigidBox& box);
+
 /// R diag(1/I) R^T: the inverse inertia in world axes (5.3), 1/(kg m^2).
 Mat3 world_inverse_inertia(const RigidBox& box);
 

@@ -1,5 +1,7 @@
 #include "sim/rigid/rigid_state.h"
 
+#include "sim/rigid/inertia.h"
+
 namespace pneuma::sim {
 
 RigidState state_of(const RigidBox& box) {
@@ -11,6 +13,11 @@ void set_state(RigidBox& box, const RigidState& state) {
   box.orientation = state.orientation;
   box.velocity = state.velocity;
   box.angular_velocity = state.angular_velocity;
+}
+
+Vec3 spin(const RigidBox& box, const RigidState& state) {
+  const Eigen::Quaterniond& q = state.orientation;
+  return q * body_inertia(box).cwiseProduct(q.conjugate() * state.angular_velocity);
 }
 
 }  // namespace pneuma::sim

@@ -14,5 +14,7 @@ struct RigidState {
 
 RigidState state_of(const RigidBox& box);
 void set_state(RigidBox& box, const RigidState& state);
+/// Angular momentum of the box in that state about its centre, kg m^2/s.
+Vec3 spin(const RigidBox& box, const RigidState& state);
 
 }  // namespace pneuma::sim

@@ -160,11 +160,7 @@ double take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   } else if (motion.has_soft_bodies()) {
     energy -= energy_of_fall(world.settings, motion.mass());
   }
-  const double there_is = motion.energy();
-  const double taken = std::min(energy, there_is);
-  if (!(taken > 0.0)) return 0.0;
-  motion.slow(std::sqrt(1.0 - taken / there_is));
-  return taken;
+  return motion.take(energy);
 }
 
 }  // namespace

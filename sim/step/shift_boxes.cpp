@@ -1,6 +1,5 @@
 #include "sim/step/shift_boxes.h"
 
-#include <cmath>
 #include <utility>
 
 #include "sim/response/group_motion.h"
@@ -36,24 +35,23 @@ bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   return true;
 }
 
-/// Which boxes are near each other, and which of these near something else.
+/// Finds the boxes that are near each other and nothing else.
 void group_near_boxes(SweptMemory& memory) {
   NearGroups& groups = memory.near_groups;
   groups.sets.reset();
-  std::ranges::fill(groups.is_held, std::uint8_t{0});
+  const int held = static_cast<int>(groups.sets.size()) - 1;  // what does not give way
   const auto box = [&](const SurfacePoint& point) { return memory.bodies.box(point.body); };
   for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
     const SweptImpulse& impulse = memory.impulses[i];
     const SweptContact& contact = memory.contacts[i];
     const bool first = impulse.first().moves(), second = impulse.second().moves();
-    if (!first && !second) continue;
-    if (first && second) {
-      groups.sets.unite(box(contact.first), box(contact.second));
-    } else {
-      groups.is_held[at(box(first ? contact.first : contact.second))] = 1;
-    }
+    if (first) groups.sets.unite(box(contact.first), second ? box(contact.second) : held);
+    if (second && !first) groups.sets.unite(box(contact.second), held);
   }
-  for (std::size_t i = 0; i < groups.order.size(); ++i) groups.order[i] = static_cast<int>(i);
+  groups.order.clear();
+  for (int i = 0; i < held; ++i) {
+    if (groups.sets.find(i) != groups.sets.find(held)) groups.order.push_back(i);
+  }
   std::ranges::sort(groups.order, {}, [&](int i) { return std::pair(groups.sets.find(i), i); });
 }
 
@@ -62,13 +60,10 @@ double give_back_angular_momentum(World& world, SweptMemory& memory, const Vec3&
   GroupMotion motion(world, memory.members);
   const double before = motion.energy();
   motion.turn(-gained);
-  double work = GroupMotion(world, memory.members).energy() - before;
+  const double work = motion.energy() - before;
   if (!(work > 0.0)) return work;
   motion.leave_out_common();
-  const double there_is = motion.energy();
-  const double taken = std::min(work, there_is);
-  if (taken > 0.0) motion.slow(std::sqrt(1.0 - taken / there_is));
-  return work - taken;
+  return work - motion.take(work);
 }
 
 }  // namespace
@@ -81,13 +76,11 @@ double keep_angular_momentum(World& world, SweptMemory& memory) {
     const int set = groups.sets.find(*begin);
     memory.members.clear();
     Vec3 gained = Vec3::Zero();
-    bool is_held = false;
     for (; begin != groups.order.end() && groups.sets.find(*begin) == set; ++begin) {
       memory.members.push_back(memory.bodies.of_box(*begin));
       gained += memory.bodies.angular_momentum_of_shift(world, *begin);
-      is_held = is_held || groups.is_held[at(*begin)] != 0;
     }
-    if (memory.members.size() < 2 || is_held) continue;
+    if (memory.members.size() < 2) continue;
     work += give_back_angular_momentum(world, memory, gained);
   }
   return work;

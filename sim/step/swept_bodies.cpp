@@ -340,13 +340,10 @@ double SweptBodies::work_of_shifts(const World& world) const {
 Vec3 SweptBodies::angular_momentum_of_shift(const World& world, int box) const {
   const RigidBox& shifted = world.rigid[at(box)];
   const BoxChange& shift = shifts_[at(box)];
-  const auto spin_at = [&](const Eigen::Quaterniond& orientation) -> Vec3 {
-    const Vec3 local = orientation.conjugate() * shifted.angular_velocity;
-    return orientation * body_inertia(shifted).cwiseProduct(local);
-  };
-  const Eigen::Quaterniond before = turned(shifted.orientation, -to_vec3(shift.angular_velocity));
-  return shifted.mass * to_vec3(shift.velocity).cross(shifted.velocity) +
-         spin_at(shifted.orientation) - spin_at(before);
+  RigidState before = state_of(shifted);
+  before.orientation = turned(before.orientation, -to_vec3(shift.angular_velocity));
+  return shifted.mass * to_vec3(shift.velocity).cross(shifted.velocity) + spin(shifted) -
+         spin(shifted, before);
 }
 
 void SweptBodies::shift_boxes(World& world) const {

@@ -33,11 +33,10 @@ struct ReturnedEnergyMemory {
 
 /// Boxes that are near each other, directly or through others.
 struct NearGroups {
-  explicit NearGroups(std::size_t boxes) : sets(boxes), is_held(boxes), order(boxes) {}
+  explicit NearGroups(std::size_t boxes) : sets(boxes + 1) { order.reserve(boxes); }
 
-  base::DisjointSets sets;
-  std::vector<std::uint8_t> is_held;  // per box: near what does not give way
-  std::vector<int> order;             // the boxes, set by set
+  base::DisjointSets sets;  // of the boxes, and of one more for all that does not give way
+  std::vector<int> order;   // the boxes that are near nothing else, set by set
 };
 
 /// Contacts of the same features, when another search has other candidates.
