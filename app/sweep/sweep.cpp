@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/host/version.h"
+#include "app/record/provenance.h"
 #include "app/record/world_json.h"
 #include "app/world/open_scene.h"
 #include "scenes/loader/print_scene.h"
@@ -75,10 +75,8 @@ SweepRun run_of(const Sweep& sweep, std::int64_t number) {
 }
 
 std::string sweep_fingerprint(const Sweep& sweep) {
-  const Version built = version();
   base::Hash hash;
-  hash.add(fmt::format("{} {} {} {} {}", built.program, built.commit, built.compiler,
-                       built.build_type, built.flags));
+  hash.add(program_json().dump());
   hash.add(sweep.text);
   for (const std::string& scene : sweep.scene_paths) {
     hash.add(scenes::scene_fingerprint(open_scene(scene, sweep.overrides)));
