@@ -70,9 +70,9 @@ TEST(GasAdvice, TooHeavyBodiesAreCarriedByTheSpringsAndGasThatItNames) {
         how.find("inflation") != std::string::npos
             ? "inflation = 1.1\n"
             : "gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n";
-    const std::string mended = ball("k = " + k + "\n" + gas);
-    EXPECT_FALSE(advices_on(mended).at(0).crushed()) << warning;
-    EXPECT_GT(volume_after(mended, 4.0), 0.75 * heavy.volume) << warning;
+    const std::string carried = ball("k = " + k + "\n" + gas);
+    EXPECT_FALSE(advices_on(carried).at(0).crushed()) << warning;
+    EXPECT_GT(volume_after(carried, 4.0), 0.75 * heavy.volume) << warning;
   }
 }
 
@@ -86,10 +86,10 @@ TEST(GasAdvice, BesideAnAmbientPressureTooHeavyBodiesAreCarriedByTheGasThatItNam
   ASSERT_TRUE(heavy.crushed());
   const std::string warning = weight_warning(heavy);
   EXPECT_EQ(warning.find("times as strong"), std::string::npos) << warning;
-  const std::string mended =
+  const std::string carried =
       ball("gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n");
-  EXPECT_FALSE(advices_on(mended).at(0).crushed()) << warning;
-  EXPECT_GT(volume_after(mended, 4.0), 0.75 * heavy.volume) << warning;
+  EXPECT_FALSE(advices_on(carried).at(0).crushed()) << warning;
+  EXPECT_GT(volume_after(carried, 4.0), 0.75 * heavy.volume) << warning;
 }
 
 TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
