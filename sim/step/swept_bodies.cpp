@@ -30,7 +30,7 @@ double thin_skin(double wanted, double most) { return std::clamp(wanted, thinnes
 /// A way's box is this many skins larger: surfaces are found before they are too near.
 constexpr double skins_around = 1.5;
 
-/// Of its longest way in the step: by so much impulses move its end before all is searched again.
+/// Of the longest way in the step: by so much impulses move its end before all is searched again.
 constexpr double allowed_of_way = 0.5;
 
 /// Of a whole vertex: a point nearer to pinned vertices is held by them.
@@ -39,6 +39,20 @@ constexpr double least_mobility = 1e-3;
 /// m, of vertices from where they are in another array.
 double greatest_distance(const VertexArray& one, const VertexArray& other) {
   return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
+}
+
+/// m, by which impulses may move the ends of ways before all is searched again: half of the longest
+/// way, or all by which a vertex leaves the line that it started along, since of a body at rest
+/// contacts take that back.
+double allowed_change(const SoftState& start, const VertexArray& end, double step) {
+  const VertexReader from(start.positions), velocity(start.velocities), to(end);
+  double way = 0.0, off_line = 0.0;  // squared
+  for (int v = 0; v < end.size(); ++v) {
+    const Vec4d moved = to[v] - from[v], bent = moved - step * velocity[v];
+    way = std::max(way, dot(moved, moved));
+    off_line = std::max(off_line, dot(bent, bent));
+  }
+  return std::max(allowed_of_way * std::sqrt(way), std::sqrt(off_line));
 }
 
 }  // namespace
@@ -69,6 +83,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     surface.start = surface.end = VertexArray(corners_.back().size());
     skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
   }
+  number_nodes(world);
   is_obstacle_.resize(surfaces_.size());
   is_still_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
@@ -78,6 +93,16 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   falls_.assign(world.rigid.size(), Vec3::Zero());
   allowances_.resize(surfaces_.size());
   searched_ends_.resize(surfaces_.size());
+}
+
+void SweptBodies::number_nodes(const World& world) {
+  first_nodes_.push_back(0);
+  for (const SoftBody& body : world.soft) {
+    first_nodes_.push_back(first_nodes_.back() + body.positions.size());
+  }
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    first_nodes_.push_back(first_nodes_.back() + 1);
+  }
 }
 
 void SweptBodies::place_corners(int box, const Vec3& position,
@@ -146,8 +171,8 @@ Bounds SweptBodies::bounds_of_way(const World& world, const MotionStart& start, 
   const VertexArray& to = world.soft[at(soft)].positions;
   Bounds way = bounds(from);
   way.include(bounds(to));
-  const double margin =
-      allowed_of_way * greatest_distance(from, to) + (1.0 + skins_around) * skin(soft);
+  const double margin = allowed_change(start.soft[at(soft)], to, time_step(world.settings)) +
+                        (1.0 + skins_around) * skin(soft);
   return {way.low - Vec3::Constant(margin), way.high + Vec3::Constant(margin)};
 }
 
@@ -155,13 +180,18 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
   is_followed_[at(soft)] = 1;
   surfaces_[at(soft)].start = start.soft[at(soft)].positions;
   surfaces_[at(soft)].end = world.soft[at(soft)].positions;
-  refit_way(soft);
+  refit_way(world, start, soft);
 }
 
 /// In another search of the step only of what has left its allowance, so that what happens to one
 /// body does not change how others are searched.
-Bounds SweptBodies::refit_way(int body) {
-  if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) refit_anew(body);
+Bounds SweptBodies::refit_way(const World& world, const MotionStart& start, int body) {
+  if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) {
+    const MovingSurface& moving = surface(body);
+    refit_anew(body, is_rigid(body) ? allowed_of_way * greatest_distance(moving.start, moving.end)
+                                    : allowed_change(start.soft[at(body)], moving.end,
+                                                     time_step(world.settings)));
+  }
   return root_bounds(body);
 }
 
@@ -180,7 +210,7 @@ void SweptBodies::fit_still(const World& world, int body) {
   }
   surface.end = surface.start;
   is_fitted_[at(body)] = 1;
-  refit_anew(body);
+  refit_anew(body, 0.0);
 }
 
 Bounds SweptBodies::root_bounds(int body) const {
@@ -188,11 +218,10 @@ Bounds SweptBodies::root_bounds(int body) const {
   return {to_vec3(around.low), to_vec3(around.high)};
 }
 
-void SweptBodies::refit_anew(int body) {
+void SweptBodies::refit_anew(int body, double allowed) {
   MovingSurface& surface = surfaces_[at(body)];
   is_searched_[at(body)] = 1;
-  allowances_[at(body)] =
-      allowed_of_way * greatest_distance(surface.start, surface.end) + skin(body);
+  allowances_[at(body)] = allowed + skin(body);
   searched_ends_[at(body)] = surface.end;
   refit(surface, skins_around * skin(body) + allowance(body));
 }
@@ -205,7 +234,8 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
     if (is_still_[at(i)] != 0) {
       ways_.push_back(bounds_of_still(world, i));
     } else {
-      ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(i) : bounds_of_way(world, start, i));
+      ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(world, start, i)
+                                               : bounds_of_way(world, start, i));
     }
     spheres_.push_back({ways_.back().centre(), 0.5 * ways_.back().size().norm()});
   }

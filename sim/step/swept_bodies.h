@@ -68,6 +68,11 @@ class SweptBodies {
   /// m, where a point with these weights is at the start of the step.
   Vec3 start_point(const SurfacePoint& point) const;
   SweptSide side(const World& world, const SurfacePoint& point);
+  /// Calls `visit(number)` for what an impulse at the point may move at once: the vertices of its
+  /// feature, or the box. The numbers are below node_count().
+  template <class Visit>
+  void for_each_node(const SurfacePoint& point, const Visit& visit) const;
+  int node_count() const { return first_nodes_.back(); }
   /// m, at the start of the step, of what is at a point of a box at its end.
   Vec3 point_before(const World& world, const MotionStart& start, int body,
                     const Vec3& at_end) const;
@@ -104,10 +109,12 @@ class SweptBodies {
   void add_changes(World& world) const;
 
  private:
+  void number_nodes(const World& world);
   /// What refit_way would give, of a body that is not followed.
   Bounds bounds_of_way(const World& world, const MotionStart& start, int soft) const;
-  Bounds refit_way(int body);
-  void refit_anew(int body);
+  Bounds refit_way(const World& world, const MotionStart& start, int body);
+  /// `allowed`: m, by which the end may move before another search, besides a skin.
+  void refit_anew(int body, double allowed);
   Bounds root_bounds(int body) const;
   void find_what_is_still(const World& world);
   Bounds bounds_of_still(const World& world, int body);
@@ -132,6 +139,7 @@ class SweptBodies {
 
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
+  std::vector<int> first_nodes_;           // of each body, and the end
   std::vector<std::uint8_t> is_lone_;      // per body
   std::vector<std::uint8_t> is_obstacle_;  // per body: it never moves
   std::vector<std::uint8_t> is_still_;     // per body: an obstacle, or asleep
@@ -154,5 +162,15 @@ class SweptBodies {
   std::vector<BoundingSphere> spheres_;    // about these
   SweepAndPrune sweep_and_prune_;
 };
+
+template <class Visit>
+void SweptBodies::for_each_node(const SurfacePoint& point, const Visit& visit) const {
+  const int first = first_nodes_[at(point.body)];
+  if (is_rigid(point.body)) {
+    visit(first);
+  } else {
+    for (const int vertex : vertices(point)) visit(first + vertex);
+  }
+}
 
 }  // namespace pneuma::sim

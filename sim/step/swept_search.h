@@ -55,7 +55,7 @@ struct Meeting {
 struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
-        solver(bodies.count(), static_cast<int>(world.soft.size())),
+        solver(bodies),
         starts(max_halvings + 1),
         near_groups(world.rigid.size()),
         carried_boxes(world),

@@ -1,8 +1,6 @@
 #include "sim/step/swept_solver.h"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace pneuma::sim {
 namespace {
@@ -28,56 +26,92 @@ int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impu
   return island_of(moved_body(contact, impulse));
 }
 
-void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses) {
-  sets_.reset();
+void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+                         std::size_t first_new) {
+  linked_bodies_.reset();
+  linked_nodes_.reset();
+  for (std::size_t i = 0; i < contacts.size(); ++i) link(contacts[i], impulses[i]);
+  places_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const SweptContact& contact = contacts[i];
-    if (!impulses[i].first().moves() || !impulses[i].second().moves()) continue;
-    sets_.unite(contact.first.body, contact.second.body);
+    places_.push_back(place(contacts[i], impulses[i]));
+    places_.back().contact = static_cast<int>(i);
   }
-  islands_.assign(sets_.size(), -1);
-  begin_.assign(1, 0);
-  has_boxes_.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const SweptContact& contact = contacts[i];
-    int& island = islands_[at(sets_.find(moved_body(contact, impulses[i])))];
-    if (island < 0) {
-      island = static_cast<int>(begin_.size()) - 1;
-      begin_.push_back(0);
-      has_boxes_.push_back(0);
+  std::ranges::sort(places_);
+  islands_.assign(linked_bodies_.size(), -1);
+  island_begin_.clear();
+  patches_.clear();
+  ordered_.clear();
+  nodes_.clear();
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto& [body, node, contact] = places_[i];
+    const bool begins_island = i == 0 || body != places_[i - 1].body;
+    if (begins_island) {
+      islands_[at(body)] = static_cast<int>(island_begin_.size());
+      island_begin_.push_back(patches_.size());
     }
-    ++begin_[at(island) + 1];
-    const int second = contact.second.body;
-    if (is_box(contact.first.body) && (second == swept_ground || is_box(second))) {
-      has_boxes_[at(island)] = 1;
-    }
+    if (begins_island || node != places_[i - 1].node) patches_.push_back({.begin = i});
+    patches_.back().is_new |= at(contact) >= first_new;
+    patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
+    ordered_.push_back(&impulses[at(contact)]);
+    nodes_.push_back(nodes_of(contacts[at(contact)], impulses[at(contact)]));
   }
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  filled_.assign(begin_.begin(), begin_.end());
-  ordered_.resize(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const int island = island_of(contacts[i], impulses[i]);
-    ordered_[filled_[at(island)]++] = &impulses[i];
+  island_begin_.push_back(patches_.size());
+  patches_.push_back({.begin = ordered_.size()});
+}
+
+/// The bodies that the contact's impulse moves, and of these what it moves at once.
+void SweptSolver::link(const SweptContact& contact, const SweptImpulse& impulse) {
+  const ImpulseNodes nodes = nodes_of(contact, impulse);
+  for (const int node : nodes) {
+    if (node >= 0) linked_nodes_.unite(nodes.front(), node);
   }
+  if (!impulse.first().moves() || !impulse.second().moves()) return;
+  linked_bodies_.unite(contact.first.body, contact.second.body);
+}
+
+ImpulseNodes SweptSolver::nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const {
+  ImpulseNodes nodes{-1, -1, -1, -1, -1, -1};
+  std::size_t count = 0;
+  const auto add = [&](int node) { nodes[count++] = node; };
+  if (impulse.first().moves()) bodies_.for_each_node(contact.first, add);
+  if (impulse.second().moves()) bodies_.for_each_node(contact.second, add);
+  return nodes;
+}
+
+SweptSolver::Place SweptSolver::place(const SweptContact& contact, const SweptImpulse& impulse) {
+  return {linked_bodies_.find(moved_body(contact, impulse)),
+          linked_nodes_.find(nodes_of(contact, impulse).front()), 0};
+}
+
+bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
+  const int second = contact.second.body;
+  return bodies_.is_rigid(contact.first.body) &&
+         (second == swept_ground || bodies_.is_rigid(second));
 }
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                         double tolerance, std::size_t first_new) {
-  divide(contacts, impulses);
-  is_new_.assign(at(island_count()), 0);
-  for (std::size_t i = first_new; i < contacts.size(); ++i) {
-    is_new_[at(island_of(contacts[i], impulses[i]))] = 1;
-  }
-  for (int i = 0; i < island_count(); ++i) {
-    if (is_new_[at(i)] != 0) solve_island(i, tolerance);
+  divide(contacts, impulses, first_new);
+  for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
+    if (patches_[i].is_new) solve_patch(i, tolerance);
   }
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {
-  if (has_boxes_[at(island)]) {
-    solve_with_boxes(impulses_of(island), tolerance);
+  for (std::size_t i = island_begin_[at(island)]; i < island_begin_[at(island) + 1]; ++i) {
+    solve_patch(i, tolerance);
+  }
+}
+
+void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
+  const auto& [begin, is_new, has_boxes] = patches_[patch];
+  const std::size_t size = patches_[patch + 1].begin - begin;
+  const std::span<SweptImpulse* const> impulses = std::span(ordered_).subspan(begin, size);
+  if (has_boxes) {
+    solve_with_boxes(impulses, tolerance);
   } else {
-    correct_in_turn(impulses_of(island), tolerance, many_iterations);
+    const std::span<const ImpulseNodes> nodes = std::span(nodes_).subspan(begin, size);
+    gauss_seidel_.correct(impulses, nodes, tolerance, many_iterations);
   }
 }
 

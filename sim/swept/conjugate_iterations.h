@@ -13,9 +13,10 @@ namespace pneuma::sim {
 
 class ConjugateIterations {
  public:
-  /// As correct_in_turn does, and after each iteration but the last goes on by the conjugate
-  /// direction: the limits of impulses hold again after the next. Allocates nothing once the number
-  /// of impulses has peaked.
+  /// Corrects all impulses in turn until no correction changes a velocity by more than `tolerance`,
+  /// in the unit of what they aim at, in at most `max_iterations`. After each but the last goes on
+  /// by the conjugate direction: the limits of impulses hold again after the next. Returns the
+  /// greatest change of the last. Allocates nothing once the number of impulses has peaked.
   double correct(std::span<SweptImpulse* const> impulses, double tolerance, int max_iterations);
 
  private:

@@ -267,15 +267,4 @@ double SweptImpulse::correct() {
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }
 
-double correct_in_turn(std::span<SweptImpulse* const> impulses, double tolerance,
-                       int max_iterations) {
-  double greatest = 0.0;
-  for (int i = 0; i < max_iterations; ++i) {
-    greatest = 0.0;
-    for (SweptImpulse* impulse : impulses) greatest = std::max(greatest, impulse->correct());
-    if (greatest <= tolerance) break;
-  }
-  return greatest;
-}
-
 }  // namespace pneuma::sim

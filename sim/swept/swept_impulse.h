@@ -156,9 +156,4 @@ class SweptImpulse {
   double max_normal_ = std::numeric_limits<double>::infinity();
 };
 
-/// Corrects all in turn until none changes a velocity by more than `tolerance` (m/s), at most
-/// `max_iterations` times. Returns the greatest change of the last iteration.
-double correct_in_turn(std::span<SweptImpulse* const> impulses, double tolerance,
-                       int max_iterations);
-
 }  // namespace pneuma::sim

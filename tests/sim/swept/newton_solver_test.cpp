@@ -1,5 +1,5 @@
-// The direct solver of contact impulses beside Gauss-Seidel iterations without end, and the sparse
-// factorisation beside Eigen's.
+// Solvers of contact impulses beside each other: Gauss-Seidel iterations, conjugate ones and
+// Newton's method; and the sparse factorisation beside Eigen's.
 #include "sim/swept/newton_solver.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 
 #include "sim/rigid/inertia.h"
 #include "sim/swept/conjugate_iterations.h"
+#include "sim/swept/gauss_seidel.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -94,9 +95,17 @@ class Stack {
       }
     }
     for (SweptImpulse& impulse : impulses_) pointers_.push_back(&impulse);
+    for (int i = 0; i < static_cast<int>(impulses_.size()); ++i) {
+      nodes_.push_back({i / 4, i / 4 - 1, -1, -1, -1, -1});
+    }
   }
 
   std::span<SweptImpulse* const> impulses() const { return pointers_; }
+  /// The cubes that each impulse moves.
+  std::span<const ImpulseNodes> nodes() const { return nodes_; }
+  double iterate(double tolerance, int iterations) {
+    return GaussSeidel(changes_.size()).correct(pointers_, nodes_, tolerance, iterations);
+  }
   /// m/s and rad/s, by which a cube is not yet stopped.
   double error() const {
     double worst = 0.0;
@@ -111,6 +120,7 @@ class Stack {
   std::deque<BoxChange> changes_;
   std::deque<SweptImpulse> impulses_;
   std::vector<SweptImpulse*> pointers_;
+  std::vector<ImpulseNodes> nodes_;
 };
 
 void improve_with_growing_penalty(Stack& stack) {
@@ -125,14 +135,40 @@ TEST(NewtonSolver, StopsAStackThatIterationsDoNotStop) {
   Stack stack(std::vector(20, 1.0)), iterated(std::vector(20, 1.0));
   improve_with_growing_penalty(stack);
   EXPECT_LT(stack.error(), 1e-6);
-  correct_in_turn(iterated.impulses(), 0.0, 10'000);
+  iterated.iterate(0.0, 10'000);
   EXPECT_GT(iterated.error(), 0.01);
+}
+
+TEST(GaussSeidel, EndsWhereNoCorrectionIsLeft) {
+  constexpr double tolerance = 1e-4;
+  Stack stack(std::vector(6, 1.0));
+  EXPECT_LE(stack.iterate(tolerance, 100'000), tolerance);
+  for (SweptImpulse* impulse : stack.impulses()) EXPECT_LE(impulse->correct(), 2.0 * tolerance);
+  EXPECT_LT(stack.error(), 0.02);  // the tolerance, times what is left in a stack of six by then
+}
+
+/// What has settled is not touched for the sake of what has not.
+TEST(GaussSeidel, CorrectsOnlyWhatDependsOnTheUnsettled) {
+  Stack tall(std::vector(20, 1.0)), low(std::vector(2, 1.0)), alone(std::vector(2, 1.0));
+  std::vector<SweptImpulse*> impulses(low.impulses().begin(), low.impulses().end());
+  std::vector<ImpulseNodes> nodes(low.nodes().begin(), low.nodes().end());
+  impulses.insert(impulses.end(), tall.impulses().begin(), tall.impulses().end());
+  for (ImpulseNodes of_tall : tall.nodes()) {
+    for (int& node : of_tall) node += node < 0 ? 0 : 2;
+    nodes.push_back(of_tall);
+  }
+  constexpr double tolerance = 1e-3;
+  EXPECT_GT(GaussSeidel(22).correct(impulses, nodes, tolerance, 200), tolerance);
+  EXPECT_LE(alone.iterate(tolerance, 200), tolerance);
+  for (std::size_t i = 0; i < low.impulses().size(); ++i) {
+    EXPECT_EQ(low.impulses()[i]->normal_impulse(), alone.impulses()[i]->normal_impulse());
+  }
 }
 
 TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
   Stack stack(std::vector(8, 1.0)), iterated(std::vector(8, 1.0));
   ConjugateIterations().correct(stack.impulses(), 0.0, 200);
-  correct_in_turn(iterated.impulses(), 0.0, 1'000);
+  iterated.iterate(0.0, 1'000);
   EXPECT_LT(stack.error(), iterated.error());
 }
 
@@ -150,7 +186,7 @@ TEST(ConjugateIterations, EndWithinTheLimits) {
 TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
   Stack stack(std::vector(3, 1.0)), iterated(std::vector(3, 1.0));
   improve_with_growing_penalty(stack);
-  correct_in_turn(iterated.impulses(), 0.0, 10'000);
+  iterated.iterate(0.0, 10'000);
   EXPECT_LT(stack.error(), 1e-8);
   EXPECT_LT(iterated.error(), 1e-8);
 }

@@ -1,0 +1,41 @@
+// Impulses that depend on each other, corrected in turn.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/swept/swept_impulse.h"
+
+namespace pneuma::sim {
+
+/// The numbers of what an impulse moves: boxes, and vertices of soft bodies. -1 where there are
+/// fewer. Impulses that have none in common do not depend on each other.
+using ImpulseNodes = std::array<int, 6>;
+
+/// Projected Gauss-Seidel iterations. Where a few impulses of many do not settle, such as those on
+/// a vertex that is pressed from both sides, only these and what depends on them are corrected
+/// again, until they settle; then all are.
+class GaussSeidel {
+ public:
+  /// `nodes`: how many there are.
+  explicit GaussSeidel(std::size_t nodes) : changed_in_(nodes, 0) {}
+
+  /// Corrects the impulses until no correction of any changes a velocity by more than `tolerance`,
+  /// in the unit of what they aim at, in at most `max_iterations` of all or of some of them.
+  /// `nodes` are those of each impulse. Returns the greatest change of the last iteration.
+  double correct(std::span<SweptImpulse* const> impulses, std::span<const ImpulseNodes> nodes,
+                 double tolerance, int max_iterations);
+
+ private:
+  double iterate(std::span<SweptImpulse* const> impulses, std::span<const ImpulseNodes> nodes,
+                 double tolerance);
+  void select_unsettled(std::span<const ImpulseNodes> nodes);
+
+  std::vector<int> corrected_;   // impulses, in their order
+  std::vector<int> changed_in_;  // the last iteration in which a node was, counted over all calls
+  int iteration_ = 0;
+};
+
+}  // namespace pneuma::sim
