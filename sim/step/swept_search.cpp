@@ -84,13 +84,16 @@ void SweptSearch::find_near_ground() {
   }
 }
 
-/// Only what may be in contact at the end of the step, wherever the allowances let it be.
+/// Only what may be in contact at the end of the step, wherever the allowances let it be. A way is
+/// no longer than twice its allowance (SweptBodies), which says of most pairs that they are not.
 void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
   const auto [first, second] = bodies;
   const MovingSurface& a = bodies_.surface(first);
   const MovingSurface& b = bodies_.surface(second);
-  const double reach = near_distance(first, second) + bodies_.allowance(first) +
-                       bodies_.allowance(second) + greatest_change(a, b, features);
+  const double near = near_distance(first, second);
+  const double allowed = bodies_.allowance(first) + bodies_.allowance(second);
+  if (are_apart(a, b, features, near + 3.0 * allowed)) return;
+  const double reach = near + allowed + greatest_change(a, b, features);
   const auto closest = closest_points(a, b, features, Moment::start, reach);
   if (closest) m_.candidates.push_back({bodies, features, *closest});
 }

@@ -94,6 +94,29 @@ struct PairMotion {
   }
 };
 
+/// The ways of a feature's vertices, the first again for those it does not have.
+class FeatureWays {
+ public:
+  FeatureWays(const MovingSurface& surface, const Feature& feature) {
+    const auto vertices = surface.tree->topology().feature_vertices(feature);
+    const VertexReader from(surface.start), to(surface.end);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int v = vertices[i < vertices.size() ? i : 0];
+      ways_[i] = to[v] - from[v];
+    }
+  }
+
+  Vec4d sum() const { return ways_[0] + ways_[1] + ways_[2]; }
+  double greatest_beside(Vec4d mean) const {
+    double squared = 0.0;
+    for (const Vec4d way : ways_) squared = std::max(squared, dot(way - mean, way - mean));
+    return std::sqrt(squared);
+  }
+
+ private:
+  std::array<Vec4d, 3> ways_;
+};
+
 const VertexArray& positions(const MovingSurface& surface, Moment moment) {
   return moment == Moment::start ? surface.start : surface.end;
 }
@@ -177,7 +200,26 @@ Vec3 touching_normal(const MovingSurface& first, const MovingSurface& second,
 
 double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair) {
-  return PairMotion(first, second, pair).greatest();
+  const FeatureWays a(first, pair.first), b(second, pair.second);
+  const Vec4d mean = (a.sum() + b.sum()) / 6.0;  // the same motion for all changes no distance
+  return a.greatest_beside(mean) + b.greatest_beside(mean);
+}
+
+bool are_apart(const MovingSurface& first, const MovingSurface& second, const NearFeatures& pair,
+               double distance) {
+  const VertexReader a(first.start), b(second.start);
+  const auto one = first.tree->topology().feature_vertices(pair.first);
+  const auto other = second.tree->topology().feature_vertices(pair.second);
+  Vec4d across;
+  if (pair.first.kind == FeatureKind::edge) {
+    across = cross(a[one[1]] - a[one[0]], b[other[1]] - b[other[0]]);
+  } else if (pair.first.kind == FeatureKind::triangle) {
+    across = cross(a[one[1]] - a[one[0]], a[one[2]] - a[one[0]]);
+  } else {
+    across = cross(b[other[1]] - b[other[0]], b[other[2]] - b[other[0]]);
+  }
+  const double height = dot(across, a[one[0]] - b[other[0]]);
+  return height * height >= distance * distance * dot(across, across);
 }
 
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,

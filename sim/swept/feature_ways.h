@@ -22,6 +22,12 @@ Vec3 touching_normal(const MovingSurface& first, const MovingSurface& second,
 double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair);
 
+/// Whether a plane between the features, across the triangle or along both edges, shows that they
+/// are `distance` (m) apart at the start, or more. Says so of most pairs in a tenth of the time
+/// that closest_points takes.
+bool are_apart(const MovingSurface& first, const MovingSurface& second, const NearFeatures& pair,
+               double distance);
+
 /// Of the pairs of features whose nearest points are on common edges and vertices one stands for
 /// them all, and none where other features next to these are nearer. Faces that lie on each other
 /// touch at all their corners, though one of these is always a trifle nearer: up to an angle with
