@@ -15,31 +15,35 @@ Vec4d within(double limit, Vec4d vector) {
   return size > limit ? limit / size * vector : vector;
 }
 
-/// Two sides that impulses change where they are.
-class Sides {
- public:
-  Sides(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
-
-  Vec4d relative_change() const { return first_.change() - second_.change(); }
-  void apply(Vec4d impulse) const {
-    first_.apply(impulse);
-    second_.apply(-impulse);
-  }
-
- private:
-  const SweptSide& first_;
-  const SweptSide& second_;
+/// A direction in which an impulse acts on two boxes, one N s of it.
+struct Axis {
+  Vec4d along;
+  Vec4d first_lever, second_lever;  // about the centres, m
+  Vec4d first_turn, second_turn;    // rad/s
 };
 
-/// Two boxes whose changes stay in registers until they are kept.
-class SidesOfBoxes {
+/// Two boxes, or one and what nothing moves, whose changes stay in registers until they are kept.
+/// What does not depend on them is computed for each axis, so that impulses wait for few operations
+/// of those before.
+class TwoBoxes {
  public:
-  SidesOfBoxes(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
+  TwoBoxes(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
 
-  Vec4d relative_change() const { return first_.change() - second_.change(); }
-  void apply(Vec4d impulse) {
-    first_.apply(impulse);
-    second_.apply(-impulse);
+  Axis axis(Vec4d along) const {
+    const Vec4d first = cross(first_.arm, along), second = cross(second_.arm, along);
+    return {along, first, second, first_.inverse_inertia * first, second_.inverse_inertia * second};
+  }
+  /// m/s, by which the first point moves along the axis against the second.
+  double change(const Axis& axis) const {
+    return sum_of_lanes(axis.along * (first_.velocity - second_.velocity) +
+                        axis.first_lever * first_.angular_velocity -
+                        axis.second_lever * second_.angular_velocity);
+  }
+  void apply(const Axis& axis, double impulse) {
+    first_.velocity += (first_.inverse_mass * impulse) * axis.along;
+    second_.velocity -= (second_.inverse_mass * impulse) * axis.along;
+    first_.angular_velocity += impulse * axis.first_turn;
+    second_.angular_velocity -= impulse * axis.second_turn;
   }
   void keep() const {
     first_.keep();
@@ -48,25 +52,25 @@ class SidesOfBoxes {
 
  private:
   struct Side {
-    explicit Side(const SweptSide& side)
-        : box(side.box()),
-          velocity(box->velocity),
-          angular_velocity(box->angular_velocity),
-          arm(side.arm()) {}
-
-    Vec4d change() const { return velocity + cross(angular_velocity, arm); }
-    void apply(Vec4d impulse) {
-      velocity += box->inverse_mass * impulse;
-      angular_velocity += box->inverse_inertia * cross(arm, impulse);
+    explicit Side(const SweptSide& side) : box(side.box()) {
+      if (!box) return;
+      velocity = box->velocity;
+      angular_velocity = box->angular_velocity;
+      inverse_mass = box->inverse_mass;
+      inverse_inertia = box->inverse_inertia;
+      arm = side.arm();
     }
     void keep() const {
+      if (!box) return;
       box->velocity = velocity;
       box->angular_velocity = angular_velocity;
     }
 
     BoxChange* box;
-    Vec4d velocity, angular_velocity;
-    Vec4d arm;
+    Vec4d velocity{}, angular_velocity{};
+    double inverse_mass = 0.0;
+    Mat3x4 inverse_inertia{};
+    Vec4d arm{};
   };
 
   Side first_;
@@ -132,6 +136,7 @@ SweptImpulse::SweptImpulse(SweptSide first, SweptSide second, const Vec3& normal
   Eigen::Matrix<double, 3, 2> across;
   across.col(0) = normal.unitOrthogonal();
   across.col(1) = normal.cross(across.col(0));
+  tangent_ = to_vec4d(across.col(0));
   const Eigen::Matrix2d along = across.transpose() * mobility * across;
   const double half_difference = 0.5 * (along(0, 0) - along(1, 1));
   min_tangent_mass_ = 1.0 / (0.5 * along.trace() + std::hypot(half_difference, along(0, 1)));
@@ -227,42 +232,70 @@ void SweptImpulse::apply(Vec4d impulse) const {
   second_.apply(-impulse);
 }
 
-template <class BothSides>
-double SweptImpulse::correct_normal(BothSides& sides) {
-  const double missing = parting_ - dot(normal_, sides.relative_change());
+double SweptImpulse::raise_normal(double change) {
   const double before = normal_impulse_;
-  normal_impulse_ = std::clamp(before + missing * normal_mass_, 0.0, max_normal_);
-  const double given = normal_impulse_ - before;
-  if (given != 0.0) sides.apply(given * normal_);
-  return std::abs(given) * mobility_;
+  normal_impulse_ = std::clamp(before + (parting_ - change) * normal_mass_, 0.0, max_normal_);
+  return normal_impulse_ - before;
+}
+
+bool SweptImpulse::may_rub() const {
+  return friction_ * normal_impulse_ != 0.0 || dot(friction_impulse_, friction_impulse_) != 0.0;
+}
+
+double SweptImpulse::correct() {
+  const bool first_is_soft = first_.moves() && !first_.box();
+  const bool second_is_soft = second_.moves() && !second_.box();
+  return first_is_soft || second_is_soft ? correct_sides() : correct_boxes();
 }
 
 // A step against the sliding, then the nearest point in the cone: from within the cone it never
 // adds energy, and unlike the impulse that stops the sliding at once, where there is room for it,
 // it does not jump from one iteration to the next.
-template <class BothSides>
-double SweptImpulse::correct_friction(BothSides& sides) {
-  const double limit = friction_ * normal_impulse_;
-  if (limit == 0.0 && dot(friction_impulse_, friction_impulse_) == 0.0) return 0.0;
-  Vec4d slides = sides.relative_change() + sliding_;
+double SweptImpulse::correct_sides() {
+  const double normal = raise_normal(dot(normal_, relative_change()));
+  if (normal != 0.0) apply(normal * normal_);
+  const double by_normal = std::abs(normal) * mobility_;
+  if (!may_rub()) return by_normal;
+  Vec4d slides = relative_change() + sliding_;
   slides -= dot(slides, normal_) * normal_;
-  const Vec4d after = within(limit, friction_impulse_ - min_tangent_mass_ * slides);
+  const Vec4d after =
+      within(friction_ * normal_impulse_, friction_impulse_ - min_tangent_mass_ * slides);
   const Vec4d given = after - friction_impulse_;
   friction_impulse_ = after;
-  sides.apply(given);
-  return std::sqrt(dot(given, given)) / min_tangent_mass_;
+  apply(given);
+  return std::max(by_normal, std::sqrt(dot(given, given)) / min_tangent_mass_);
 }
 
-double SweptImpulse::correct() {
-  if (first_.box() && second_.box()) {
-    SidesOfBoxes sides(first_, second_);
-    const double by_normal = correct_normal(sides), by_friction = correct_friction(sides);
-    sides.keep();
-    return std::max(by_normal, by_friction);
+/// The same, with friction in two directions across the normal.
+double SweptImpulse::correct_boxes() {
+  TwoBoxes boxes(first_, second_);
+  const Axis along = boxes.axis(normal_);
+  const double normal = raise_normal(boxes.change(along));
+  boxes.apply(along, normal);
+  double change = std::abs(normal) * mobility_;
+  if (may_rub()) {
+    const Axis one = boxes.axis(tangent_), other = boxes.axis(cross(normal_, tangent_));
+    const double before = dot(friction_impulse_, one.along);
+    const double other_before = dot(friction_impulse_, other.along);
+    double after = before - min_tangent_mass_ * (boxes.change(one) + dot(sliding_, one.along));
+    double other_after =
+        other_before - min_tangent_mass_ * (boxes.change(other) + dot(sliding_, other.along));
+    const double limit = friction_ * normal_impulse_,
+                 squared = after * after + other_after * other_after;
+    if (squared > limit * limit) {
+      const double shorter = limit / std::sqrt(squared);
+      after *= shorter;
+      other_after *= shorter;
+    }
+    friction_impulse_ = after * one.along + other_after * other.along;
+    const double given = after - before, other_given = other_after - other_before;
+    boxes.apply(one, given);
+    boxes.apply(other, other_given);
+    change =
+        std::max(change, std::sqrt(given * given + other_given * other_given) / min_tangent_mass_);
   }
-  Sides sides(first_, second_);
-  const double by_normal = correct_normal(sides);
-  return std::max(by_normal, correct_friction(sides));
+  boxes.keep();
+  return change;
 }
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }

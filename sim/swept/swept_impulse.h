@@ -130,10 +130,12 @@ class SweptImpulse {
   double work(const Vec3& before) const;
 
  private:
-  template <class BothSides>
-  double correct_normal(BothSides& sides);
-  template <class BothSides>
-  double correct_friction(BothSides& sides);
+  /// Raises the normal impulse by what the relative velocity's `change` along it (m/s) asks for;
+  /// returns by how much, N s.
+  double raise_normal(double change);
+  bool may_rub() const;
+  double correct_sides();
+  double correct_boxes();
   Vec4d relative_change() const { return first_.change() - second_.change(); }
   Vec4d start() const { return start_normal_ * normal_ + start_friction_; }
   void respond_along_normal(Vec4d change, double penalty, Response& response) const;
@@ -143,6 +145,7 @@ class SweptImpulse {
   SweptSide first_;
   SweptSide second_;
   Vec4d normal_;
+  Vec4d tangent_;                  // unit, across it
   double friction_ = 0.0;          // Coulomb's mu
   double normal_mass_ = 0.0;       // kg
   double min_tangent_mass_ = 0.0;  // kg, of the direction across the normal that is moved easiest
