@@ -90,10 +90,10 @@ void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
   const auto [first, second] = bodies;
   const MovingSurface& a = bodies_.surface(first);
   const MovingSurface& b = bodies_.surface(second);
-  const double near = near_distance(first, second);
+  const double touching = near_distance(first, second);
   const double allowed = bodies_.allowance(first) + bodies_.allowance(second);
-  if (are_apart(a, b, features, near + 3.0 * allowed)) return;
-  const double reach = near + allowed + greatest_change(a, b, features);
+  if (are_apart(a, b, features, touching + 3.0 * allowed)) return;
+  const double reach = touching + allowed + greatest_change(a, b, features);
   const auto closest = closest_points(a, b, features, Moment::start, reach);
   if (closest) m_.candidates.push_back({bodies, features, *closest});
 }
