@@ -1,9 +1,11 @@
-"""What Blender runs for scripts/cycles-picture: a mesh file and a run's camera to a picture by Cycles.
+"""What Blender runs for scripts/cycles-picture: a mesh file and a run's camera to a picture by Cycles, and what our
+picture's luminance is beside it.
 
 Light is that of render/light/environment.h and render/frame/frame.h.
 """
 import json
 import math
+import os
 import sys
 
 import bpy
@@ -12,39 +14,109 @@ import numpy
 
 numpy.bool = bool  # which Blender 3.4's glTF reader still asks of Debian's NumPy
 
-mesh_file, record_file, size, samples, picture_file = sys.argv[sys.argv.index("--") + 1:]
+mesh_file, record_file, size, samples, picture_file, our_file = sys.argv[sys.argv.index("--") + 1:]
 width, height = (int(side) for side in size.split("x"))
 with open(record_file, encoding="utf-8") as file:
     camera_of_run = json.load(file)["camera"]
 
+CONTACT_REACH = 0.1  # of the bodies' mean size
+FAR = 60.0  # mean sizes: what is further away is the horizon
+ROUGHNESS = 0.35  # of bodies, which the mesh file does not hold
+LUMINANCE = (0.2126, 0.7152, 0.0722)
 SUN = (0.95, 0.90, 0.80)
 ZENITH = (0.36, 0.42, 0.53)
 HORIZON = (0.58, 0.60, 0.63)
-GROUND = (0.39, 0.38, 0.36)  # under sun and sky it shows the radiance of the environment's floor
-SUN_DIRECTION = mathutils.Vector((-0.45, 0.35, -0.82))
+FLOOR = (0.60, 0.60, 0.58)  # radiance of the open, lit ground
+SUN_DIRECTION = mathutils.Vector((-0.45, 0.35, -0.82)).normalized()
 
 
 def colour(rgb):
     return (*rgb, 1.0)
 
 
+class Rounded:
+    """A smooth body as render/geometry/rounding.h draws it, but for what keeps bodies apart: each triangle in 16, their
+    points moved half way towards the tangent planes of its corners."""
+
+    PARTS = 4
+    WEIGHTS = [(i, j, 4 - i - j) for i in range(5) for j in range(5 - i)]
+
+    def __init__(self, body):
+        self.coarse = body.data
+        self.coarse.calc_loop_triangles()
+        self.x = numpy.array([vertex.co for vertex in self.coarse.vertices])
+        self.n = numpy.array([vertex.normal for vertex in self.coarse.vertices])
+        self.colours = self.colours_by_vertex()
+        self.points, self.faces = {}, []  # by corners and their weights: number, place, colour
+        for triangle in self.coarse.loop_triangles:
+            self.divide(list(triangle.vertices))
+
+    def colours_by_vertex(self):
+        layer = self.coarse.color_attributes[0]
+        values = numpy.array([value.color for value in layer.data])
+        if layer.domain == "POINT":
+            return values
+        colours = numpy.zeros((len(self.x), 4))
+        colours[[loop.vertex_index for loop in self.coarse.loops]] = values
+        return colours
+
+    def point(self, triangle, weights):
+        key = tuple(sorted(pair for pair in zip(triangle, weights) if pair[1] > 0))
+        if key not in self.points:
+            w = numpy.array(weights) / self.PARTS
+            place = w @ self.x[triangle]
+            heights = numpy.sum((self.x[triangle] - place) * self.n[triangle], axis=1)
+            place = place + 0.5 * (w * heights) @ self.n[triangle]
+            self.points[key] = (len(self.points), place, w @ self.colours[triangle])
+        return self.points[key][0]
+
+    def divide(self, triangle):
+        at = {weights: self.point(triangle, weights) for weights in self.WEIGHTS}
+        for i, j, k in self.WEIGHTS:
+            if k > 0:
+                self.faces.append([at[i, j, k], at[i + 1, j, k - 1], at[i, j + 1, k - 1]])
+            if k > 1:
+                self.faces.append([at[i + 1, j, k - 1], at[i + 1, j + 1, k - 2], at[i, j + 1, k - 1]])
+
+    def mesh(self):
+        fine = bpy.data.meshes.new(self.coarse.name + " rounded")
+        fine.from_pydata([place for _, place, _ in self.points.values()], [], self.faces)
+        layer = fine.color_attributes.new(self.coarse.color_attributes[0].name, "FLOAT_COLOR", "POINT")
+        layer.data.foreach_set("color", numpy.array([c for _, _, c in self.points.values()]).ravel())
+        fine.polygons.foreach_set("use_smooth", [True] * len(self.faces))
+        fine.materials.append(self.coarse.materials[0])
+        return fine
+
+
 def add_bodies():
     bpy.ops.import_scene.gltf(filepath=mesh_file)
+    for material in bpy.data.materials:
+        if material.use_nodes:
+            material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = ROUGHNESS
     for body in [one for one in bpy.context.scene.objects if one.type == "MESH"]:
-        if len(body.data.vertices) > 8:
-            body.modifiers.new("rounded", "SUBSURF").render_levels = 2
-            for polygon in body.data.polygons:
-                polygon.use_smooth = True
+        if len(body.data.vertices) > 24:
+            body.data = Rounded(body).mesh()
+
+
+def ground_albedo():
+    """With which a matt plane under sun and sky, whose radiance is z (2 - z) of the way from horizon to zenith, shows
+    the radiance of FLOOR: 2 times the integral of z z (2 - z) over z is 5/6."""
+    facing = -SUN_DIRECTION.z
+    return [floor / (facing * sun + horizon + (zenith - horizon) * 5.0 / 6.0)
+            for floor, sun, horizon, zenith in zip(FLOOR, SUN, HORIZON, ZENITH)]
 
 
 def add_ground():
     bpy.ops.mesh.primitive_plane_add(size=2000.0)
+    ground = bpy.context.object
+    ground.name = "ground"
     material = bpy.data.materials.new("ground")
     material.use_nodes = True
-    shader = material.node_tree.nodes["Principled BSDF"]
-    shader.inputs["Base Color"].default_value = colour(GROUND)
-    shader.inputs["Roughness"].default_value = 1.0
-    bpy.context.object.data.materials.append(material)
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    shader = nodes.new("ShaderNodeBsdfDiffuse")
+    shader.inputs["Color"].default_value = colour(ground_albedo())
+    links.new(shader.outputs["BSDF"], nodes["Material Output"].inputs["Surface"])
+    ground.data.materials.append(material)
 
 
 def add_sun():
@@ -90,6 +162,58 @@ def add_camera():
     bpy.context.scene.camera = placed
 
 
+
+
+def body_size():
+    """Mean diagonal of the bodies' boxes, m."""
+    bodies = [one for one in bpy.context.scene.objects if one.type == "MESH" and one.name != "ground"]
+    sides = [numpy.ptp([one.matrix_world @ mathutils.Vector(corner) for corner in one.bound_box], axis=0)
+             for one in bodies]
+    return float(numpy.mean(numpy.linalg.norm(sides, axis=1)))
+
+
+def write_passes(folder, contact_reach):
+    """Each pass as a float picture of its own: a file with several layers is closed to Blender's Python."""
+    scene = bpy.context.scene
+    layer = scene.view_layers[0]
+    layer.use_pass_shadow = layer.use_pass_ambient_occlusion = layer.use_pass_z = True
+    scene.world.light_settings.distance = contact_reach
+    scene.use_nodes = True
+    file = scene.node_tree.nodes.new("CompositorNodeOutputFile")
+    file.base_path = folder
+    file.format.file_format, file.format.color_depth = "OPEN_EXR", "32"
+    file.file_slots.clear()
+    for output in ("Shadow", "AO", "Depth"):
+        file.file_slots.new(output)
+        scene.node_tree.links.new(scene.node_tree.nodes["Render Layers"].outputs[output], file.inputs[-1])
+
+
+def pixels(path):
+    image = bpy.data.images.load(path)
+    image.colorspace_settings.name = "Non-Color"
+    values = numpy.array(image.pixels[:], dtype=numpy.float32)
+    return values.reshape(image.size[1], image.size[0], 4)[:, :, :3]
+
+
+def luminance(path):
+    shown = pixels(path)
+    linear = numpy.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+    return linear @ numpy.array(LUMINANCE)
+
+
+def print_regions(folder, size_of_bodies):
+    passes = {name: pixels(os.path.join(folder, f"{name}0001.exr"))[:, :, 0] for name in ("Shadow", "AO", "Depth")}
+    shadow = (passes["Shadow"] < 0.5) & (passes["Depth"] < FAR * size_of_bodies)
+    ours, cycles = luminance(our_file), luminance(picture_file)
+    print(f"{'region':8} {'pixels':>6} {'ours':>6} {'Cycles':>6} {'ratio':>5}")
+    for name, region in (("shadow", shadow), ("contact", shadow & (passes["AO"] < 0.5))):
+        if not region.any():
+            print(f"{name:8} {0:6} {'-':>6} {'-':>6} {'-':>5}")
+            continue
+        means = ours[region].mean(), cycles[region].mean()
+        print(f"{name:8} {region.sum():6} {means[0]:6.3f} {means[1]:6.3f} {means[0] / means[1]:5.2f}")
+
+
 for old in list(bpy.data.objects):
     bpy.data.objects.remove(old)
 add_bodies()
@@ -105,4 +229,7 @@ scene.view_settings.view_transform = "Standard"
 scene.render.resolution_x, scene.render.resolution_y = width, height
 scene.render.resolution_percentage = 100
 scene.render.filepath = picture_file
+size_of_bodies = body_size()
+write_passes(os.path.dirname(picture_file), CONTACT_REACH * size_of_bodies)
 bpy.ops.render.render(write_still=True)
+print_regions(os.path.dirname(picture_file), size_of_bodies)
