@@ -107,8 +107,8 @@ void Renderer::Resources::draw_shadows(const Frame& frame, const View& view, boo
 void Renderer::Resources::light_surface(bool between_bodies, bool on_ground) {
   if (between_bodies) {
     indirect.light(surface,
-                   on_ground ? FloorLeft([this](const Vec3f& position) {
-                     return ground_shadow.left_below(position);
+                   on_ground ? FloorLeft([this](const Vec3f& position, const Vec3f& normal) {
+                     return ground_shadow.left_below(position, normal);
                    })
                              : FloorLeft(),
                    lit);

@@ -24,7 +24,7 @@ struct Camera {
 /// One light, far away.
 struct Light {
   Vec3f direction = {-0.45f, 0.35f, -0.82f};  // the way it shines; any length but zero
-  float softness = 0.03f;  // width of a shadow's edge, as a fraction of the scene, 0..0.2
+  float softness = 0.012f;  // width of a shadow's edge, as a fraction of the scene, 0..0.2
   bool shadows = true;
   bool between_bodies = true;  // with shadows: bodies take light of each other and of the ground
 };

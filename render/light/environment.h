@@ -15,7 +15,7 @@ struct Environment {
   Light3 sun = {0.95f, 0.90f, 0.80f};
   Light3 zenith = {0.36f, 0.42f, 0.53f};
   Light3 horizon = {0.58f, 0.60f, 0.63f};
-  Light3 floor = {0.46f, 0.45f, 0.43f};  // what the lit ground sends up
+  Light3 floor = {0.60f, 0.60f, 0.58f};  // what the lit ground sends up: its colour in pictures
 };
 
 /// Radiance of the sky in a direction whose sine of the elevation is `z`; 0 below the horizon.

@@ -12,6 +12,7 @@ constexpr float far_away = 3.0f;  // radii of the body from its centre to the re
 // Radii of a group. Its bodies take up to (r / d)^2 of the hemisphere, and by where in the group
 // they are less or more by the order of that squared.
 constexpr float far_from_group = 4.0f;
+constexpr float smallest_share = 0.02f;  // of the hemisphere, as a divisor
 
 /// The part of the hemisphere that a disc of the area A takes, at a distance d:
 /// A cos(r) cos(e) / (pi d^2 + A), with the angles at receiver and element (GPU Gems 2, 14.3). A
@@ -57,12 +58,28 @@ Ball around(const Receivers& receivers) {
   return {box.centre(), 0.5f * (box.max - box.min).norm()};
 }
 
+/// `add` adds the elements of a body or a group to `to`.
+template <class Add>
+void add_whole(Receivers& to, const Add& add) {
+  const Receivers::Column above = to.above;
+  const Receivers::Column below = to.below;
+  add();
+  to.sky_left *= (1.0f - (to.above - above) / to.sky).max(0.0f);
+  to.floor_left *= (1.0f - (to.below - below) / to.floor).max(0.0f);
+}
+
+void add_ball(const Element& whole, Receivers& receivers) {
+  add_whole(receivers, [&] { add_element<true>(whole, receivers); });
+}
+
 void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) {
   if (ball.distance_to(body.whole.centre) > far_away * body.radius) {
-    add_element<true>(body.whole, receivers);
+    add_ball(body.whole, receivers);
     return;
   }
-  for (const Element& element : body.elements) add_element<false>(element, receivers);
+  add_whole(receivers, [&] {
+    for (const Element& element : body.elements) add_element<false>(element, receivers);
+  });
 }
 
 }  // namespace
@@ -71,6 +88,8 @@ void Receivers::begin(std::size_t points) {
   const auto size = static_cast<Eigen::Index>(points);
   count = 0;
   for (Column* column : {&x, &y, &z, &nx, &ny, &nz}) column->resize(size);
+  for (Column* share : {&sky, &floor}) share->setOnes(size);
+  for (Column* left : {&sky_left, &floor_left}) left->setOnes(size);
   for (Column* sum : {&above, &below, &red, &green, &blue}) sum->setZero(size);
 }
 
@@ -82,6 +101,8 @@ void Receivers::add(const Vec3f& position, const Vec3f& normal) {
   nx[row] = normal.x();
   ny[row] = normal.y();
   nz[row] = normal.z();
+  sky[row] = std::max(0.5f + 0.5f * normal.z(), smallest_share);
+  floor[row] = std::max(0.5f - 0.5f * normal.z(), smallest_share);
 }
 
 void gather(std::span<const BodyElements> bodies, Receivers& receivers) {
@@ -98,7 +119,7 @@ void gather(const BodyTree& tree, Receivers& receivers) {
     if (group.is_one()) {
       add_body(tree.bodies()[group.body], ball, receivers);
     } else if (ball.distance_to(group.whole.centre) > far_from_group * group.radius) {
-      add_element<true>(group.whole, receivers);
+      add_ball(group.whole, receivers);
       i = group.after;
       continue;
     }
@@ -106,17 +127,16 @@ void gather(const BodyTree& tree, Receivers& receivers) {
   }
 }
 
-float at_most_one(float x) { return x / std::cbrt(1.0f + x * x * x); }
-
 IndirectLight left_at(const Receivers& receivers, std::size_t number) {
   const auto i = static_cast<Eigen::Index>(number);
-  const float sky = std::max(0.5f + 0.5f * receivers.nz[i], 0.02f);
-  const float floor = std::max(0.5f - 0.5f * receivers.nz[i], 0.02f);
+  const float sky_left = receivers.sky_left[i];
+  const float floor_left = receivers.floor_left[i];
   const float all = receivers.above[i] + receivers.below[i];
-  const float sent = all > 0.0f ? at_most_one(all) / all : 0.0f;
+  const float taken =
+      receivers.sky[i] * (1.0f - sky_left) + receivers.floor[i] * (1.0f - floor_left);
+  const float sent = all > 0.0f ? taken / all : 0.0f;
   return {sent * Vec3f(receivers.red[i], receivers.green[i], receivers.blue[i]),
-          {1.0f - at_most_one(receivers.above[i] / sky),
-           1.0f - at_most_one(receivers.below[i] / floor)}};
+          {sky_left, floor_left}};
 }
 
 }  // namespace pneuma::render

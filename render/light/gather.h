@@ -18,10 +18,14 @@ struct Receivers {
   Eigen::Index count = 0;
   Column x, y, z;     // m
   Column nx, ny, nz;  // unit
-  // Of the light from above and from below, the fraction of the whole hemisphere that elements
-  // take; and what they send instead, over pi.
+  Column sky, floor;  // fraction of the hemisphere that each fills, if nothing stands before it
+  // Fractions of the hemisphere that elements take of the light from above and from below, added
+  // up; and what they send instead, over pi.
   Column above, below;
   Column red, green, blue;
+  // What is left of sky and floor. Bodies lie behind each other by chance, so that what one takes
+  // is of what the others leave.
+  Column sky_left, floor_left;
 
   /// For so many points to be added.
   void begin(std::size_t points);
@@ -33,12 +37,7 @@ void gather(std::span<const BodyElements> bodies, Receivers& receivers);
 /// Likewise, and so does a group of bodies.
 void gather(const BodyTree& bodies, Receivers& receivers);
 
-/// Fractions that add up where several elements lie behind each other never exceed one: nearly x
-/// where it is small, 1 from far beyond.
-float at_most_one(float x);
-
-/// What is left at one receiver. `above` and `below` are fractions of the hemisphere, of which a
-/// surface sees (1 + nz) / 2 of the sky and the rest of the floor.
+/// What is left at one receiver. Elements send no more than the bodies take.
 IndirectLight left_at(const Receivers& receivers, std::size_t number);
 
 }  // namespace pneuma::render

@@ -40,7 +40,9 @@ void IndirectLighting::light_block(const DrawnSurface& surface, std::size_t firs
   for (std::size_t i = 0; i < count; ++i) {
     IndirectLight& left = light[first + i];
     left = left_at(receivers_, i);
-    if (floor_left) left.open_to.y() *= floor_left(surface.positions()[first + i]);
+    if (floor_left) {
+      left.open_to.y() *= floor_left(surface.positions()[first + i], surface.normals()[first + i]);
+    }
   }
 }
 

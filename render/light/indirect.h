@@ -12,8 +12,8 @@
 
 namespace pneuma::render {
 
-/// What is left of the ground's light below a point.
-using FloorLeft = std::function<float(const Vec3f& position)>;
+/// What is left of the ground's light for a surface at a point.
+using FloorLeft = std::function<float(const Vec3f& position, const Vec3f& normal)>;
 
 /// Keeps what follows from a mesh's shape alone.
 class IndirectLighting {

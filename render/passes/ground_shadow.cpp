@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "render/light/contact_shade.h"
+#include "render/light/ground_light.h"
 
 namespace pneuma::render {
 namespace {
@@ -61,6 +62,23 @@ std::uint8_t byte_of(float left) {
 /// The green channel, close to the luminance.
 constexpr int green = 1;
 
+/// The two points around a texel.
+struct Between {
+  int first;
+  float rest;  // of the way to the next
+
+  explicit Between(int texel) {
+    const float at = std::clamp((static_cast<float>(texel) + 0.5f) / texels_per_point - 0.5f, 0.0f,
+                                static_cast<float>(points) - 1.001f);
+    first = static_cast<int>(at);
+    rest = at - static_cast<float>(first);
+  }
+
+  Eigen::Array4f mix(const Eigen::Array4f& a, const Eigen::Array4f& b) const {
+    return a + rest * (b - a);
+  }
+};
+
 void add_weighted(float weight, const float* from, float* to, int count) {
   for (int i = 0; i < count; ++i) to[i] += weight * from[i];
 }
@@ -72,7 +90,7 @@ GroundShadow::GroundShadow()
       soft_cover_(texels),
       narrow_(texels),
       scratch_(texels),
-      openness_(static_cast<std::size_t>(points) * points),
+      ambient_(static_cast<std::size_t>(points) * points),
       bytes_(texels) {
   for (std::size_t i = 0; i < tone_.size(); ++i)
     tone_[i] = byte_of(static_cast<float>(i) / 1023.0f);
@@ -108,7 +126,7 @@ void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const 
   narrow_ = cover_;
   blur(cover_, wide_step, size);
   blur(soft_cover_, wide_step, size);
-  measure_openness(bodies);
+  measure_ambient(bodies);
   if (bodies.bodies().empty()) {  // surfaces take no light of each other
     contact_.assign(std::size_t{contact_size} * contact_size, 0.0f);
   } else {
@@ -187,7 +205,8 @@ void GroundShadow::blur(Picture& picture, float step, int side) {
   }
 }
 
-void GroundShadow::measure_openness(const BodyTree& bodies) {
+void GroundShadow::measure_ambient(const BodyTree& bodies) {
+  const GroundLight light(to_light_);
   const auto coordinate = [](int point) {
     return (static_cast<float>(point) + 0.5f) / static_cast<float>(points);
   };
@@ -201,8 +220,8 @@ void GroundShadow::measure_openness(const BodyTree& bodies) {
       }
       gather(bodies, receivers_);
       for (int i = 0; i < block * block; ++i) {
-        openness_[static_cast<std::size_t>((row + i / block) * points + column + i % block)] =
-            left_at(receivers_, static_cast<std::size_t>(i)).open_to.x();
+        ambient_[static_cast<std::size_t>((row + i / block) * points + column + i % block)] =
+            light.ambient(left_at(receivers_, static_cast<std::size_t>(i)));
       }
     }
   }
@@ -217,45 +236,29 @@ void GroundShadow::measure_contact(const DrawnSurface& surface) {
   }
 }
 
-float GroundShadow::openness_at(int x, int y) const {
-  const auto place = [](int texel, int& first, float& rest) {
-    const float at = std::clamp((static_cast<float>(texel) + 0.5f) / texels_per_point - 0.5f, 0.0f,
-                                static_cast<float>(points) - 1.001f);
-    first = static_cast<int>(at);
-    rest = at - static_cast<float>(first);
-  };
-  int column = 0;
-  int row = 0;
-  float right = 0.0f;
-  float up = 0.0f;
-  place(x, column, right);
-  place(y, row, up);
-  const float* at = openness_.data() + row * points + column;
-  return std::lerp(std::lerp(at[0], at[1], right), std::lerp(at[points], at[points + 1], right),
-                   up);
-}
-
 void GroundShadow::add_up() {
-  const Environment environment;
-  const auto irradiance = sky_irradiance(environment);
-  const Light3 sky = irradiance[0] + irradiance[1] + irradiance[2];
-  const Light3 sun = environment.sun * to_light_.z();
-  const Light3 sky_part = sky / (sky + sun);
+  const Eigen::Array4f sun = GroundLight(to_light_).sun;
+  std::array<Eigen::Array4f, points> ambient;  // of a row
   for (int y = 0; y < size; ++y) {
+    const Between rows(y);
+    const Eigen::Array4f* at = ambient_.data() + rows.first * points;
+    for (int i = 0; i < points; ++i)
+      ambient[static_cast<std::size_t>(i)] = rows.mix(at[i], at[points + i]);
     for (int x = 0; x < size; ++x) {
       const auto i = static_cast<std::size_t>(y * size + x);
       const float softness = soft_cover_[i] / std::max(cover_[i], 0.004f);
       const float blocked =
           std::clamp(narrow_[i] + (cover_[i] - narrow_[i]) * softness, 0.0f, 1.0f);
-      // Three hundredths of the sky are not seen to be missing.
-      const float open =
-          std::min(1.0f, openness_at(x, y) + 0.03f) *
-          (1.0f - 0.9f * contact_[static_cast<std::size_t>(y / 2 * contact_size + x / 2)]);
-      const Light3 left = sky_part * open + (1.0f - sky_part) * (1.0f - blocked);
+      const float open = 1.0f - contact_[static_cast<std::size_t>(y / 2 * contact_size + x / 2)];
+      const Between columns(x);
+      const auto first = static_cast<std::size_t>(columns.first);
+      const Eigen::Array4f left =
+          open * open * columns.mix(ambient[first], ambient[first + 1]) + (1.0f - blocked) * sun;
       left_[0][i] = left[green];
-      bytes_[i] = {tone_[static_cast<std::size_t>(1023.0f * left[0])],
-                   tone_[static_cast<std::size_t>(1023.0f * left[1])],
-                   tone_[static_cast<std::size_t>(1023.0f * left[2])], 255};
+      const auto tone = [&](int channel) {
+        return tone_[static_cast<std::size_t>(1023.0f * left[channel])];
+      };
+      bytes_[i] = {tone(0), tone(1), tone(2), 255};
     }
   }
 }
@@ -275,13 +278,19 @@ void GroundShadow::average_down() {
   }
 }
 
-float GroundShadow::left_below(const Vec3f& position) const {
-  const Eigen::Vector4f foot(position.x(), position.y(), 0.0f, 1.0f);
+float GroundShadow::left_below(const Vec3f& position, const Vec3f& normal) const {
+  const auto [ahead, distance] = seen_ground(normal.z());
+  // A vertex stands for the surface around it, most of which is away from where it touches.
+  const float height = std::max(position.z(), 5.0f * texel_);
+  const float away = height * ahead / std::max(normal.head<2>().norm(), 1e-6f);
+  const Eigen::Vector4f foot(position.x() + away * normal.x(), position.y() + away * normal.y(),
+                             0.0f, 1.0f);
   const Eigen::Vector2f at = (world_to_picture_ * foot).head<2>();
   const float fraction = fraction_beyond(at);
   if (fraction <= 0.0f) return 1.0f;
   // Half of what a surface that faces the ground sees of it lies within its height.
-  const float level = std::clamp(std::log2(std::max(2.0f * position.z() / texel_, 1.0f)), 0.0f,
+  const float width = 2.0f * height * distance;
+  const float level = std::clamp(std::log2(std::max(width / texel_, 1.0f)), 0.0f,
                                  static_cast<float>(left_.size()) - 1.001f);
   const auto whole = static_cast<std::size_t>(level);
   const float left = std::lerp(left_at_level(whole, at), left_at_level(whole + 1, at),

@@ -44,9 +44,9 @@ class GroundShadow {
   /// Where the light that passes a point of the picture meets the ground.
   Eigen::Vector2f on_ground(float u, float v) const;
 
-  /// How much of its light the ground below a point has left, on average over a place that is as
-  /// wide as the point is high.
-  float left_below(const Vec3f& position) const;
+  /// How much of its light the ground has left that a surface sees: on average over a place before
+  /// it that is the wider the higher the surface is.
+  float left_below(const Vec3f& position, const Vec3f& normal) const;
 
   /// What a crowd takes of the sky reaches further than the picture: beyond its border the darkness
   /// there goes on and falls to none over half the picture's width, as what a ball takes does with
@@ -65,9 +65,8 @@ class GroundShadow {
   void measure_cover(const ShadowMap& map, const ShadowDepths& depths);
   /// `side`: texels on a side of the picture.
   void blur(Picture& picture, float step, int side);
-  void measure_openness(const BodyTree& bodies);
+  void measure_ambient(const BodyTree& bodies);
   void measure_contact(const DrawnSurface& surface);
-  float openness_at(int x, int y) const;
   void add_up();
   void average_down();
   float left_at_level(std::size_t level, const Eigen::Vector2f& at) const;
@@ -86,8 +85,9 @@ class GroundShadow {
                         // ground, 1 for one well above it
   Picture narrow_;
   Picture scratch_;
-  Picture openness_;  // fraction of the sky that is seen, at some of the texels
-  Picture contact_;   // how near surfaces come to the ground, 0..1; for two by two texels each
+  Picture contact_;  // how near surfaces come to the ground, 0..1; for two by two texels each
+  // What comes of sky and bodies, as a fraction of the open ground's light; at some of the texels.
+  std::vector<Eigen::Array4f> ambient_;
   std::vector<Picture> left_;  // of the ground's light; each half as many texels a side
   std::array<std::uint8_t, 1024> tone_;
   Receivers receivers_;

@@ -8,8 +8,9 @@ namespace pneuma::render {
 namespace {
 
 // The tone curve is Khronos' PBR Neutral (its specification of 2024, section "Tone mapper"):
-// colours below 0.76 keep their hue and nearly their value, so that a palette stays what it is;
-// brighter ones run into white along a hyperbola.
+// colours below 0.76 keep their hue, and brighter ones run into white along a hyperbola. The curve
+// takes from each channel what a grey surface mirrors, so that a palette stays what it is; what
+// that takes of the luminance is given back here, or else shadows would lose half of theirs.
 constexpr const char* functions = R"(
 vec3 sky_light(float z) { return mix(horizon, zenith, z * (2.0 - z)); }
 
@@ -18,8 +19,11 @@ vec3 sky_irradiance(float z) {
 }
 
 vec3 tone_mapped(vec3 light) {
+  const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
   float least = min(light.r, min(light.g, light.b));
+  float before = dot(light, luminance);
   light -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+  light *= before / max(dot(light, luminance), 1e-4);
   float peak = max(light.r, max(light.g, light.b));
   float shown_peak = peak < 0.76 ? peak : 1.0 - 0.0576 / (peak - 0.52);
   light *= shown_peak / max(peak, 1e-4);

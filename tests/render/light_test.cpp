@@ -9,6 +9,7 @@
 #include "render/light/contact_shade.h"
 #include "render/light/environment.h"
 #include "render/light/gather.h"
+#include "render/light/ground_light.h"
 #include "render/passes/full_screen.h"
 #include "render/passes/look.h"
 #include "render/passes/target.h"
@@ -124,19 +125,80 @@ TEST(Gather, OfACrowdInGroupsIsThatOfAllItsBodies) {
 
 TEST(Gather, OfFewBodiesHasNoGroups) { EXPECT_TRUE(crowd(20).groups().empty()); }
 
-TEST(LeftAt, IsAFractionHoweverMuchIsTaken) {
-  Receivers receivers;
-  receivers.begin(1);
-  receivers.add(Vec3f::Zero(), Vec3f::UnitX());
-  for (const float taken : {0.0f, 0.1f, 0.5f, 3.0f, 100.0f}) {
-    receivers.above[0] = receivers.below[0] = taken;
-    receivers.red[0] = receivers.green[0] = receivers.blue[0] = 2.0f * taken;
+TEST(LeftAt, IsAFractionHoweverManyBodiesAreNear) {
+  std::vector<BodyElements> bodies;
+  for (int count = 0; count < 30; ++count) {
+    Receivers receivers;
+    receivers.begin(1);
+    receivers.add(Vec3f::Zero(), Vec3f::UnitX());
+    gather(bodies, receivers);
     const IndirectLight left = left_at(receivers, 0);
     EXPECT_GE(left.open_to.minCoeff(), 0.0f);
     EXPECT_LE(left.open_to.maxCoeff(), 1.0f);
-    // No more than if all that is seen sent what the elements send.
-    EXPECT_LE(left.bounced.maxCoeff(), 1.0f + 1e-5f);
-    EXPECT_LE(at_most_one(taken), std::min(1.0f, taken) + 1e-6f);
+    float brightest = 0.0f;
+    for (const BodyElements& body : bodies) {
+      for (const Element& element : body.elements) {
+        brightest = std::max(brightest, element.radiosity.maxCoeff());
+      }
+    }
+    // No more than if all that is seen sent what the brightest element sends.
+    EXPECT_LE(left.bounced.maxCoeff(), brightest);
+    const float height = 0.3f * static_cast<float>(count % 7) - 0.9f;
+    bodies.push_back(ball_elements({1.3f + 0.2f * static_cast<float>(count), 0, height}));
+  }
+}
+
+TEST(LeftAt, OfTwoBodiesIsWhatOneLeavesOfWhatTheOtherLeaves) {
+  const BodyElements one = ball_elements({0, 0, 3}), other = ball_elements({1, 2, 4});
+  const auto left_by = [](const std::vector<BodyElements>& bodies) {
+    Receivers receivers;
+    receivers.begin(1);
+    receivers.add(Vec3f::Zero(), Vec3f(1, 1, 1).normalized());
+    gather(bodies, receivers);
+    return left_at(receivers, 0).open_to.x();
+  };
+  EXPECT_LT(left_by({one}), 0.97f);
+  EXPECT_NEAR(left_by({one, other}), left_by({one}) * left_by({other}), 1e-5f);
+}
+
+TEST(GroundLight, OfSkyAndSunIsAllThereIs) {
+  const GroundLight light(Vec3f(0, 0.6f, 0.8f));
+  const Light3 sun = 0.8f * Environment().sun;
+  const Light3 sky = irradiance_by_quadrature(Environment(), Vec3f::UnitZ());
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(light.sun[c], sun[c] / (sun[c] + sky[c]), 0.01f);
+    EXPECT_FLOAT_EQ(light.sun[c] + light.sky[c], 1.0f);
+  }
+}
+
+TEST(GroundLight, TakesColourFromABodyThatTakesSkyFromIt) {
+  const GroundLight light(Vec3f::UnitZ());
+  const Eigen::Array4f dark = light.ambient({Vec3f::Zero(), {0.5f, 1.0f}});
+  const Eigen::Array4f red = light.ambient({Vec3f(0.1f, 0, 0), {0.5f, 1.0f}});
+  EXPECT_FLOAT_EQ(dark[1], 0.53f * light.sky[1]);
+  EXPECT_FLOAT_EQ(red[0], dark[0] + 0.1f / light.of_sky[0] * light.sky[0]);
+  EXPECT_FLOAT_EQ(red[1], dark[1]);
+  const Eigen::Array4f bright = light.ambient({Vec3f::Constant(9.0f), {1.0f, 1.0f}});
+  EXPECT_FLOAT_EQ(bright[2], light.sky[2]);
+}
+
+TEST(SeenGround, SendsHalfFromEitherSideOfItsMiddle) {
+  for (int tilt = 0; tilt <= 100; tilt += 10) {  // degrees from straight down
+    const float a = static_cast<float>(tilt) * pi / 180.0f;
+    const SeenGround seen = seen_ground(-std::cos(a));
+    const float middle = std::atan(seen.ahead);
+    EXPECT_NEAR(seen.distance, 1.0f / std::cos(middle), 1e-3f * seen.distance) << tilt;
+    constexpr int steps = 10000;
+    float before = 0.0f, all = 0.0f;
+    for (int i = 0; i < steps; ++i) {
+      const float begin = a - pi / 2.0f;
+      const float angle =
+          begin + (pi / 2.0f - begin) * (static_cast<float>(i) + 0.5f) / static_cast<float>(steps);
+      const float part = std::cos(angle - a);
+      all += part;
+      if (angle < middle) before += part;
+    }
+    EXPECT_NEAR(before / all, 0.5f, 0.002f) << tilt;
   }
 }
 
@@ -200,16 +262,19 @@ TEST(BetweenBodies, TheGroundDarkensAroundABallThatStandsOnIt) {
   Frame frame;
   frame.camera = {{0, -12, 8}, Vec3f::Zero(), 40.0f};
   frame.light.direction = {0, 0, -1};
-  frame.meshes = {make_ball({0, 0, 1}, 1.0f, {0.8f, 0.8f, 0.8f}, 16)};
-  const Image image = draw_once(frame, small_picture());
-  frame.light.between_bodies = false;
-  const Image alone = draw_once(frame, small_picture());
-  const auto darkness = [&](const Vec3f& point) {
+  const auto darkness = [&](float brightness, const Vec3f& point) {
+    frame.meshes = {make_ball({0, 0, 1}, 1.0f, Vec3f::Constant(brightness), 16)};
+    frame.light.between_bodies = true;
+    const Image image = draw_once(frame, small_picture());
+    frame.light.between_bodies = false;
+    const Image alone = draw_once(frame, small_picture());
     return pixel_of(alone, frame.camera, point)[1] - pixel_of(image, frame.camera, point)[1];
   };
-  EXPECT_GT(darkness({1.25f, 0, 0}), darkness({1.7f, 0, 0}));
-  EXPECT_GT(darkness({1.25f, 0, 0}), 3);
-  EXPECT_EQ(darkness({6, 0, 0}), 0);
+  EXPECT_GT(darkness(0.2f, {1.25f, 0, 0}), darkness(0.2f, {1.7f, 0, 0}));
+  EXPECT_GT(darkness(0.2f, {1.25f, 0, 0}), 3);
+  EXPECT_EQ(darkness(0.2f, {6, 0, 0}), 0);
+  // A bright ball sends to the ground much of what it takes.
+  EXPECT_LT(darkness(0.9f, {1.25f, 0, 0}), darkness(0.2f, {1.25f, 0, 0}) - 1);
 }
 
 /// Seen from above: what a pixel of the ground has lost must be close to what its neighbours have.

@@ -19,7 +19,7 @@ constexpr double roughness = 0.35;  // of meshes that say nothing else
 const Eigen::Array3d sun = {0.95, 0.90, 0.80};
 const Eigen::Array3d zenith = {0.36, 0.42, 0.53};
 const Eigen::Array3d horizon = {0.58, 0.60, 0.63};
-const Eigen::Array3d floor_light = {0.46, 0.45, 0.43};
+const Eigen::Array3d floor_light = {0.60, 0.60, 0.58};
 
 Eigen::Array3d sky_at(double z) {
   return z <= 0.0 ? Eigen::Array3d(0.0, 0.0, 0.0)
@@ -43,10 +43,14 @@ Eigen::Array3d irradiance(const Eigen::Vector3d& normal) {
   return sum * (2.0 / (rings * around));
 }
 
-/// Khronos PBR Neutral, as its specification writes it.
+/// Khronos PBR Neutral, as its specification writes it, but that the luminance which its offset
+/// takes is given back.
 Eigen::Array3d tone_mapped(Eigen::Array3d light) {
   const double least = light.minCoeff();
+  const Eigen::Array3d luminance = {0.2126, 0.7152, 0.0722};
+  const double before = (light * luminance).sum();
   light -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+  light *= before / (light * luminance).sum();
   const double peak = light.maxCoeff();
   if (peak < 0.76) return light;
   const double d = 1.0 - 0.76;

@@ -5,7 +5,7 @@ const groundSize = 192;  // texels on a side of the shadow's picture
 const groundMargin = 24;
 const groundInner = groundSize - 2 * groundMargin;  // the shadow map's
 const groundLevels = Math.floor(Math.log2(groundSize)) + 1;  // each of half as many texels a side
-const opennessSize = groundSize / 4;
+const ambientSize = groundSize / 4;
 const contactSize = groundSize / 2;
 const groundFading = 0.5;  // widths of the picture over which its border's darkness falls to none beyond it
 
@@ -49,15 +49,16 @@ void main() {
   blurred = sum / 256.0;
 }`;
 
-// How much of the sky is seen from points on the ground.
-const opennessFragment = `in vec2 at;
+// What comes of sky and bodies to points on the ground, as a fraction of the open sky.
+const ambientFragment = `in vec2 at;
 uniform vec2 origin;
 uniform vec2 along_u;
 uniform vec2 along_v;
-out vec4 open;
+out vec4 ambient;
 void main() {
   vec2 place = origin + at.x * along_u + at.y * along_v;
-  open = vec4(left_at(vec3(place, 0.0), vec3(0.0, 0.0, 1.0)).open_to.x);
+  Left left = left_at(vec3(place, 0.0), vec3(0.0, 0.0, 1.0));
+  ambient = vec4(min(left.open_to.x + 0.03 + left.bounced / sky_irradiance(1.0), 1.0), 1.0);
 }`;
 
 // How near the lowest surface above each texel is: 1 where it touches. Blended by the maximum.
@@ -83,18 +84,17 @@ void main() {
 const leftFragment = `in vec2 at;
 uniform sampler2D narrow;
 uniform sampler2D wide;
-uniform sampler2D openness;
+uniform sampler2D ambient;
 uniform sampler2D contact;
 uniform float light_z;
 out vec4 result;
 void main() {
   vec4 w = texture(wide, at);
   float blocked = clamp(mix(texture(narrow, at).r, w.r, w.g / max(w.r, 0.004)), 0.0, 1.0);
-  float open = min(1.0, texture(openness, at).r + 0.03) *
-    (1.0 - 0.9 * texelFetch(contact, ivec2(gl_FragCoord.xy) / 2, 0).r);
+  float open = 1.0 - texelFetch(contact, ivec2(gl_FragCoord.xy) / 2, 0).r;
   vec3 direct = sun * light_z;
   vec3 sky_part = sky_irradiance(1.0) / (sky_irradiance(1.0) + direct);
-  vec3 left = sky_part * open + (1.0 - sky_part) * (1.0 - blocked);
+  vec3 left = sky_part * open * open * texture(ambient, at).rgb + (1.0 - sky_part) * (1.0 - blocked);
   result = vec4(pow(left, vec3(1.0 / 2.2)), left.g);
 }`;
 
@@ -102,11 +102,18 @@ void main() {
 const leftBelowFunction = `uniform sampler2D ground_left;
 uniform mat4 world_to_picture;
 uniform float texel;  // m; 0 without a shadow on the ground
-float left_below(vec3 position) {
+float left_below(vec3 position, vec3 normal) {
   if (texel == 0.0) return 1.0;
-  vec2 at = (world_to_picture * vec4(position.xy, 0.0, 1.0)).xy;
+  float height = max(position.z, 5.0 * texel);
+  float sine = 0.5 * (1.0 + normal.z);
+  float cosine = sqrt(max(1.0 - sine * sine, 0.0));
+  float across = sqrt(max(1.0 - normal.z * normal.z, 0.0));
+  float cos_middle = max(sine * across - cosine * normal.z, 0.1);
+  float ahead = (across * cosine + normal.z * sine) / cos_middle;
+  vec2 foot = position.xy + height * ahead / max(length(normal.xy), 1e-6) * normal.xy;
+  vec2 at = (world_to_picture * vec4(foot, 0.0, 1.0)).xy;
   float near = max(1.0 - length(at - clamp(at, 0.0, 1.0)) / ${groundFading}, 0.0);
-  float level = clamp(log2(max(2.0 * position.z / texel, 1.0)), 0.0, ${groundLevels - 2}.0);
+  float level = clamp(log2(max(2.0 * height / (cos_middle * texel), 1.0)), 0.0, ${groundLevels - 2}.0);
   return mix(1.0, textureLod(ground_left, at, level).a, near * near);
 }
 `;
@@ -119,13 +126,13 @@ class GroundShadow {
     this.gl = gl;
     this.cover = new FullScreen(gl, coverFragment);
     this.blur = new FullScreen(gl, blurFragment);
-    this.findOpenness = new FullScreen(gl, opennessFragment, gatherFunctions);
+    this.findAmbient = new FullScreen(gl, ambientFragment, shaders.look + gatherFunctions);
     this.nearness = new Program(gl, nearnessShaders);
     this.left = new FullScreen(gl, leftFragment, shaders.look);
     this.onGround = new Program(gl, shaders.ground_shadow, shaders.nearness);
     this.quad = new Vertices(gl, [2]);
     [this.raw, this.between, this.narrow, this.wide] = [1, 2, 3, 4].map(() => drawnPicture(gl, groundSize));
-    this.openness = drawnPicture(gl, opennessSize);
+    this.ambient = drawnPicture(gl, ambientSize);
     this.contact = drawnPicture(gl, contactSize);
     this.contactBetween = drawnPicture(gl, contactSize);
     this.result = drawnPicture(gl, groundSize, groundLevels);
@@ -141,10 +148,10 @@ class GroundShadow {
     this.fit(map);
     this.measureCover(map);
     this.measureContact(between ? drawSurface : null);
-    this.measureOpenness(between);
+    this.measureAmbient(between);
     this.result.begin();
     this.left.draw({ light_z: map.toLight[2] }, { narrow: this.narrow.texture, wide: this.wide.texture,
-      openness: this.openness.texture, contact: this.contact.texture });
+      ambient: this.ambient.texture, contact: this.contact.texture });
     gl.bindTexture(gl.TEXTURE_2D, this.result.texture);
     gl.generateMipmap(gl.TEXTURE_2D);
   }
@@ -192,8 +199,8 @@ class GroundShadow {
     this.blurInto(this.contact, this.contact, this.contactBetween, 1.3);
   }
 
-  measureOpenness(between) {
-    this.openness.begin();
+  measureAmbient(between) {
+    this.ambient.begin();
     if (!between) {
       this.gl.clearColor(1, 1, 1, 1);
       this.gl.clear(this.gl.COLOR_BUFFER_BIT);
@@ -201,7 +208,7 @@ class GroundShadow {
     }
     const origin = this.corner(0, 0);
     const [alongU, alongV] = [this.corner(1, 0), this.corner(0, 1)].map((corner) => subtract(corner, origin));
-    this.findOpenness.draw({ ...between.values, origin, along_u: alongU, along_v: alongV }, between.textures);
+    this.findAmbient.draw({ ...between.values, origin, along_u: alongU, along_v: alongV }, between.textures);
   }
 
   darken(view) {

@@ -58,6 +58,7 @@ struct Gathered {
   float above;
   float below;
   vec3 sent;
+  vec2 open_to;
 };
 
 struct Left {
@@ -75,36 +76,37 @@ void add_element(inout Gathered sum, vec3 normal, vec3 away, float squared, floa
   sum.sent += taken * uintBitsToFloat(radiosity.rgb);
 }
 
+// Of the hemisphere, sky and floor.
+vec2 shares(vec3 normal) { return max(0.5 + vec2(0.5, -0.5) * normal.z, 0.02); }
+
 Gathered gather(vec3 position, vec3 normal) {
-  Gathered sum = Gathered(0.0, 0.0, vec3(0.0));
+  Gathered sum = Gathered(0.0, 0.0, vec3(0.0), vec2(1.0));
   for (int body = 0; body < body_count; ++body) {
     vec4 ball = texelFetch(balls, ivec2(0, body), 0);
     vec2 more = texelFetch(balls, ivec2(1, body), 0).xy;
     vec3 away = ball.xyz - position;
     float squared = dot(away, away) + 1e-9;
+    vec2 before = vec2(sum.above, sum.below);
     if (squared > far_away * far_away * ball.w * ball.w) {
       add_element(sum, normal, away, squared, sqrt(squared), more.x, texelFetch(sent_by_ball, ivec2(0, body), 0));
-      continue;
+    } else {
+      for (int i = 0; i < int(more.y); ++i) {
+        vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
+        away = disc.xyz - position;
+        float at_element = max(-dot(texelFetch(discs, ivec2(3 * i + 1, body), 0).xyz, away), 0.0);
+        add_element(sum, normal, away, dot(away, away) + 1e-9, at_element, disc.w, texelFetch(sent, ivec2(i, body), 0));
+      }
     }
-    for (int i = 0; i < int(more.y); ++i) {
-      vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
-      away = disc.xyz - position;
-      float at_element = max(-dot(texelFetch(discs, ivec2(3 * i + 1, body), 0).xyz, away), 0.0);
-      add_element(sum, normal, away, dot(away, away) + 1e-9, at_element, disc.w, texelFetch(sent, ivec2(i, body), 0));
-    }
+    sum.open_to *= max(1.0 - (vec2(sum.above, sum.below) - before) / shares(normal), 0.0);
   }
   return sum;
 }
 
-float at_most_one(float x) { return x / pow(1.0 + x * x * x, 1.0 / 3.0); }
-
 Left left_at(vec3 position, vec3 normal) {
   Gathered sum = gather(position, normal);
-  float sky = max(0.5 + 0.5 * normal.z, 0.02);
-  float below = max(0.5 - 0.5 * normal.z, 0.02);
   float all = sum.above + sum.below;
-  float part = all > 0.0 ? at_most_one(all) / all : 0.0;
-  return Left(part * sum.sent, vec2(1.0 - at_most_one(sum.above / sky), 1.0 - at_most_one(sum.below / below)));
+  float part = all > 0.0 ? dot(shares(normal), 1.0 - sum.open_to) / all : 0.0;
+  return Left(part * sum.sent, sum.open_to);
 }
 `;
 
@@ -116,7 +118,7 @@ void main() {
   vec3 position = texelFetch(lit, ivec2(2 * receiver.x, receiver.y), 0).xyz;
   vec3 normal = texelFetch(lit, ivec2(2 * receiver.x + 1, receiver.y), 0).xyz;
   Left left = left_at(position, normal);
-  left.open_to.y *= left_below(position);
+  left.open_to.y *= left_below(position, normal);
   light = uvec4(floatBitsToUint(left.bounced), packUnorm2x16(left.open_to));
 }`;
 

@@ -1,0 +1,31 @@
+#include "render/light/ground_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pneuma::render {
+
+GroundLight::GroundLight(const Vec3f& to_light) {
+  const Environment environment;
+  const auto irradiance = sky_irradiance(environment);
+  of_sky = irradiance[0] + irradiance[1] + irradiance[2];
+  sky << of_sky / (of_sky + environment.sun * to_light.z()), 0.5f;
+  sun = 1.0f - sky;
+}
+
+Eigen::Array4f GroundLight::ambient(const IndirectLight& left) const {
+  Eigen::Array4f of_open_sky;
+  of_open_sky << left.open_to.x() + 0.03f + left.bounced.array() / of_sky, 1.0f;
+  return sky * of_open_sky.min(1.0f);
+}
+
+SeenGround seen_ground(float nz) {
+  const float sine = 0.5f * (1.0f + nz);  // of a - m
+  const float cosine = std::sqrt(std::max(1.0f - sine * sine, 0.0f));
+  const float across = std::sqrt(std::max(1.0f - nz * nz, 0.0f));  // the sine of a
+  const float cos_middle = std::max(sine * across - cosine * nz, 0.1f);
+  const float sin_middle = across * cosine + nz * sine;
+  return {sin_middle / cos_middle, 1.0f / cos_middle};
+}
+
+}  // namespace pneuma::render
