@@ -94,6 +94,7 @@ def add_bodies():
         if material.use_nodes:
             material.node_tree.nodes["Principled BSDF"].inputs["Roughness"].default_value = ROUGHNESS
     for body in [one for one in bpy.context.scene.objects if one.type == "MESH"]:
+        body.pass_index = 1
         if len(body.data.vertices) > 24:
             body.data = Rounded(body).mesh()
 
@@ -176,14 +177,15 @@ def write_passes(folder, contact_reach):
     """Each pass as a float picture of its own: a file with several layers is closed to Blender's Python."""
     scene = bpy.context.scene
     layer = scene.view_layers[0]
-    layer.use_pass_shadow = layer.use_pass_ambient_occlusion = layer.use_pass_z = True
+    layer.use_pass_shadow = layer.use_pass_ambient_occlusion = True
+    layer.use_pass_z = layer.use_pass_object_index = True
     scene.world.light_settings.distance = contact_reach
     scene.use_nodes = True
     file = scene.node_tree.nodes.new("CompositorNodeOutputFile")
     file.base_path = folder
     file.format.file_format, file.format.color_depth = "OPEN_EXR", "32"
     file.file_slots.clear()
-    for output in ("Shadow", "AO", "Depth"):
+    for output in ("Shadow", "AO", "Depth", "IndexOB"):
         file.file_slots.new(output)
         scene.node_tree.links.new(scene.node_tree.nodes["Render Layers"].outputs[output], file.inputs[-1])
 
@@ -202,16 +204,20 @@ def luminance(path):
 
 
 def print_regions(folder, size_of_bodies):
-    passes = {name: pixels(os.path.join(folder, f"{name}0001.exr"))[:, :, 0] for name in ("Shadow", "AO", "Depth")}
-    shadow = (passes["Shadow"] < 0.5) & (passes["Depth"] < FAR * size_of_bodies)
+    def one_pass(name):
+        return pixels(os.path.join(folder, f"{name}0001.exr"))[:, :, 0]
+
+    shadow = (one_pass("Shadow") < 0.5) & (one_pass("Depth") < FAR * size_of_bodies)
+    regions = {"shadow": shadow, "contact": shadow & (one_pass("AO") < 0.5)}
+    of_body = one_pass("IndexOB") > 0.5
     ours, cycles = luminance(our_file), luminance(picture_file)
-    print(f"{'region':8} {'pixels':>6} {'ours':>6} {'Cycles':>6} {'ratio':>5}")
-    for name, region in (("shadow", shadow), ("contact", shadow & (passes["AO"] < 0.5))):
-        if not region.any():
-            print(f"{name:8} {0:6} {'-':>6} {'-':>6} {'-':>5}")
-            continue
-        means = ours[region].mean(), cycles[region].mean()
-        print(f"{name:8} {region.sum():6} {means[0]:6.3f} {means[1]:6.3f} {means[0] / means[1]:5.2f}")
+    print(f"{'region':8} {'':6} {'pixels':>6} {'ours':>6} {'Cycles':>6} {'ratio':>5}")
+    for name, region in regions.items():
+        for of, part in (("all", region), ("ground", region & ~of_body), ("bodies", region & of_body)):
+            if not part.any():
+                continue
+            means = ours[part].mean(), cycles[part].mean()
+            print(f"{name:8} {of:6} {part.sum():6} {means[0]:6.3f} {means[1]:6.3f} {means[0] / means[1]:5.2f}")
 
 
 for old in list(bpy.data.objects):
