@@ -270,7 +270,8 @@ ApartLimits sandbox_limits(std::size_t bytes, const ImportLimits& import) {
 Model import_model(const std::filesystem::path& path, const ImportLimits& limits) {
   try {
     const Format format = format_of(path);
-    const std::string bytes = read_model_file(path, limits.bytes);
+    std::string bytes = read_model_file(path, limits.bytes);
+    if (format == Format::off) bytes = without_comments(bytes);
     check_model_header(format, bytes, limits.vertices, limits.triangles);
     Model model =
         deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },

@@ -32,6 +32,10 @@ std::string model_endings();
 std::string read_model_file(const std::filesystem::path& path, std::size_t max_bytes,
                             std::size_t read_before = 0);
 
+/// Takes the comments, from # to the end of a line, and lines that hold nothing else out of a text
+/// of the format OFF. The importer knows neither everywhere.
+std::string without_comments(std::string_view off);
+
 /// Throws ModelError when the bytes are not of the format, or when a header announces more than the
 /// file can hold or than `max_vertices` and `max_triangles`: importers believe it, and reserve
 /// memory for it. Formats without counts in one place (obj, gltf, dae, fbx, 3ds) pass when they

@@ -2,6 +2,7 @@
 // reserves memory for whatever a PLY, OFF or STL header asks for.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -79,18 +80,14 @@ void check_ply(std::string_view bytes, const Limits& limits) {
 }
 
 /// "OFF", perhaps with letters before it for colours, normals or texture coordinates, then three
-/// counts, with comments between. The importer knows plain text only.
+/// counts. The importer knows plain text only, and comments are taken out before.
 void check_off(std::string_view bytes, const Limits& limits) {
   constexpr std::size_t most_letters = 4;
   const std::size_t word = bytes.substr(0, most_letters + 3).find("OFF");
   if (word == bytes.npos) refuse_start("OFF", "the word OFF");
   std::istringstream text{std::string(bytes.substr(word + 3, 64 * 1024))};
-  std::string counts, line;
-  while (std::getline(text, line)) {
-    line = line.substr(0, line.find('#'));
-    if (line.find_first_not_of(" \t\r") == line.npos) continue;
-    counts = line;
-    break;
+  std::string counts;
+  while (counts.find_first_not_of(" \t\r") == counts.npos && std::getline(text, counts)) {
   }
   std::istringstream words(counts);
   const auto vertices = read_count(words);
@@ -139,6 +136,21 @@ void check_text(std::string_view bytes, std::string_view format, char first) {
 }
 
 }  // namespace
+
+std::string without_comments(std::string_view off) {
+  std::string text;
+  text.reserve(off.size());
+  while (!off.empty()) {
+    const std::size_t end = std::min(off.find('\n'), off.size() - 1) + 1;
+    const std::string_view line = off.substr(0, end);
+    off.remove_prefix(end);
+    const std::string_view said = line.substr(0, std::min(line.find('#'), end));
+    if (said.find_first_not_of(" \t\r\n") == said.npos) continue;
+    text += said;
+    if (said.back() != '\n') text += '\n';
+  }
+  return text;
+}
 
 void check_model_header(Format format, std::string_view bytes, std::size_t max_vertices,
                         std::size_t max_triangles) {

@@ -41,6 +41,13 @@ struct FormatCase {
 
 void PrintTo(const FormatCase& format, std::ostream* out) { *out << format.name; }
 
+/// Before the first word and at the ends of all lines, with empty lines between them.
+std::string commented_off_text(const sim::TriangleMesh& mesh) {
+  std::string text = "# Output of a tool\n  # in two lines\n\n";
+  for (const char c : off_text(mesh)) text += c == '\n' ? " # said here\n\n" : std::string(1, c);
+  return text;
+}
+
 const FormatCase formats[] = {
     {"obj", ".obj", obj_text},
     {"ply_ascii", ".ply", ply_text},
@@ -48,6 +55,7 @@ const FormatCase formats[] = {
     {"stl_ascii", ".stl", stl_text},
     {"stl_binary", ".Stl", stl_bytes},
     {"off", ".off", off_text},
+    {"off_with_comments", ".off", commented_off_text},
     {"gltf", ".gltf", [](const auto& mesh) { return gltf_text(mesh, "it.bin"); }},
     {"glb", ".glb", glb_bytes},
     {"threeds", ".3ds", a3ds_bytes},
