@@ -16,6 +16,9 @@ constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
 constexpr double penalty_growth = 30.0;
 
+/// In place of a node: of contacts with what sleeps, which will be woken and the step done again.
+constexpr int nothing_moves = -1;
+
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
   return impulse.first().moves() ? contact.first.body : contact.second.body;
 }
@@ -50,7 +53,7 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
       island_begin_.push_back(patches_.size());
     }
     if (begins_island || node != places_[i - 1].node) patches_.push_back({.begin = i});
-    patches_.back().is_new |= at(contact) >= first_new;
+    patches_.back().is_new |= node != nothing_moves && at(contact) >= first_new;
     patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
     nodes_.push_back(nodes_of(contacts[at(contact)], impulses[at(contact)]));
@@ -79,8 +82,9 @@ ImpulseNodes SweptSolver::nodes_of(const SweptContact& contact, const SweptImpul
 }
 
 SweptSolver::Place SweptSolver::place(const SweptContact& contact, const SweptImpulse& impulse) {
-  return {linked_bodies_.find(moved_body(contact, impulse)),
-          linked_nodes_.find(nodes_of(contact, impulse).front()), 0};
+  const int node = nodes_of(contact, impulse).front();
+  return {.body = linked_bodies_.find(moved_body(contact, impulse)),
+          .node = node < 0 ? nothing_moves : linked_nodes_.find(node)};
 }
 
 bool SweptSolver::is_of_boxes(const SweptContact& contact) const {

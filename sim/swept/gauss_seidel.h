@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,9 @@ class GaussSeidel {
                  double tolerance);
   void select_unsettled(std::span<const ImpulseNodes> nodes);
 
-  std::vector<int> corrected_;   // impulses, in their order
-  std::vector<int> changed_in_;  // the last iteration in which a node was, counted over all calls
-  int iteration_ = 0;
+  std::vector<int> corrected_;            // impulses, in their order
+  std::vector<std::int64_t> changed_in_;  // per node: the last iteration that did, over all calls
+  std::int64_t iteration_ = 0;
 };
 
 }  // namespace pneuma::sim
