@@ -1,0 +1,86 @@
+// What the solver of swept contacts solves for together.
+#include "sim/step/swept_solver.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/mesh/primitives.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// A ball with points on the ground, which they must leave at a speed (m/s) or faster.
+class BallOnGround {
+ public:
+  BallOnGround() : world_(make_world_of_a_ball()), bodies_(world_), solver_(bodies_) {
+    bodies_.begin_at_end(world_);
+    contacts_.reserve(3);
+    impulses_.reserve(3);
+  }
+
+  void add_vertex(int vertex, double speed) {
+    add({FeatureKind::vertex, vertex}, {1.0, 0.0, 0.0}, speed);
+  }
+  void add_middle_of_edge(int edge, double speed) {
+    add({FeatureKind::edge, edge}, {0.5, 0.5, 0.0}, speed);
+  }
+  void solve(std::size_t first_new) { solver_.solve(contacts_, impulses_, 1e-9, first_new); }
+
+  const MeshTopology& topology() const { return world_.soft.front().mesh->topology; }
+  double impulse(std::size_t contact) const { return impulses_[contact].normal_impulse(); }
+  double vertex_mass() const { return world_.soft.front().material.vertex_mass; }
+  int island(std::size_t contact) {
+    return solver_.island_of(contacts_[contact], impulses_[contact]);
+  }
+  int islands() const { return solver_.island_count(); }
+
+ private:
+  static World make_world_of_a_ball() {
+    World world;
+    world.soft.push_back(make_body(make_icosphere(1.0, 1)));
+    return world;
+  }
+
+  void add(const Feature& feature, const FeatureWeights& weights, double speed) {
+    SweptContact contact;
+    contact.first = {0, feature, weights, Vec3::Zero()};
+    contact.second.body = swept_ground;
+    contact.normal = Vec3::UnitZ();
+    contacts_.push_back(contact);
+    impulses_.emplace_back(bodies_.side(world_, contact.first), SweptSide(), contact.normal, 0.0);
+    impulses_.back().aim(speed, Vec3::Zero());
+  }
+
+  World world_;
+  SweptBodies bodies_;
+  SweptSolver solver_;
+  std::vector<SweptContact> contacts_;
+  std::vector<SweptImpulse> impulses_;
+};
+
+/// Its springs do not act before all impulses are known.
+TEST(SweptSolver, LeavesAloneWhatHasNoVertexInCommonWithANewContact) {
+  BallOnGround ball;
+  ball.add_vertex(0, 1.0);
+  ball.add_vertex(5, 1.0);
+  ball.solve(1);
+  EXPECT_EQ(ball.islands(), 1);
+  EXPECT_EQ(ball.island(0), ball.island(1));
+  EXPECT_EQ(ball.impulse(0), 0.0);
+  EXPECT_GT(ball.impulse(1), 0.0);
+}
+
+/// When one end of an edge leaves at 3 m/s, its middle leaves at 1.5 m/s by itself.
+TEST(SweptSolver, SolvesAgainForWhatHasOne) {
+  BallOnGround ball;
+  ball.add_middle_of_edge(0, 1.0);
+  ball.solve(0);
+  EXPECT_GT(ball.impulse(0), 0.0);
+  ball.add_vertex(ball.topology().edges()[0][0], 3.0);
+  ball.solve(1);
+  EXPECT_EQ(ball.impulse(0), 0.0);
+  EXPECT_NEAR(ball.impulse(1), 3.0 * ball.vertex_mass(), 1e-9);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
