@@ -11,7 +11,7 @@ namespace {
 bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
   const auto numbers = [](const sim::SoftMaterial& m) {
     return std::array{m.k,           m.n,     m.temperature, m.gas_exponent, m.ambient_pressure,
-                      m.vertex_mass, m.rho_g, m.k_max,       m.bending};
+                      m.vertex_mass, m.rho_g, m.k_max,       m.bending,      m.bending_damping};
   };
   return a.mesh == b.mesh && a.supply == b.supply && numbers(a.material) == numbers(b.material) &&
          a.material.damping == b.material.damping &&

@@ -65,6 +65,7 @@ Section body_section(BodyScene& body) {
   const Applicability supplied{"soft bodies with supply.n or supply.temperature",
                                soft && !(body.supply_n.empty() && body.supply_temperature.empty())};
   const Applicability leaking{"soft bodies with leak.area", soft && body.leak.area > 0.0};
+  const Applicability bending{"soft bodies with bending", soft && body.material.bending > 0.0};
   const Applicability rigid_bodies{"rigid bodies", rigid};
   const Applicability free_bodies{"soft and rigid bodies", soft || rigid};
   const bool handled = soft && !body.pinned.empty();
@@ -126,8 +127,12 @@ Section body_section(BodyScene& body) {
                                       "of the skin, whatever its mesh: Young's modulus times "
                                       "thickness; instead of k, which is 0.866 times that"})),
           only(soft_bodies,
-               of_method({"bending", &material.bending, at_least(0), "N m",
-                          "rigidity of the surface as a plate: holds flat and concave faces"})),
+               selector(of_method(
+                   {"bending", &material.bending, at_least(0), "N m",
+                    "rigidity of the surface as a plate: holds flat and concave faces"}))),
+          only(bending, of_method({"bending_damping", &material.bending_damping, at_least(0), "s",
+                                   "relaxation time of bending: a motion of w rad/s dies away at "
+                                   "w^2 times half of it"})),
           only(filled_by_n, {"n", &material.n, at_least(0), "mol",
                              "amount of gas; or give gauge_pressure, or inflation"}),
           only(soft_bodies, selector({"gauge_pressure", &body.gauge_pressure, any(), "Pa",

@@ -23,15 +23,17 @@ std::vector<HingeTable::Corners> find_corners(const MeshTopology& topology) {
 }
 
 struct Shape {
-  double length = 0.0, area = 0.0, min_height = 0.0;
+  double length = 0.0;
+  std::array<double, 2> areas = {};
+  double area() const { return areas[0] + areas[1]; }
+  double min_height() const { return 2.0 * std::min(areas[0], areas[1]) / length; }
 };
 
 Shape shape_of(const HingeTable::Corners& hinge, const VertexArray& x) {
   const Vec3 a = x[hinge[0]], b = x[hinge[1]];
   const double first = area_vector(a, b, x[hinge[2]]).norm();
   const double second = area_vector(b, a, x[hinge[3]]).norm();
-  const double length = (b - a).norm();
-  return {length, first + second, 2.0 * std::min(first, second) / length};
+  return {(b - a).norm(), {first, second}};
 }
 
 }  // namespace
@@ -48,19 +50,20 @@ HingeTable make_hinges(const MeshTopology& topology, const VertexArray& rest_pos
   std::vector<Shape> shapes;
   for (const HingeTable::Corners& hinge : table.corners) {
     shapes.push_back(shape_of(hinge, rest_positions));
-    heights += shapes.back().area / shapes.back().length;  // the mean of the two
+    heights += shapes.back().area() / shapes.back().length;  // the mean of the two
   }
   const double sliver =
       HingeTable::sliver_height * heights / static_cast<double>(table.corners.size());
   for (std::size_t e = 0; e < table.corners.size(); ++e) {
     const auto& [a, b, c, d] = table.corners[e];
-    const auto& [length, area, min_height] = shapes[e];
-    const bool bends = c != d && min_height > 0.0;
-    const double softened = std::pow(std::min(1.0, min_height / sliver), 3);
-    table.weights.push_back(bends ? softened * length * length / area : 0.0);
+    const Shape& shape = shapes[e];
+    const bool bends = c != d && shape.min_height() > 0.0;
+    const double softened = std::pow(std::min(1.0, shape.min_height() / sliver), 3);
+    table.weights.push_back(bends ? softened * shape.length * shape.length / shape.area() : 0.0);
     table.rest.push_back(bends ? hinge_angle(rest_positions[a], rest_positions[b],
                                              rest_positions[c], rest_positions[d])
                                : HingeAngle{});
+    table.areas.push_back(bends ? shape.areas : std::array{1.0, 1.0});
   }
   return table;
 }

@@ -32,9 +32,10 @@ struct HingeTable {
   /// a, b, c, d: the edge's vertices, then those across it; the triangles are a b c and b a d.
   using Corners = std::array<int, 4>;
 
-  std::vector<Corners> corners;  // per edge
-  std::vector<double> weights;   // K / rigidity, per edge
-  std::vector<HingeAngle> rest;  // t0, per edge
+  std::vector<Corners> corners;              // per edge
+  std::vector<double> weights;               // K / rigidity, per edge
+  std::vector<HingeAngle> rest;              // t0, per edge
+  std::vector<std::array<double, 2>> areas;  // m^2 at rest, per edge, of a b c and of b a d; > 0
 };
 
 /// t of a hinge at these positions.

@@ -37,7 +37,7 @@ ImplicitWorldStep::ImplicitWorldStep(const World& world, const ContactSurfaces& 
   double least_edge = std::numeric_limits<double>::infinity();
   for (const WorldEnergy::Body& body : energy_.bodies()) {
     bases_.emplace_back(*body.mesh);
-    start_lengths_.emplace_back(body.mesh->rest_lengths.size());
+    start_deformations_.emplace_back(*body.mesh);
     own_.emplace_back(body.mesh->topology.vertex_count());
     least_edge = std::min(least_edge, surfaces[body.soft].tree->mean_edge());
   }
@@ -63,7 +63,8 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
   }
   for (std::size_t i = 0; i < bases_.size(); ++i) {
     const WorldEnergy::Body& body = energy_.bodies()[i];
-    edge_lengths(body.mesh->topology, own_part(start.positions, i), start_lengths_[i]);
+    measure(*body.mesh, world.soft[at(body.soft)].material, own_part(start.positions, i),
+            start_deformations_[i]);
   }
   const double speed_energy = kinetic(world, start);
   start_energy_ = potential(world, start) + speed_energy;
@@ -81,7 +82,7 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
 
 bool ImplicitWorldStep::implicit_euler(const World& world, double step, const WorldState& start,
                                        WorldState& end) {
-  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
+  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].deformation = start_deformations_[i];
   if (!minimise(world, step, start, start, start, step)) return false;
   end.positions.rows() = minimiser_.point().positions.rows();
   end.velocities.rows() = (end.positions.rows() - start.positions.rows()) / step;
@@ -101,7 +102,7 @@ void ImplicitWorldStep::finish(WorldState& end) const {
 bool ImplicitWorldStep::sdirk2(const World& world, double step, const WorldState& start,
                                WorldState& end) {
   const double part = sdirk_part * step;
-  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].lengths = start_lengths_[i];
+  for (std::size_t i = 0; i < bases_.size(); ++i) bases_[i].deformation = start_deformations_[i];
   if (!minimise(world, part, start, start, start, part)) return false;
   middle_.positions.rows() = minimiser_.point().positions.rows();
   middle_.velocities.rows() = (middle_.positions.rows() - start.positions.rows()) / part;
@@ -114,12 +115,9 @@ bool ImplicitWorldStep::sdirk2(const World& world, double step, const WorldState
   extrapolate_boxes();
   for (std::size_t i = 0; i < bases_.size(); ++i) {
     const WorldEnergy::Body& body = energy_.bodies()[i];
-    std::vector<double>& lengths = bases_[i].lengths;
-    edge_lengths(body.mesh->topology, own_part(middle_.positions, i), lengths);
-    for (std::size_t e = 0; e < lengths.size(); ++e) {
-      const double before = start_lengths_[i][e];
-      lengths[e] = before + sdirk_extrapolation * (lengths[e] - before);
-    }
+    measure(*body.mesh, world.soft[at(body.soft)].material, own_part(middle_.positions, i),
+            bases_[i].deformation);
+    extrapolate(start_deformations_[i], sdirk_extrapolation, bases_[i].deformation);
   }
   if (!minimise(world, part, extrapolated_, middle_, middle_, step - part)) return false;
   end.positions.rows() = minimiser_.point().positions.rows();

@@ -63,7 +63,7 @@ class ImplicitWorldStep {
   PairFinder finder_;
   std::vector<ContactPair> pairs_;
   std::vector<EulerBase> bases_;
-  std::vector<std::vector<double>> start_lengths_;  // m, per body and edge
+  std::vector<Deformation> start_deformations_;  // per body
   WorldState extrapolated_, middle_;
   VertexArray targets_;
   std::vector<VertexArray> own_;  // positions, per body

@@ -129,11 +129,11 @@ void WorldEnergy::gradient(const WorldPoint& point, VertexArray& gradient) const
 
 void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, ContactHessian form,
                              WorldMatrix& matrix) {
-  if (!body.mesh->hinges || body.energy.bending == 0.0) return;
-  const auto& all = body.mesh->hinges->corners;
+  if (body.energy.bending == 0.0) return;
+  const auto& all = body.energy.hinges.corners;
   for (std::size_t e = 0; e < all.size(); ++e) {
     const HingeHessian block =
-        hinge_hessian(*body.mesh, own.positions, body.energy.bending, static_cast<int>(e));
+        hinge_hessian(body.energy.hinges, own.positions, body.energy.bending, static_cast<int>(e));
     HingeTable::Corners corners = all[e];
     for (int& v : corners) v += body.first_vertex;
     matrix.add_whole(corners, form == ContactHessian::positive ? positive_part(block) : block);

@@ -16,7 +16,8 @@ SoftAcceleration::SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& mat
       gravity_{gravity.x(), gravity.y(), gravity.z(), 0.0},
       inverse_mass_(1.0 / material.vertex_mass),
       k_(material.k),
-      bending_(material.bending),
+      bending_(mesh.hinges ? material.bending : 0.0),
+      bending_damping_(material.bending_damping),
       dashpot_(dashpot_constant(material)),
       drag_(drag_rate(material)),
       gas_(gas_law(material)),
@@ -33,7 +34,13 @@ Accelerations SoftAcceleration::evaluate(const VertexArray& positions,
   }
   const double volume = gather_rings(mesh_.tables, positions, coefficients, forces);
   if (bending_ > 0.0) {
-    add_bending_forces(mesh_, positions, bending_, RingForces::springs(1), forces.rows());
+    constexpr int stride = RingForces::springs(1);
+    if (bending_damping_ > 0.0) {
+      add_damped_bending_forces(*mesh_.hinges, positions, velocities, bending_, bending_damping_,
+                                stride, forces.rows());
+    } else {
+      add_bending_forces(*mesh_.hinges, positions, bending_, stride, forces.rows());
+    }
   }
   if (valence_) {
     for (int v = 0; v < positions.size(); ++v) {

@@ -3,7 +3,7 @@
 //
 //   m dv/dt = sum_springs [k (l - L) + c (v_rel . d)] d  +  w (P - p0) dV/dx  +  m g  -  gamma m v
 //
-// and the forces of hinges (bending.h) where the material resists bending.
+// and the forces of hinges with their dashpots (bending.h) where the material resists bending.
 #pragma once
 
 #include <vector>
@@ -79,6 +79,7 @@ class SoftAcceleration {
   double inverse_mass_;
   double k_;
   double bending_;
+  double bending_damping_;
   double dashpot_;
   double drag_;
   GasLaw gas_;

@@ -14,6 +14,10 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
+bool has_hinge_dashpots(const SoftMesh& mesh, const SoftMaterial& material) {
+  return mesh.hinges && material.bending > 0.0 && material.bending_damping > 0.0;
+}
+
 /// Fraction of the mean rest length: how far from the minimum a vertex may end.
 constexpr double tolerance_fraction = 1e-10;
 /// Fraction of the largest coordinate: what a double can resolve.
@@ -29,18 +33,40 @@ constexpr int max_friction_rounds = 4;
 
 }  // namespace
 
-void edge_lengths(const MeshTopology& topology, const VertexArray& positions,
-                  std::vector<double>& lengths) {
+Deformation::Deformation(const SoftMesh& mesh) : lengths(mesh.rest_lengths.size()) {
+  if (mesh.hinges) hinges.reserve(mesh.rest_lengths.size());
+}
+
+void measure(const SoftMesh& mesh, const SoftMaterial& material, const VertexArray& positions,
+             Deformation& deformation) {
   const auto& x = positions.rows();
-  for (std::size_t e = 0; e < lengths.size(); ++e) {
-    const auto& [a, b] = topology.edges()[e];
-    lengths[e] = (x.col(b) - x.col(a)).norm();
+  for (std::size_t e = 0; e < deformation.lengths.size(); ++e) {
+    const auto& [a, b] = mesh.topology.edges()[e];
+    deformation.lengths[e] = (x.col(b) - x.col(a)).norm();
+  }
+  deformation.hinges.clear();
+  if (has_hinge_dashpots(mesh, material)) {
+    hinge_states(*mesh.hinges, positions, deformation.hinges);
+  }
+}
+
+void extrapolate(const Deformation& from, double factor, Deformation& to) {
+  for (std::size_t e = 0; e < to.lengths.size(); ++e) {
+    to.lengths[e] = from.lengths[e] + factor * (to.lengths[e] - from.lengths[e]);
+  }
+  for (std::size_t e = 0; e < to.hinges.size(); ++e) {
+    const HingeState &a = from.hinges[e], &b = to.hinges[e];
+    const double start = std::atan2(a.angle.sine, a.angle.cosine);
+    const double turned = std::atan2(b.angle.sine * a.angle.cosine - b.angle.cosine * a.angle.sine,
+                                     b.angle.cosine * a.angle.cosine + b.angle.sine * a.angle.sine);
+    const double angle = start + factor * turned;
+    to.hinges[e] = {{std::cos(angle), std::sin(angle)}, a.dashpot_fraction};
   }
 }
 
 EulerBase::EulerBase(const SoftMesh& mesh)
     : state{VertexArray(mesh.topology.vertex_count()), VertexArray(mesh.topology.vertex_count())},
-      lengths(mesh.rest_lengths.size()) {}
+      deformation(mesh) {}
 
 EulerSolver::EulerSolver(const SoftMesh& mesh)
     : mesh_(mesh),
@@ -107,10 +133,16 @@ void set_step_energy(const SoftMesh& mesh, const SoftMaterial& material, const V
   energy.stiffness = material.k + dashpot;
   const double dashpot_fraction = energy.stiffness > 0.0 ? dashpot / energy.stiffness : 0.0;
   for (std::size_t e = 0; e < energy.rest_lengths.size(); ++e) {
-    energy.rest_lengths[e] =
-        (1.0 - dashpot_fraction) * mesh.rest_lengths[e] + dashpot_fraction * base.lengths[e];
+    energy.rest_lengths[e] = (1.0 - dashpot_fraction) * mesh.rest_lengths[e] +
+                             dashpot_fraction * base.deformation.lengths[e];
   }
   energy.bending = material.bending;
+  if (has_hinge_dashpots(mesh, material)) {
+    join_dashpots(*mesh.hinges, base.deformation.hinges, material.bending_damping / beta,
+                  energy.hinges);
+  } else if (mesh.hinges) {
+    energy.hinges = *mesh.hinges;
+  }
   energy.gas = gas_law(material);
 }
 

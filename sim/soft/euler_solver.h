@@ -4,25 +4,38 @@
 
 #include <vector>
 
+#include "sim/soft/bending.h"
 #include "sim/soft/minimise_energy.h"
 #include "sim/soft/soft_state.h"
 #include "sim/world/soft_body.h"
 
 namespace pneuma::sim {
 
+/// That by whose changes the dashpots of springs and hinges act.
+struct Deformation {
+  /// Takes memory.
+  explicit Deformation(const SoftMesh& mesh);
+
+  std::vector<double> lengths;     // m, of the edges
+  std::vector<HingeState> hinges;  // none without dashpots
+};
+
+void measure(const SoftMesh& mesh, const SoftMaterial& material, const VertexArray& positions,
+             Deformation& deformation);
+
+/// Makes of `to` what is `factor` times as far from `from`, with the dashpots that act there.
+void extrapolate(const Deformation& from, double factor, Deformation& to);
+
 /// The state that a step starts from.
 struct EulerBase {
   explicit EulerBase(const SoftMesh& mesh);
 
   SoftState state;
-  std::vector<double> lengths;  // m, of the edges: by whose changes the dashpots act
+  Deformation deformation;
 };
 
-void edge_lengths(const MeshTopology& topology, const VertexArray& positions,
-                  std::vector<double>& lengths);
-
-/// Fills in inertia, target, springs with dashpots, and gas of a step of `beta` seconds from
-/// `base`: all but bounds and friction.
+/// Fills in inertia, target, springs and hinges with dashpots, and gas of a step of `beta` seconds
+/// from `base`: all but bounds and friction.
 void set_step_energy(const SoftMesh& mesh, const SoftMaterial& material, const Vec3& gravity,
                      double beta, const EulerBase& base, IncrementalPotential& energy);
 

@@ -84,7 +84,7 @@ class ImplicitStep {
       s_.start.state.positions[v] = start.positions[v] - centre_;
     }
     s_.start.state.velocities.rows() = start.velocities.rows();
-    edge_lengths(mesh_.topology, s_.start.state.positions, s_.start.lengths);
+    measure(mesh_, material_, s_.start.state.positions, s_.start.deformation);
   }
 
   void take_floor(const SoftState& start) {
@@ -176,11 +176,8 @@ class ImplicitStep {
     ahead.positions.rows() = start.positions.rows() + extrapolation * change;
     ahead.velocities.rows() =
         start.velocities.rows() + extrapolation * (change / part - start.velocities.rows());
-    std::vector<double>& lengths = s_.extrapolated.lengths;
-    edge_lengths(mesh_.topology, s_.middle, lengths);
-    for (std::size_t e = 0; e < lengths.size(); ++e) {
-      lengths[e] = s_.start.lengths[e] + extrapolation * (lengths[e] - s_.start.lengths[e]);
-    }
+    measure(mesh_, material_, s_.middle, s_.extrapolated.deformation);
+    sim::extrapolate(s_.start.deformation, extrapolation, s_.extrapolated.deformation);
   }
 
   /// By the ground, in the solver's last step.

@@ -12,13 +12,14 @@
 // which its length l changes, (l - l0) / h over the step; taken so, and not along the spring's
 // direction at the start, it is a function of the positions alone, dissipates whatever the step,
 // and leaves rigid rotations in peace. With the spring it is again one spring, of stiffness k + c/h
-// and rest length (k L + c/h l0) / (k + c/h).
+// and rest length (k L + c/h l0) / (k + c/h). That of a hinge likewise acts by the angle that it
+// had at the start (join_dashpots in bending.h), with the energy K tau / h (1 - cos(t - t_start)).
 //
 // sdirk2 (Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs, 1977): order 2, and
 // for linear equations the same as TR-BDF2, but made of two implicit Euler steps alone: one of beta
 // = (1 - 1/sqrt 2) h from the start (x0, v0), one of beta from (x0, v0) + (1 + sqrt 2) times what
-// the first one changed. The dashpot's l0 is extrapolated likewise; the errors of first order that
-// the rate (l - l0) / beta makes in either step then cancel over both.
+// the first one changed. The dashpot's l0 and t_start are extrapolated likewise; the errors of
+// first order that the rate (l - l0) / beta makes in either step then cancel over both.
 //
 // Ground (3.1.4): z >= 0 is a bound of the minimisation, and friction (Coulomb) a potential in it
 // with the bound's own forces, so that neither can add energy. Restitution is the last act of a

@@ -62,11 +62,11 @@ Mat3 spring_hessian(const Vec3& edge, double length, double stiffness, double re
   return stiffness * (across * Mat3::Identity() + (1.0 - across) * d * d.transpose());
 }
 
-void add_bending_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
-                         const VertexArray& positions, VertexMatrix& hessian) {
-  for (int e = 0; e < mesh.topology.edge_count(); ++e) {
-    const HingeHessian block = hinge_hessian(mesh, positions, energy.bending, e);
-    const HingeTable::Corners& corners = mesh.hinges->corners[at(e)];
+void add_bending_hessian(const IncrementalPotential& energy, const VertexArray& positions,
+                         VertexMatrix& hessian) {
+  for (int e = 0; e < static_cast<int>(energy.hinges.corners.size()); ++e) {
+    const HingeHessian block = hinge_hessian(energy.hinges, positions, energy.bending, e);
+    const HingeTable::Corners& corners = energy.hinges.corners[at(e)];
     for (int i = 0; i < 4; ++i) {
       hessian.add(corners[at(i)], block.block<3, 3>(3 * i, 3 * i));
       for (int j = i + 1; j < 4; ++j) {
@@ -81,6 +81,7 @@ void add_bending_hessian(const SoftMesh& mesh, const IncrementalPotential& energ
 IncrementalPotential::IncrementalPotential(const SoftMesh& mesh)
     : target(mesh.topology.vertex_count()),
       rest_lengths(mesh.rest_lengths.size()),
+      hinges(mesh.hinges ? *mesh.hinges : HingeTable{}),
       floor(at(mesh.topology.vertex_count())),
       friction_anchor(mesh.topology.vertex_count()),
       anchored(at(mesh.topology.vertex_count())),
@@ -101,7 +102,7 @@ bool evaluate(const SoftMesh& mesh, const IncrementalPotential& energy, EnergyPo
   }
   point.energy = 0.5 * energy.inertia * (x - energy.target.rows()).squaredNorm() +
                  0.5 * energy.stiffness * squares;
-  point.energy += bending_energy(mesh, point.positions, energy.bending);
+  point.energy += bending_energy(energy.hinges, point.positions, energy.bending);
   if (energy.friction) point.energy += friction_energy(energy, point.positions);
   point.magnitude = point.energy;
   point.volume = 1.0;
@@ -134,7 +135,7 @@ void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& ener
     g.col(a) -= pull;
     g.col(b) += pull;
   }
-  add_bending_forces(mesh, point.positions, -energy.bending, 1, gradient);
+  add_bending_forces(energy.hinges, point.positions, -energy.bending, 1, gradient);
   if (energy.friction) add_friction_gradient(energy, point.positions, gradient);
 }
 
@@ -177,9 +178,7 @@ void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& 
     hessian.add(b, of_edge.own);
     hessian.add_between(static_cast<int>(e), of_edge.between);
   }
-  if (mesh.hinges && energy.bending > 0.0) {
-    add_bending_hessian(mesh, energy, point.positions, hessian);
-  }
+  if (energy.bending > 0.0) add_bending_hessian(energy, point.positions, hessian);
   if (energy.friction) add_friction_hessian(energy, point.positions, hessian);
 }
 

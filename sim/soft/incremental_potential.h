@@ -3,7 +3,8 @@
 //   E(x) = A/2 |x - y|^2  +  s/2 sum over springs (l - r)^2  +  hinges(x)  +  gas(V)  + friction(x)
 //
 // y is where the vertices would be without springs and gas, A their inertia, and s, r the stiffness
-// and rest lengths of springs and dashpots together (implicit_step.h says which). gas(V) is that of
+// and rest lengths of springs and dashpots together (implicit_step.h says which), likewise those of
+// the hinges. gas(V) is that of
 // gas_law.h, -nRT ln V unless chosen otherwise. E grows without bound as V -> 0 and as |x| ->
 // infinity, so that it has a minimum with V > 0. Where there is a ground, x is to stay above it,
 // and some vertices at their friction anchors. Pinned vertices are at y, which is where they are to
@@ -28,6 +29,7 @@ struct IncrementalPotential {
   double stiffness = 0.0;            // s, N/m
   std::vector<double> rest_lengths;  // r, m, per edge
   double bending = 0.0;              // N m, of the hinges
+  HingeTable hinges;                 // of springs and dashpots together; none if the mesh has none
   GasLaw gas;                        // of no strength: V may be anything
 
   const std::uint8_t* is_pinned = nullptr;  // per vertex: it is at its target; null: none is

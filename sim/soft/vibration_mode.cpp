@@ -59,6 +59,7 @@ VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
     : mesh_(mesh),
       stiffness_(material.k / material.vertex_mass),
       dashpot_(dashpot_constant(material) / material.vertex_mass),
+      bending_damping_(material.bending_damping),
       drag_(drag_rate(material)),
       pressure_(0.0),
       rank_one_(0.0),
@@ -75,7 +76,7 @@ VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
   if (mesh.hinges && material.bending > 0.0) {
     const double rigidity = material.bending / material.vertex_mass;
     for (int e = 0; e < mesh.topology.edge_count(); ++e) {
-      hinges_.push_back(hinge_stiffness_root(mesh, positions, rigidity, e));
+      hinges_.push_back(hinge_stiffness_root(*mesh.hinges, positions, rigidity, e));
     }
   }
   if (gas_strength(material) == 0.0) return;
@@ -101,7 +102,9 @@ void VibrationMode::add_springs(const VectorXd& u, double weight, VectorXd& resu
   }
 }
 
-void VibrationMode::add_hinges(const VectorXd& u, VectorXd& result) const {
+/// Hinges, and `weight` times their dashpots.
+void VibrationMode::add_hinges(const VectorXd& u, double weight, VectorXd& result) const {
+  const double factor = 1.0 + weight * bending_damping_;
   for (std::size_t e = 0; e < hinges_.size(); ++e) {
     const HingeTable::Corners& corners = mesh_.hinges->corners[e];
     double bent = 0.0;
@@ -109,7 +112,7 @@ void VibrationMode::add_hinges(const VectorXd& u, VectorXd& result) const {
       bent += hinges_[e].segment<3>(3 * i).dot(u.segment<3>(3 * corners[at(i)]));
     }
     for (int i = 0; i < 4; ++i) {
-      result.segment<3>(3 * corners[at(i)]) += bent * hinges_[e].segment<3>(3 * i);
+      result.segment<3>(3 * corners[at(i)]) += factor * bent * hinges_[e].segment<3>(3 * i);
     }
   }
 }
@@ -134,7 +137,7 @@ VectorXd VibrationMode::fastest(double weight) const {
   return max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
     VectorXd result = weight * drag_ * u;
     add_springs(u, weight, result);
-    add_hinges(u, result);
+    add_hinges(u, weight, result);
     add_gas(u, result);
     return result;
   });
@@ -144,8 +147,10 @@ Oscillation VibrationMode::along(const VectorXd& u) const {
   VectorXd stiff = VectorXd::Zero(u.size()), both = VectorXd::Zero(u.size());
   add_springs(u, 0.0, stiff);
   add_springs(u, 1.0, both);
-  const double damped = u.dot(both - stiff) + drag_;
-  add_hinges(u, stiff);
+  double damped = u.dot(both - stiff) + drag_;
+  const double of_springs = u.dot(stiff);
+  add_hinges(u, 0.0, stiff);
+  damped += bending_damping_ * (u.dot(stiff) - of_springs);
   add_gas(u, stiff);
   return {std::max(0.0, u.dot(stiff)), damped};
 }

@@ -1,6 +1,8 @@
 // Vibration modes: small motions of a body about a state of rest:
 //
 //   u'' = -K u - D u',    m K = d^2E/dx^2 of springs, hinges and gas,    m D = dashpots and drag.
+//
+// Dashpots of hinges act in full (bending.h: f = 1), as in triangles that keep their area.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,12 +31,13 @@ class VibrationMode {
 
  private:
   void add_springs(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
-  void add_hinges(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;
+  void add_hinges(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
   void add_gas(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;
 
   const SoftMesh& mesh_;
   double stiffness_;              // k / m, 1/s^2
   double dashpot_;                // c / m, 1/s
+  double bending_damping_;        // s
   double drag_;                   // 1/s
   double pressure_;               // (P - p0) / m, 1/(m s^2)
   double rank_one_;               // g P / (V m), 1/(m^4 s^2)

@@ -24,7 +24,7 @@ inline void use_paper_method(Settings& settings) {
 inline void use_paper_method(SoftMaterial& material) {
   material.gas_exponent = 1.0;
   material.ambient_pressure = 0.0;
-  material.bending = 0.0;
+  material.bending = material.bending_damping = 0.0;
   material.pressure_weighting = PressureWeighting::valence;
   material.damping = Damping::literal;
 }

@@ -39,6 +39,7 @@ struct SoftMaterial {
   double ambient_pressure = 0.0;  // Pa, outside of a body with gas
   double vertex_mass = 0.35;      // kg, > 0
   double bending = 0.0;           // N m, >= 0: rigidity of the surface; needs SoftMesh::hinges
+  double bending_damping = 0.0;   // s, >= 0: relaxation time of the hinges (sim/soft/bending.h)
   PressureWeighting pressure_weighting = PressureWeighting::uniform;
   Damping damping = Damping::dashpot;
   // Fraction of the velocity lost, 0 <= rho_g < 1: per 1/60 s under `dashpot`, and per step,

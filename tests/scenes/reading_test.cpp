@@ -225,7 +225,7 @@ std::vector<std::string> keys_at_default(const Section& section, const Section& 
 // So that a new key is also tested above. The keys named here exclude others, which are set there;
 // KeysOfTheOtherShapesSetTheirMembers sets them, method_test.cpp the method, gas_keys_test.cpp the
 // gas, joint_keys_test.cpp gas that flows and the skin, camera_keys_test.cpp moving cameras;
-// bending is but a number.
+// bending_keys_test.cpp bending.
 TEST(Reading, NoKeyIsLeftOutAbove) {
   Scene scene = parse_scene(every_key, "all.toml"), defaults;
   const std::vector<Section> sections = fixed_sections(scene);

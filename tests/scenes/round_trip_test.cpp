@@ -128,6 +128,7 @@ void make_supply_consistent(const Scene& scene, BodyScene& body) {
   if (!is_soft) {
     body.density.reset();
     body.stiffness.reset();
+    body.material.bending = 0.0;
   }
   if (!is_soft || sim::is_as_printed(scene.settings)) {
     body.supply_n.clear();

@@ -50,7 +50,7 @@ void compare(Comparison& c, const sim::ContactMaterial& a, const sim::ContactMat
 
 void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial& b) {
   const auto& [k, n, temperature, gas_exponent, start_volume, ambient_pressure, vertex_mass,
-               bending, pressure_weighting, damping, rho_g, k_max, surface] = a;
+               bending, bending_damping, pressure_weighting, damping, rho_g, k_max, surface] = a;
   c.member("k", k, b.k);
   c.member("n", n, b.n);
   c.member("temperature", temperature, b.temperature);
@@ -63,6 +63,7 @@ void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial&
   c.member("rho_g", rho_g, b.rho_g);
   c.member("k_max", k_max, b.k_max);
   c.member("bending", bending, b.bending);
+  c.member("bending_damping", bending_damping, b.bending_damping);
   compare(c, surface, b.surface);
 }
 

@@ -39,7 +39,8 @@ struct StepEnergy {
     for (const WorldEnergy::Body& body : energy.bodies()) {
       EulerBase& base = bases.emplace_back(*body.mesh);
       base.state = {world.soft[at(body.soft)].positions, world.soft[at(body.soft)].velocities};
-      edge_lengths(body.mesh->topology, base.state.positions, base.lengths);
+      measure(*body.mesh, world.soft[at(body.soft)].material, base.state.positions,
+              base.deformation);
     }
     std::vector<RigidState> boxes;
     for (std::size_t i = 0; i < energy.boxes().size(); ++i) {

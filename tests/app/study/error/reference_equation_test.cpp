@@ -83,14 +83,23 @@ TEST(ReferenceEquation, IsTheSimulationsWithBending) {
   // Angles by an arc function, against the distance of unit normals: some ten roundings more.
   EXPECT_LT(difference_from_simulation(body), 10.0 * rounding);
   EXPECT_LT(without, rounding);
+  for (const double damping : {0.01, 1.0}) {
+    body.material.bending_damping = damping;
+    EXPECT_LT(difference_from_simulation(body), 10.0 * rounding) << damping;
+  }
   sim::AccelerationScratch scratch(*body.mesh);
   sim::VertexArray with(body.positions.size()), none(body.positions.size());
+  sim::VertexArray damped(body.positions.size());
+  sim::SoftAcceleration(*body.mesh, body.material, gravity, scratch)(body.positions,
+                                                                     body.velocities, damped);
+  body.material.bending_damping = 0.0;
   sim::SoftAcceleration(*body.mesh, body.material, gravity, scratch)(body.positions,
                                                                      body.velocities, with);
   body.material.bending = 0.0;
   sim::SoftAcceleration(*body.mesh, body.material, gravity, scratch)(body.positions,
                                                                      body.velocities, none);
   EXPECT_GT((with.rows() - none.rows()).norm(), 0.1 * none.rows().norm());
+  EXPECT_GT((damped.rows() - with.rows()).norm(), 0.1 * none.rows().norm());
 }
 
 TEST(ReferenceEquation, IsTheGradientOfTheEnergiesWhereNothingIsLost) {
