@@ -47,8 +47,6 @@ constexpr double duration = 20.0, short_duration = 10.0;
 constexpr double safe_fraction = 0.7;
 /// A step of it is as long as one of velocity_verlet, and takes half the time.
 constexpr sim::Integrator integrator = sim::Integrator::symplectic_euler;
-/// Of a step: hinges out of rest for a moment come to rest at once, and the step stays as it is.
-constexpr double relaxation_steps = 0.25;
 constexpr int frames_per_second = 30;
 constexpr int least_steps_per_second = 240;
 /// Beyond these, implicit steps are quicker.
@@ -142,8 +140,6 @@ void choose_step(Choice& choice) {
       choice.implicit
           ? implicit_steps_per_second
           : std::max(least_steps_per_second, frames_per_second * static_cast<int>(frames));
-  if (choice.body.material.bending > 0.0)
-    choice.body.material.bending_damping = relaxation_steps / choice.steps_per_second;
 }
 
 Choice choose(const sim::TriangleMesh& mesh) {
@@ -171,10 +167,8 @@ std::string repairs_text(const std::vector<std::string>& repaired) {
 
 std::string bending_text(const sim::SoftMaterial& material) {
   if (material.bending == 0.0) return "";
-  return fmt::format(
-      "bending = {:.4g}  # N m: springs alone hold neither flat nor concave faces\n"
-      "bending_damping = {:.4g}  # s: without it thin triangles would never rest\n",
-      material.bending, material.bending_damping);
+  return fmt::format("bending = {:.4g}  # N m: springs alone hold neither flat nor concave faces\n",
+                     material.bending);
 }
 
 /// The keys that say how the file is read.
