@@ -32,8 +32,8 @@ class SweptSolver {
   /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`,
   /// in the unit of what they aim at, or 50 times, by Gauss-Seidel iterations. Where a box is on a
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
-  /// if that can help. Patches without a contact from `first_new` on stay as they are: what happens
-  /// elsewhere does not reach them.
+  /// if that can help. Patches without a contact from `first_new` on stay as they are: what springs
+  /// bring to them from other patches of their bodies, when the step is done once more, is left.
   void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance, std::size_t first_new = 0);
   /// The same for one of the islands that the last call has found.

@@ -207,19 +207,26 @@ double greatest_change(const MovingSurface& first, const MovingSurface& second,
 
 bool are_apart(const MovingSurface& first, const MovingSurface& second, const NearFeatures& pair,
                double distance) {
+  constexpr double least_sine_squared = 1e-12;  // below, rounding decides where the plane lies
   const VertexReader a(first.start), b(second.start);
   const auto one = first.tree->topology().feature_vertices(pair.first);
   const auto other = second.tree->topology().feature_vertices(pair.second);
-  Vec4d across;
+  Vec4d along, aside;
   if (pair.first.kind == FeatureKind::edge) {
-    across = cross(a[one[1]] - a[one[0]], b[other[1]] - b[other[0]]);
+    along = a[one[1]] - a[one[0]];
+    aside = b[other[1]] - b[other[0]];
   } else if (pair.first.kind == FeatureKind::triangle) {
-    across = cross(a[one[1]] - a[one[0]], a[one[2]] - a[one[0]]);
+    along = a[one[1]] - a[one[0]];
+    aside = a[one[2]] - a[one[0]];
   } else {
-    across = cross(b[other[1]] - b[other[0]], b[other[2]] - b[other[0]]);
+    along = b[other[1]] - b[other[0]];
+    aside = b[other[2]] - b[other[0]];
   }
+  const Vec4d across = cross(along, aside);
+  const double squared = dot(across, across);
+  if (!(squared > least_sine_squared * dot(along, along) * dot(aside, aside))) return false;
   const double height = dot(across, a[one[0]] - b[other[0]]);
-  return height * height >= distance * distance * dot(across, across);
+  return height * height > distance * distance * squared;
 }
 
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,

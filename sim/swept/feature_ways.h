@@ -23,8 +23,8 @@ double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair);
 
 /// Whether a plane between the features, across the triangle or along both edges, shows that they
-/// are `distance` (m) apart at the start, or more. Says so of most pairs in a tenth of the time
-/// that closest_points takes.
+/// are more than `distance` (m) apart at the start. Says so of most pairs in a tenth of the time
+/// that closest_points takes, and never of parallel edges or of a triangle without area.
 bool are_apart(const MovingSurface& first, const MovingSurface& second, const NearFeatures& pair,
                double distance);
 

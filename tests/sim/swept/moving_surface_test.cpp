@@ -52,6 +52,43 @@ Bounds way_of(const MovingSurface& surface, const Feature& feature) {
   return way;
 }
 
+/// What a plane says is apart lies apart: of boxes side by side, whose edges are parallel, and of
+/// the same shaken a little or a lot.
+TEST(AreApart, IsTrueOnlyOfWhatIsThatFarApart) {
+  const auto mesh = make_soft_mesh(make_box({1.0, 1.0, 1.0}, 2));
+  const MeshTopology& of_box = mesh->topology;
+  std::mt19937 random(4);
+  int told = 0, near = 0;
+  for (const double by : {0.0, 1e-14, 1e-9, 1e-3, 0.3}) {
+    MovingSurface a = make_surface(*mesh, Vec3::Zero());
+    MovingSurface b = make_surface(*mesh, {0.25, 1.01, 0.0});
+    move(a, by, random);
+    move(b, by, random);
+    a.start = a.end;
+    b.start = b.end;
+    const auto look = [&](FeatureKind first, int first_count, FeatureKind second, int count) {
+      for (int i = 0; i < first_count; ++i) {
+        for (int j = 0; j < count; ++j) {
+          const NearFeatures pair{{first, i}, {second, j}};
+          for (const double distance : {0.001, 0.05, 0.5}) {
+            const bool is_near =
+                closest_points(a, b, pair, Moment::start, distance * (1.0 - 1e-9)).has_value();
+            const bool is_apart = are_apart(a, b, pair, distance);
+            EXPECT_FALSE(is_near && is_apart) << by << ' ' << i << ' ' << j << ' ' << distance;
+            told += is_apart ? 1 : 0;
+            near += is_near ? 1 : 0;
+          }
+        }
+      }
+    };
+    look(FeatureKind::vertex, of_box.vertex_count(), FeatureKind::triangle,
+         of_box.triangle_count());
+    look(FeatureKind::edge, of_box.edge_count(), FeatureKind::edge, of_box.edge_count());
+  }
+  EXPECT_GT(told, 10'000);
+  EXPECT_GT(near, 100);
+}
+
 /// Every pair of features whose ways' boxes are less than `margin` apart along each axis.
 std::set<Named> all_near(const MovingSurface& a, const MovingSurface& b, double margin) {
   std::set<Named> result;
