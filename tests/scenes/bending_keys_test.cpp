@@ -3,6 +3,7 @@
 
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "tests/scenes/refusal.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -12,17 +13,9 @@ Scene load(const std::string& body, const std::vector<std::string>& overrides = 
   return parse_scene("[[body]]\n" + body, "x.toml", overrides);
 }
 
-std::string refusal(const std::string& body, const std::vector<std::string>& overrides = {}) {
-  try {
-    load(body, overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-void expect_in(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
+std::string refusal_of_body(const std::string& body,
+                            const std::vector<std::string>& overrides = {}) {
+  return refusal("[[body]]\n" + body, overrides);
 }
 
 const std::string both = "bending_damping = 0.001\nbending = 2.5\n";
@@ -37,20 +30,23 @@ TEST(BendingKeys, SetTheirMembersAndReadBack) {
 }
 
 TEST(BendingKeys, DampingNeedsBending) {
-  expect_in(refusal("bending_damping = 0.001\n"), {"x.toml:2:1", "soft bodies with bending"});
-  expect_in(refusal("bending = 0\nbending_damping = 0.001\n"), {"soft bodies with bending"});
+  expect_in(refusal_of_body("bending_damping = 0.001\n"),
+            {"x.toml:2:1", "soft bodies with bending"});
+  expect_in(refusal_of_body("bending = 0\nbending_damping = 0.001\n"),
+            {"soft bodies with bending"});
   // An override takes the file's back.
   EXPECT_EQ(load(both, {"body.bending=0"}).bodies[0].material.bending, 0.0);
 }
 
 TEST(BendingKeys, SayWhatIsAllowed) {
-  expect_in(refusal("bending = -1\n"), {"bending >= 0"});
-  expect_in(refusal("bending = 1\nbending_damping = -1\n"), {"x.toml:3", "bending_damping >= 0"});
-  expect_in(refusal("kind = \"rigid\"\nbending = 1\n"), {"soft bodies"});
+  expect_in(refusal_of_body("bending = -1\n"), {"bending >= 0"});
+  expect_in(refusal_of_body("bending = 1\nbending_damping = -1\n"),
+            {"x.toml:3", "bending_damping >= 0"});
+  expect_in(refusal_of_body("kind = \"rigid\"\nbending = 1\n"), {"soft bodies"});
 }
 
 TEST(BendingKeys, ThePapersMethodHasNone) {
-  expect_in(refusal("", {"simulation.method=paper", "body.bending=1"}), {"method"});
+  expect_in(refusal_of_body("", {"simulation.method=paper", "body.bending=1"}), {"method"});
   const Scene scene = load(both, {"simulation.method=paper"});
   EXPECT_EQ(scene.bodies[0].material.bending, 0.0);
   EXPECT_EQ(scene.bodies[0].material.bending_damping, 0.0);

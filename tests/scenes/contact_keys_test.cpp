@@ -3,21 +3,13 @@
 
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "tests/scenes/refusal.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
 namespace {
 
 using Overrides = std::vector<std::string>;
-
-std::string refusal(const std::string& text, const Overrides& overrides = {}) {
-  try {
-    parse_scene(text, "x.toml", overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 const std::vector<std::string> of_impulses = {"simulation.soft_search=\"exact\"",
                                               "simulation.relaxation_time=0.2",

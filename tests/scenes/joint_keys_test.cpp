@@ -1,30 +1,15 @@
 // Gas that comes and goes, valves, springs between bodies, and skins of a density and a stiffness.
 #include <gtest/gtest.h>
 
-#include <initializer_list>
-
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "tests/scenes/refusal.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
 namespace {
 
 const std::string two_bodies = "[[body]]\nname = \"a\"\n[[body]]\nname = \"b\"\n";
-
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse_scene(text, "x.toml", overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-void expect_in(const std::string& text, std::initializer_list<const char*> parts) {
-  EXPECT_NE(text, "");
-  for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
-}
 
 void expect_round_trip(const Scene& scene) {
   const Scene again = parse_scene(print_scene(scene), scene.name + ".toml");

@@ -1,21 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "scenes/loader/load_scene.h"
+#include "tests/scenes/refusal.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::scenes {
 namespace {
 
 using Strings = std::vector<std::string>;
-
-std::string refusal(const std::string& text, const Strings& overrides = {}) {
-  try {
-    parse_scene(text, "x.toml", overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return {};
-}
 
 /// Refused as it stands, accepted when [limits] is raised.
 void expect_limit(const std::string& top, const std::string& body, const std::string& words,

@@ -5,6 +5,7 @@
 #include "scenes/loader/print_scene.h"
 #include "scenes/loader/sections.h"
 #include "sim/world/paper_method.h"
+#include "tests/scenes/refusal.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -23,15 +24,6 @@ damping = "dashpot"
 
 Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_scene(text, "x.toml", overrides);
-}
-
-std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    load(text, overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 void expect_the_papers(const Scene& scene) {
