@@ -12,20 +12,12 @@
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/rotation.h"
 #include "sim/soft/incremental_potential.h"
-#include "tests/support/worlds.h"
+#include "tests/sim/bending/bent_body.h"
 
 namespace pneuma::sim {
 namespace {
 
-constexpr double rigidity = 7.0;  // N m
-
-/// With hinges at rest in its shape, and moved out of it at random.
-SoftBody bent(const TriangleMesh& mesh, double amount) {
-  SoftBody body = make_body(mesh, {1.0, -2.0, 3.0});
-  body.mesh = with_hinges(*body.mesh);
-  perturb(body, amount, 5);
-  return body;
-}
+SoftBody bent(const TriangleMesh& mesh, double amount) { return bent(mesh, amount, 5); }
 
 /// Four triangles: the vertices across each edge are joined by an edge themselves.
 TriangleMesh tetrahedron() {
@@ -63,34 +55,29 @@ TEST(Bending, NothingBendsAShapeAtRestWhereverItIsAndWhateverItsSize) {
   EXPECT_LT(energy(), 1e-12);
 }
 
-TEST(Bending, ForcesAreTheSlopeOfTheEnergy) {
+void expect_forces_to_be_the_slope_of_the_energy(const SoftBody& body) {
   const double h = 1e-6;  // truncation h^2 E''' and rounding 1e-16 E / h are near 1e-9 of a force
-  for (const SoftBody& body : bent_bodies()) {
-    const VertexArray force = forces(body);
-    ASSERT_GT(force.rows().norm(), 1.0);
-    const auto energy = [](const SoftBody& b) {
-      return bending_energy(*b.mesh, b.positions, rigidity);
-    };
-    for (int v = 0; v < force.size(); ++v) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double slope =
-            (moved(body, v, axis, h, energy) - moved(body, v, axis, -h, energy)) / (2.0 * h);
-        EXPECT_NEAR(-slope, force[v][axis], 1e-6 * force.rows().norm());
-      }
+  const VertexArray force = forces(body);
+  ASSERT_GT(force.rows().norm(), 1.0);
+  const auto energy = [](const SoftBody& b) {
+    return bending_energy(*b.mesh, b.positions, rigidity);
+  };
+  for (int v = 0; v < force.size(); ++v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double slope =
+          (moved(body, v, axis, h, energy) - moved(body, v, axis, -h, energy)) / (2.0 * h);
+      EXPECT_NEAR(-slope, force[v][axis], 1e-6 * force.rows().norm());
     }
   }
 }
 
+TEST(Bending, ForcesAreTheSlopeOfTheEnergy) {
+  for (const SoftBody& body : bent_bodies()) expect_forces_to_be_the_slope_of_the_energy(body);
+}
+
 TEST(Bending, ForcesPushAndTurnNothingAsAWhole) {
   for (const SoftBody& body : bent_bodies()) {
-    const VertexArray force = forces(body);
-    Vec3 net = Vec3::Zero(), torque = Vec3::Zero();
-    for (int v = 0; v < force.size(); ++v) {
-      net += force[v];
-      torque += Vec3(body.positions[v]).cross(Vec3(force[v]));
-    }
-    EXPECT_LT(net.norm(), 1e-12 * force.rows().norm());
-    EXPECT_LT(torque.norm(), 1e-11 * force.rows().norm());  // arms of some metres
+    expect_to_push_and_turn_nothing_as_a_whole(forces(body), body);
   }
 }
 
@@ -104,19 +91,9 @@ std::vector<SoftBody> crushed_bodies() {
 }
 
 TEST(Bending, ForcesOfCrushedBodiesAreTheSlopeOfTheEnergy) {
-  const double h = 1e-6;
   for (const SoftBody& body : crushed_bodies()) {
-    const VertexArray force = forces(body);
-    const auto energy = [](const SoftBody& b) {
-      return bending_energy(*b.mesh, b.positions, rigidity);
-    };
-    for (int v = 0; v < force.size(); ++v) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const double slope =
-            (moved(body, v, axis, h, energy) - moved(body, v, axis, -h, energy)) / (2.0 * h);
-        EXPECT_NEAR(-slope, force[v][axis], 1e-6 * force.rows().norm());
-      }
-    }
+    expect_forces_to_be_the_slope_of_the_energy(body);
+    expect_to_push_and_turn_nothing_as_a_whole(forces(body), body);
   }
 }
 
