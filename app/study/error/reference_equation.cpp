@@ -111,60 +111,78 @@ Weight weight_of(const sim::Vec3& n, double area_at_rest) {
           15.0 / 8.0 * std::pow(1.0 - a * a, 2) / (0.8 * area_at_rest)};
 }
 
-/// K (1 - s1 s2 cos(t - t0)) of every hinge, t being the angle between its triangles: its
-/// derivative by t is their torque about the edge, which acts on the vertices across it with the
-/// lever of their height, and on the edge's ends with what balances both in force and torque
-/// (Bridson et al., Simulation of clothing with folds and wrinkles, 2003, with E turned around).
-/// Damping adds K tau dt/dt, less of it from 0.9 down to 0.8 of a triangle's area at rest. Its
-/// derivative by the areas acts on each corner along the height from the edge across it, by half of
-/// that edge.
-void add_hinges(const sim::SoftBody& body, const Part& part) {
-  if (body.material.bending == 0.0) return;
-  const sim::HingeTable& hinges = *body.mesh->hinges;
-  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
-    const auto& corners = hinges.corners[e];
-    const auto point = [&](std::size_t i) {
-      return sim::Vec3(part.x + 3 * static_cast<std::size_t>(corners[i]));
-    };
-    const sim::Vec3 x3 = point(0), x4 = point(1), x1 = point(2), x2 = point(3);
+/// A hinge as it is: t, the angle between its triangles; their normals, as long as twice their
+/// areas; and how the vertices move as t falls.
+struct Hinge {
+  Hinge(const sim::HingeTable::Corners& hinge, const Part& part) : corners(hinge) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      points[i] = sim::Vec3(part.x + 3 * static_cast<std::size_t>(corners[i]));
+    }
+    const auto& [x3, x4, x1, x2] = points;
     const sim::Vec3 along = x4 - x3;
-    const sim::Vec3 n1 = (x1 - x3).cross(x1 - x4), n2 = (x2 - x4).cross(x2 - x3);
+    n1 = (x1 - x3).cross(x1 - x4);
+    n2 = (x2 - x4).cross(x2 - x3);
     const double length = along.norm();
-    const double angle = std::atan2(n1.cross(n2).dot(along) / length, n1.dot(n2));
-    const double rest = std::atan2(hinges.rest[e].sine, hinges.rest[e].cosine);
+    angle = std::atan2(n1.cross(n2).dot(along) / length, n1.dot(n2));
     const sim::Vec3 u1 = length / n1.squaredNorm() * n1, u2 = length / n2.squaredNorm() * n2;
     const double s1 = (x1 - x4).dot(along) / (length * length);
     const double s2 = (x2 - x4).dot(along) / (length * length);
     const double r1 = (x1 - x3).dot(along) / (length * length);
     const double r2 = (x2 - x3).dot(along) / (length * length);
-    const std::array<sim::Vec3, 4> along_vertices = {s1 * u1 + s2 * u2, -r1 * u1 - r2 * u2, u1, u2};
-    double rate = 0.0;  // of t, which grows against these
+    falls = {s1 * u1 + s2 * u2, -r1 * u1 - r2 * u2, u1, u2};
+  }
+
+  /// dt/dt, rad/s.
+  double rate(const Part& part) const {
+    double sum = 0.0;
     for (std::size_t i = 0; i < 4; ++i) {
-      rate -= along_vertices[i].dot(sim::Vec3(part.v + 3 * static_cast<std::size_t>(corners[i])));
+      sum -= falls[i].dot(sim::Vec3(part.v + 3 * static_cast<std::size_t>(corners[i])));
     }
-    const double left = 0.5 * std::min(n1.norm() / hinges.areas[e][0],
-                                       n2.norm() / hinges.areas[e][1]);  // n: twice the area
+    return sum;
+  }
+  void add(std::size_t corner, const sim::Vec3& acceleration, const Part& part) const {
+    for (int c = 0; c < 3; ++c) part.a[3 * corners[corner] + c] += acceleration[c];
+  }
+  /// Draws the triangle of these corners, in their turn about the normal `n`, larger: each corner
+  /// along the height from the edge across it, by half of that edge.
+  void enlarge(double strength, const sim::Vec3& n, const std::array<std::size_t, 3>& turn,
+               const Part& part) const {
+    for (std::size_t i = 0; i < 3 && strength != 0.0; ++i) {
+      const sim::Vec3 across = points[turn[(i + 2) % 3]] - points[turn[(i + 1) % 3]];
+      add(turn[i], 0.5 * strength * n.normalized().cross(across), part);
+    }
+  }
+
+  const sim::HingeTable::Corners& corners;
+  std::array<sim::Vec3, 4> points;
+  sim::Vec3 n1, n2;
+  double angle;
+  std::array<sim::Vec3, 4> falls;
+};
+
+/// K (1 - s1 s2 cos(t - t0)) of every hinge: its derivative by t is the torque about the edge,
+/// which acts on the vertices across it with the lever of their height, and on the edge's ends with
+/// what balances both in force and torque (Bridson et al., Simulation of clothing with folds and
+/// wrinkles, 2003, with E turned around). Damping adds K tau dt/dt, less of it from 0.9 down to 0.8
+/// of a triangle's area at rest. Its derivatives by the areas draw the triangles larger.
+void add_hinges(const sim::SoftBody& body, const Part& part) {
+  if (body.material.bending == 0.0) return;
+  const sim::HingeTable& hinges = *body.mesh->hinges;
+  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
+    const Hinge hinge(hinges.corners[e], part);
+    const auto& [first_area, second_area] = hinges.areas[e];
+    const double bent = hinge.angle - std::atan2(hinges.rest[e].sine, hinges.rest[e].cosine);
+    const double left = 0.5 * std::min(hinge.n1.norm() / first_area, hinge.n2.norm() / second_area);
     const double damping =
         body.material.bending_damping * std::min(1.0, std::max(0.0, 10.0 * left - 8.0));
     const double scale = body.material.bending * hinges.weights[e] / body.material.vertex_mass;
-    const Weight w1 = weight_of(n1, hinges.areas[e][0]), w2 = weight_of(n2, hinges.areas[e][1]);
-    const double torque = scale * (w1.value * w2.value * std::sin(angle - rest) + damping * rate);
-    const auto add_area = [&](double strength, const sim::Vec3& n,
-                              const std::array<std::size_t, 3>& turn) {
-      for (std::size_t i = 0; i < 3 && strength != 0.0; ++i) {
-        const sim::Vec3 across = point(turn[(i + 2) % 3]) - point(turn[(i + 1) % 3]);
-        const sim::Vec3 outwards = 0.5 * n.normalized().cross(across);
-        for (int c = 0; c < 3; ++c) part.a[3 * corners[turn[i]] + c] += strength * outwards[c];
-      }
-    };
-    const double drawn = scale * std::cos(angle - rest);
-    add_area(drawn * w2.value * w1.slope, n1, {0, 1, 2});
-    add_area(drawn * w1.value * w2.slope, n2, {1, 0, 3});
-    for (std::size_t i = 0; i < 4; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        part.a[3 * corners[i] + c] += torque * along_vertices[i][c];
-      }
-    }
+    const Weight w1 = weight_of(hinge.n1, first_area), w2 = weight_of(hinge.n2, second_area);
+    const double torque =
+        scale * (w1.value * w2.value * std::sin(bent) + damping * hinge.rate(part));
+    for (std::size_t i = 0; i < 4; ++i) hinge.add(i, torque * hinge.falls[i], part);
+    const double drawn = scale * std::cos(bent);
+    hinge.enlarge(drawn * w2.value * w1.slope, hinge.n1, {0, 1, 2}, part);
+    hinge.enlarge(drawn * w1.value * w2.slope, hinge.n2, {1, 0, 3}, part);
   }
 }
 
