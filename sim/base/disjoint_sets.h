@@ -15,6 +15,8 @@ class DisjointSets {
 
   /// Each number is a set of its own.
   void reset() { std::iota(parents_.begin(), parents_.end(), 0); }
+  /// So is this one, if that is done to all of its set.
+  void reset(int member) { parent(member) = member; }
   std::size_t size() const { return parents_.size(); }
   /// The smallest member of the set that a number is in.
   int find(int member) {

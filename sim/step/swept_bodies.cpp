@@ -41,18 +41,28 @@ double greatest_distance(const VertexArray& one, const VertexArray& other) {
   return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
 }
 
-/// m, by which impulses may move the ends of ways before all is searched again: half of the longest
-/// way, or all by which a vertex leaves the line that it started along, since of a body at rest
-/// contacts take that back.
-double allowed_change(const SoftState& start, const VertexArray& end, double step) {
+/// What the vertices of a soft body do from the start of a step to its end.
+struct SoftWay {
+  WayBox box;
+  /// m, by which impulses may move the ends before all is searched again: half of the longest way,
+  /// or all by which a vertex leaves the line that it started along, since of a body at rest
+  /// contacts take that back.
+  double allowed_change = 0.0;
+};
+
+SoftWay way_of(const SoftState& start, const VertexArray& end, double step) {
   const VertexReader from(start.positions), velocity(start.velocities), to(end);
+  SoftWay result;
   double way = 0.0, off_line = 0.0;  // squared
   for (int v = 0; v < end.size(); ++v) {
-    const Vec4d moved = to[v] - from[v], bent = moved - step * velocity[v];
+    const Vec4d before = from[v], after = to[v];
+    const Vec4d moved = after - before, bent = moved - step * velocity[v];
+    result.box.include({min(before, after), max(before, after)});
     way = std::max(way, dot(moved, moved));
     off_line = std::max(off_line, dot(bent, bent));
   }
-  return std::max(allowed_of_way * std::sqrt(way), std::sqrt(off_line));
+  result.allowed_change = std::max(allowed_of_way * std::sqrt(way), std::sqrt(off_line));
+  return result;
 }
 
 }  // namespace
@@ -167,13 +177,10 @@ void SweptBodies::begin(const World& world, const MotionOf& motion) {
 }
 
 Bounds SweptBodies::bounds_of_way(const World& world, const MotionStart& start, int soft) const {
-  const VertexArray& from = start.soft[at(soft)].positions;
-  const VertexArray& to = world.soft[at(soft)].positions;
-  Bounds way = bounds(from);
-  way.include(bounds(to));
-  const double margin = allowed_change(start.soft[at(soft)], to, time_step(world.settings)) +
-                        (1.0 + skins_around) * skin(soft);
-  return {way.low - Vec3::Constant(margin), way.high + Vec3::Constant(margin)};
+  const SoftWay way =
+      way_of(start.soft[at(soft)], world.soft[at(soft)].positions, time_step(world.settings));
+  const double margin = way.allowed_change + (1.0 + skins_around) * skin(soft);
+  return {to_vec3(way.box.low - margin), to_vec3(way.box.high + margin)};
 }
 
 void SweptBodies::follow(const World& world, const MotionStart& start, int soft) {
@@ -188,9 +195,11 @@ void SweptBodies::follow(const World& world, const MotionStart& start, int soft)
 Bounds SweptBodies::refit_way(const World& world, const MotionStart& start, int body) {
   if (is_searched_[at(body)] == 0 || !is_within_allowance(body)) {
     const MovingSurface& moving = surface(body);
-    refit_anew(body, is_rigid(body) ? allowed_of_way * greatest_distance(moving.start, moving.end)
-                                    : allowed_change(start.soft[at(body)], moving.end,
-                                                     time_step(world.settings)));
+    refit_anew(
+        body,
+        is_rigid(body)
+            ? allowed_of_way * greatest_distance(moving.start, moving.end)
+            : way_of(start.soft[at(body)], moving.end, time_step(world.settings)).allowed_change);
   }
   return root_bounds(body);
 }

@@ -31,15 +31,8 @@ int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impu
 
 void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                          std::size_t first_new) {
-  linked_bodies_.reset();
-  linked_nodes_.reset();
-  for (std::size_t i = 0; i < contacts.size(); ++i) link(contacts[i], impulses[i]);
-  places_.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    places_.push_back(place(contacts[i], impulses[i]));
-    places_.back().contact = static_cast<int>(i);
-  }
-  std::ranges::sort(places_);
+  link(contacts, impulses);
+  sort_by_place(contacts, impulses);
   islands_.assign(linked_bodies_.size(), -1);
   island_begin_.clear();
   patches_.clear();
@@ -56,20 +49,31 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
     patches_.back().is_new |= node != nothing_moves && at(contact) >= first_new;
     patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
-    nodes_.push_back(nodes_of(contacts[at(contact)], impulses[at(contact)]));
+    nodes_.push_back(nodes_of_contacts_[at(contact)]);
   }
   island_begin_.push_back(patches_.size());
   patches_.push_back({.begin = ordered_.size()});
 }
 
-/// The bodies that the contact's impulse moves, and of these what it moves at once.
-void SweptSolver::link(const SweptContact& contact, const SweptImpulse& impulse) {
-  const ImpulseNodes nodes = nodes_of(contact, impulse);
-  for (const int node : nodes) {
-    if (node >= 0) linked_nodes_.unite(nodes.front(), node);
+/// The bodies that each contact's impulse moves, and of these what it moves at once.
+void SweptSolver::link(std::span<const SweptContact> contacts,
+                       std::span<const SweptImpulse> impulses) {
+  nodes_of_contacts_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    nodes_of_contacts_.push_back(nodes_of(contacts[i], impulses[i]));
+    for (const int node : nodes_of_contacts_.back()) {
+      if (node >= 0) linked_nodes_.reset(node);
+    }
   }
-  if (!impulse.first().moves() || !impulse.second().moves()) return;
-  linked_bodies_.unite(contact.first.body, contact.second.body);
+  linked_bodies_.reset();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ImpulseNodes& nodes = nodes_of_contacts_[i];
+    for (const int node : nodes) {
+      if (node >= 0) linked_nodes_.unite(nodes.front(), node);
+    }
+    if (!impulses[i].first().moves() || !impulses[i].second().moves()) continue;
+    linked_bodies_.unite(contacts[i].first.body, contacts[i].second.body);
+  }
 }
 
 ImpulseNodes SweptSolver::nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const {
@@ -81,10 +85,16 @@ ImpulseNodes SweptSolver::nodes_of(const SweptContact& contact, const SweptImpul
   return nodes;
 }
 
-SweptSolver::Place SweptSolver::place(const SweptContact& contact, const SweptImpulse& impulse) {
-  const int node = nodes_of(contact, impulse).front();
-  return {.body = linked_bodies_.find(moved_body(contact, impulse)),
-          .node = node < 0 ? nothing_moves : linked_nodes_.find(node)};
+void SweptSolver::sort_by_place(std::span<const SweptContact> contacts,
+                                std::span<const SweptImpulse> impulses) {
+  places_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const int node = nodes_of_contacts_[i].front();
+    places_.push_back({.body = linked_bodies_.find(moved_body(contacts[i], impulses[i])),
+                       .node = node < 0 ? nothing_moves : linked_nodes_.find(node),
+                       .contact = static_cast<int>(i)});
+  }
+  std::ranges::sort(places_);
 }
 
 bool SweptSolver::is_of_boxes(const SweptContact& contact) const {

@@ -68,9 +68,10 @@ class SweptSolver {
 
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
               std::size_t first_new);
-  void link(const SweptContact& contact, const SweptImpulse& impulse);
+  void link(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses);
+  void sort_by_place(std::span<const SweptContact> contacts,
+                     std::span<const SweptImpulse> impulses);
   bool is_of_boxes(const SweptContact& contact) const;
-  Place place(const SweptContact& contact, const SweptImpulse& impulse);
   ImpulseNodes nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const;
   void solve_patch(std::size_t patch, double tolerance);
   void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
@@ -81,6 +82,7 @@ class SweptSolver {
   std::vector<int> islands_;               // of the first body of each set, or -1
   std::vector<std::size_t> island_begin_;  // its first patch, and the end
   std::vector<Patch> patches_;             // island by island, and the end
+  std::vector<ImpulseNodes> nodes_of_contacts_;
   std::vector<Place> places_;
   std::vector<SweptImpulse*> ordered_;  // patch by patch
   std::vector<ImpulseNodes> nodes_;     // of each of these
