@@ -54,16 +54,6 @@ struct PairMotion {
     }
   }
 
-  /// m, of a point of the first against one of the second, at most.
-  double greatest() const {
-    double of_first = 0.0, of_second = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      of_first = std::max(of_first, first_way[i].squaredNorm());
-      of_second = std::max(of_second, second_way[i].squaredNorm());
-    }
-    return std::sqrt(of_first) + std::sqrt(of_second);
-  }
-
   /// Both from the start to a fraction of the step.
   void advance(Corners& a, Corners& b, double fraction) const {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -260,8 +250,8 @@ std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSu
   constexpr double advanced = 0.9;  // of what is certainly free
   constexpr double met = 0.2;       // of the least distance: nearer to it, and they meet
   constexpr int max_advances = 50;  // in practice a few
+  if (advanced * (distance - least) >= greatest_change(first, second, pair)) return std::nullopt;
   const PairMotion motion(first, second, pair);
-  if (advanced * (distance - least) >= motion.greatest()) return std::nullopt;
   double fraction = 0.0;
   for (int i = 0; i < max_advances; ++i) {
     const ClosestPoints closest = motion.closest_at(fraction, pair);

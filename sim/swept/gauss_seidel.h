@@ -12,7 +12,7 @@
 namespace pneuma::sim {
 
 /// The numbers of what an impulse moves: boxes, and vertices of soft bodies. -1 where there are
-/// fewer. Impulses that have none in common do not depend on each other.
+/// fewer. Impulses that have none in common do not directly depend on each other.
 using ImpulseNodes = std::array<int, 6>;
 
 /// Projected Gauss-Seidel iterations. Where a few impulses of many do not settle, such as those on
@@ -25,7 +25,8 @@ class GaussSeidel {
 
   /// Corrects the impulses until no correction of any changes a velocity by more than `tolerance`,
   /// in the unit of what they aim at, in at most `max_iterations` of all or of some of them.
-  /// `nodes` are those of each impulse. Returns the greatest change of the last iteration.
+  /// `nodes` are those of each impulse. Returns the greatest change of the last iteration, which at
+  /// the limit may be one of the unsettled alone.
   double correct(std::span<SweptImpulse* const> impulses, std::span<const ImpulseNodes> nodes,
                  double tolerance, int max_iterations);
 
