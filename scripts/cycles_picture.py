@@ -163,8 +163,6 @@ def add_camera():
     bpy.context.scene.camera = placed
 
 
-
-
 def body_size():
     """Mean diagonal of the bodies' boxes, m."""
     bodies = [one for one in bpy.context.scene.objects if one.type == "MESH" and one.name != "ground"]

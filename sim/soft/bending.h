@@ -60,9 +60,10 @@ void hinge_states(const HingeTable& hinges, const VertexArray& positions,
                   std::vector<HingeState>& states);
 
 /// Sets weights and rest angles of `hinges` so that they act over a step from `start` as those at
-/// rest with their dashpots do. `ratio`: tau over the step. A dashpot's torque is taken as -K f
-/// ratio sin(t - t_start): with the hinge it is again one hinge, which dissipates whatever the
-/// step, and leaves rigid rotations in peace. Where f is not 0, s1 s2 is 1.
+/// rest with their dashpots do. `ratio`: tau over the step. A dashpot has the energy K f ratio (1 -
+/// s1 s2 cos(t - t_start)), 0 at the start, where s1 s2 is 1 unless f is 0, and more elsewhere:
+/// with the hinge it is again one hinge, whose step from there dissipates whatever its length, and
+/// which leaves rigid rotations in peace.
 void join_dashpots(const HingeTable& at_rest, const std::vector<HingeState>& start, double ratio,
                    HingeTable& hinges);
 

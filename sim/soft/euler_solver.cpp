@@ -141,7 +141,8 @@ void set_step_energy(const SoftMesh& mesh, const SoftMaterial& material, const V
     join_dashpots(*mesh.hinges, base.deformation.hinges, material.bending_damping / beta,
                   energy.hinges);
   } else if (mesh.hinges) {
-    energy.hinges = *mesh.hinges;
+    energy.hinges.weights = mesh.hinges->weights;
+    energy.hinges.rest = mesh.hinges->rest;
   }
   energy.gas = gas_law(material);
 }

@@ -13,7 +13,8 @@
 // direction at the start, it is a function of the positions alone, dissipates whatever the step,
 // and leaves rigid rotations in peace. With the spring it is again one spring, of stiffness k + c/h
 // and rest length (k L + c/h l0) / (k + c/h). That of a hinge likewise acts by the angle that it
-// had at the start (join_dashpots in bending.h), with the energy K tau / h (1 - cos(t - t_start)).
+// had at the start (join_dashpots in bending.h), with the energy K tau / h (1 - s1 s2 cos(t -
+// t_start)).
 //
 // sdirk2 (Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs, 1977): order 2, and
 // for linear equations the same as TR-BDF2, but made of two implicit Euler steps alone: one of beta

@@ -2,7 +2,8 @@
 //
 //   u'' = -K u - D u',    m K = d^2E/dx^2 of springs, hinges and gas,    m D = dashpots and drag.
 //
-// Dashpots of hinges act in full (bending.h: f = 1), as in triangles that keep their area.
+// Hinges and their dashpots act in full (bending.h: s1 s2 = 1, f = 1), as in triangles that keep
+// their area.
 #pragma once
 
 #include <Eigen/Core>
