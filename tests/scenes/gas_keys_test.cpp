@@ -49,7 +49,7 @@ TEST(GasKeys, SayWhatIsAllowed) {
   expect_in(refusal_of_body("inflation = 1.5\nrest = \"equilibrium\"\n"), {"rest = \"shape\""});
   expect_in(refusal_of_body("inflation = 1.5\ntemperature = 0\n"), {"x.toml:3:15", "above 0 K"});
   expect_in(refusal_of_body("gas_exponent = 0.9\n"), {"1 <= gas_exponent <= 10"});
-  expect_in(refusal_of_body("gas_exponent = 1.4\n", {"simulation.method=corrected"}), {});
+  EXPECT_EQ(refusal_of_body("gas_exponent = 1.4\n", {"simulation.method=corrected"}), "");
   expect_in(refusal_of_body("", {"simulation.method=paper", "body.gas_exponent=1.4"}), {"method"});
 }
 
