@@ -1,6 +1,7 @@
 #include "app/host/version.h"
 
 #include <fmt/format.h>
+#include <isa-l.h>
 #include <libdeflate.h>
 
 #include <CLI/Version.hpp>
@@ -49,6 +50,8 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
                                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"CLI11", CLI11_VERSION},
       {"libdeflate", LIBDEFLATE_VERSION_STRING},
+      {"ISA-L",
+       fmt::format("{}.{}.{}", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION)},
   };
 }
 
