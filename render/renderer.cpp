@@ -13,6 +13,7 @@
 #include "render/passes/ground_shadow.h"
 #include "render/passes/layer.h"
 #include "render/passes/lettering.h"
+#include "render/passes/outlines.h"
 #include "render/passes/scenery.h"
 #include "render/passes/segments.h"
 #include "render/passes/shadow_map.h"
@@ -59,7 +60,7 @@ struct Renderer::Resources {
         description(fmt::format("OpenGL {} on {}, by {}", context.report().version,
                                 context.report().renderer, to_string(context.backend()))),
         target(options.width, options.height),
-        layer(options.width, options.height, options.samples),
+        layer(target, options.samples),
         shadow_map(options.shadow_size),
         scenery(options.width, options.height) {}
 
@@ -86,6 +87,7 @@ struct Renderer::Resources {
   ShadowDepths shadow_depths;
   GroundShadow ground_shadow;
   Surfaces surfaces;
+  Outlines outlines;
   GroundPlane ground_plane;
   Scenery scenery;
   Segments segments;
@@ -140,18 +142,21 @@ void Renderer::draw(const Frame& frame, Image& image) {
   if (shadows) r.draw_shadows(frame, view, ground_shadow);
   r.light_surface(shadows && frame.light.between_bodies, ground_shadow);
 
+  r.target.begin();
+  r.scenery.draw(view, frame.ground, r.ground_plane);
+  if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
+
   r.layer.begin(region_of_bodies(frame, view, r.surface.vertices()));
   if (ground_hides(frame, view)) r.ground_plane.hide_below(view);
-  r.surfaces.draw(view, r.surface_buffers, shadows ? &r.shadow_map : nullptr);
+  const ShadowMap* shadow = shadows ? &r.shadow_map : nullptr;
+  r.surfaces.draw(view, r.surface_buffers, shadow);
+  // Several samples smooth outlines by themselves.
+  if (r.options.samples == 1) r.outlines.draw(view, r.surface, r.drawn, shadow);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);
   r.segments.draw_lines(view, frame.lines);
   r.discs.draw(view, frame.points);
   r.layer.end();
 
-  r.target.begin();
-  r.scenery.draw(view, frame.ground, r.ground_plane);
-  if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
-  r.layer.compose();
   r.lettering.draw(view, frame);
   r.target.read(image);
 }

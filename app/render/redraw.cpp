@@ -15,9 +15,8 @@ namespace {
 
 void draw(const Simulation& simulation, const Show& show, const FrameOutput& output,
           const std::filesystem::path& file) {
-  render::Image image;
-  output.renderer.draw(output.builder.build(simulation.world(), simulation.contacts(), show),
-                       image);
+  const render::Image image =
+      output.drawing.draw(output.builder.build(simulation.world(), simulation.contacts(), show));
   base::write_file_atomically(file.string(), render::encode_png(image));
 }
 

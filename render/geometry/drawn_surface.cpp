@@ -91,6 +91,7 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   points_.clear();
   vertices_.clear();
   triangles_.clear();
+  places_.clear();
   for (const Mesh& mesh : frame.meshes) {
     mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
   }
@@ -147,6 +148,9 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
       refine(triangles, mesh.positions.size(), pixels > 0.0f ? most_levels : 0, needs_halving);
   add_vertices(refinement.points);
   append(refinement);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    places_.push_back(static_cast<std::uint32_t>(places_.size()));
+  }
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
 }
 
@@ -155,6 +159,7 @@ void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
   Refinement apart;
+  std::vector<std::uint32_t> first_at(mesh.positions.size(), ~0u);
   for (const Triangle& t : mesh.shape->triangles) {
     const auto first = static_cast<std::uint32_t>(apart.points.size());
     apart.triangles.push_back({first, first + 1, first + 2});
@@ -167,6 +172,8 @@ void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
       positions_.push_back(mesh.positions[v]);
       normals_.push_back(normal);
       const Vec3f& position = mesh.positions[v];
+      if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
+      places_.push_back(first_at[v]);
       vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
                            normal, material(colours[v], mesh.roughness)});
     }

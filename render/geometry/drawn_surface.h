@@ -39,6 +39,8 @@ class DrawnSurface {
 
   const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// Per drawn vertex the first of its mesh at the same point: itself where the mesh is smooth.
+  const std::vector<std::uint32_t>& places() const { return places_; }
 
   /// From one light per lit vertex, one per drawn vertex.
   void spread(const std::vector<IndirectLight>& light, std::vector<IndirectLight>& drawn) const;
@@ -66,6 +68,7 @@ class DrawnSurface {
   std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace pneuma::render

@@ -1,42 +1,38 @@
-// The bodies, and what is drawn over them, on a layer of their own.
+// The bodies, and what is drawn over them, over the ground and the background.
 #pragma once
 
+#include <memory>
+
 #include "render/frame/view.h"
-#include "render/passes/full_screen.h"
-#include "render/passes/gl_objects.h"
+#include "render/passes/target.h"
 
 namespace pneuma::render {
 
-/// Several samples a pixel with depth, transparent where nothing is drawn; colours are multiplied
-/// by their alpha. Ground and background have no edges worth several samples: with the layer they
-/// are drawn with one, and only the part of the picture that holds bodies has samples to clear,
-/// test and average.
+/// With one sample a pixel, bodies are drawn on the picture itself. With several, on a layer of
+/// their own, transparent where nothing is drawn, with colours multiplied by their alpha: ground
+/// and background have no edges worth several samples, and only the part of the picture that holds
+/// bodies has samples to clear, test and average.
 class Layer {
  public:
-  Layer(int width, int height, int samples);
+  /// `target` must outlive it.
+  Layer(Target& target, int samples);
+  ~Layer();
 
-  /// Binds the layer, empty. Until end() nothing is drawn outside the region.
+  /// After ground and background. Until end() depth is tested and, with several samples, nothing
+  /// is drawn outside the region.
   void begin(const Region& region);
+  /// What has been drawn is in the target's picture then.
   void end();
 
-  /// Averages the samples and puts them over what the framebuffer bound by now holds.
-  void compose();
-
  private:
-  void clear() const;
+  struct Samples;
 
-  GLenum texture_target_;
-  int width_;
-  int height_;
-  Region region_;
-  Texture colour_;
-  Renderbuffer depth_;
-  Framebuffer framebuffer_;
-  FullScreen average_;
+  Target& target_;
+  std::unique_ptr<Samples> samples_;  // null with one a pixel
 };
 
 /// Blends what is drawn from here on, whose colours are not multiplied by their alpha, over what
-/// the layer holds.
+/// is there.
 void blend_over_layer();
 
 }  // namespace pneuma::render

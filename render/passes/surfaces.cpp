@@ -53,6 +53,10 @@ out vec4 colour;
 #ifdef SMOOTH
 in vec3 outward;
 #endif
+#ifdef OUTLINE
+flat in vec3 facet;
+noperspective in float covered;
+#endif
 #ifdef SHADOWED
 in vec3 in_map;
 uniform sampler2DShadow map;
@@ -68,7 +72,10 @@ float lit_share() {
 #endif
 
 void main() {
+#ifndef OUTLINE
   vec3 facet = normalize(cross(dFdx(world), dFdy(world)));
+  const float covered = 1.0;
+#endif
 #ifdef SMOOTH
   vec3 n = normalize(outward);
 #else
@@ -94,7 +101,7 @@ void main() {
   float reflected = fresnel(max(nv, abs(dot(facet, to_eye)) - 0.1), roughness);
   float shine = highlight(nl, nv, max(dot(n, half_way), 0.0), max(dot(to_eye, half_way), 0.0),
                           roughness);
-  colour = vec4(shown(mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine)), 1.0);
+  colour = vec4(shown(mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine)), min(covered, 1.0));
 }
 )";
 
@@ -102,10 +109,8 @@ void main() {
 
 Surfaces::Surfaces() = default;
 
-Surfaces::Variant::Variant(bool shadowed)
-    : program("surfaces", shadowed ? "#define SMOOTH\n#define SHADOWED\n" : "#define SMOOTH\n",
-              vertex_source, look_source() + fragment_source),
-      view_projection(program.uniform("view_projection")),
+SurfaceUniforms::SurfaceUniforms(const Program& program, bool shadowed)
+    : view_projection(program.uniform("view_projection")),
       eye(program.uniform("eye")),
       to_light(program.uniform("to_light")) {
   if (!shadowed) return;
@@ -115,6 +120,23 @@ Surfaces::Variant::Variant(bool shadowed)
   set_uniform(program.uniform("map"), 0);
 }
 
+void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
+  set_uniform(view_projection, view.view_projection);
+  set_uniform(eye, view.eye);
+  set_uniform(to_light, view.to_light);
+  if (shadow == nullptr) return;
+  shadow->bind(0);
+  set_uniform(world_to_map, shadow->world_to_map());
+  // A body's shadow on another falls from near by and is crisper than one on the ground. Further
+  // apart than this, the four reads would be seen one by one.
+  set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
+}
+
+Surfaces::Variant::Variant(bool shadowed)
+    : program("surfaces", shadowed ? "#define SMOOTH\n#define SHADOWED\n" : "#define SMOOTH\n",
+              vertex_source, look_source() + fragment_source),
+      uniforms(program, shadowed) {}
+
 void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow) {
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
@@ -122,16 +144,7 @@ void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const Shado
   glDepthMask(GL_TRUE);
   const Variant& variant = shadow != nullptr ? shadowed_ : lit_;
   variant.program.use();
-  set_uniform(variant.view_projection, view.view_projection);
-  set_uniform(variant.eye, view.eye);
-  set_uniform(variant.to_light, view.to_light);
-  if (shadow != nullptr) {
-    shadow->bind(0);
-    set_uniform(variant.world_to_map, shadow->world_to_map());
-    // A body's shadow on another falls from near by and is crisper than one on the ground. Further
-    // apart than this, the four reads would be seen one by one.
-    set_uniform(variant.edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
-  }
+  variant.uniforms.set(view, shadow);
   // Far sides of closed bodies are never seen. With several samples a pixel llvmpipe shades even
   // what then fails the depth test, so that drawing them would cost as much again.
   glEnable(GL_CULL_FACE);

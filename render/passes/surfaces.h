@@ -6,6 +6,19 @@
 
 namespace pneuma::render {
 
+/// Where the programs that light surfaces have their uniforms.
+struct SurfaceUniforms {
+  SurfaceUniforms(const Program& program, bool shadowed);
+  /// With the program in use; `shadow` is null for one without.
+  void set(const View& view, const ShadowMap* shadow) const;
+
+  GLint view_projection;
+  GLint eye;
+  GLint to_light;
+  GLint world_to_map = -1;
+  GLint edge = -1;
+};
+
 class Surfaces {
  public:
   Surfaces();
@@ -18,11 +31,7 @@ class Surfaces {
   struct Variant {
     explicit Variant(bool shadowed);
     Program program;
-    GLint view_projection;
-    GLint eye;
-    GLint to_light;
-    GLint world_to_map = -1;
-    GLint edge = -1;
+    SurfaceUniforms uniforms;
   };
 
   Variant lit_{false};

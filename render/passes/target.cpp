@@ -22,6 +22,14 @@ Target::Target(int width, int height)
   check_framebuffer();
 }
 
+void Target::add_depth() {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+  check_framebuffer();
+}
+
 void Target::begin() {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);

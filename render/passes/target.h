@@ -9,10 +9,16 @@
 
 namespace pneuma::render {
 
-/// One sample a pixel and no depth; sRGB as bytes (see look.h).
+/// One sample a pixel; sRGB as bytes (see look.h).
 class Target {
  public:
   Target(int width, int height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+  /// What is drawn to it can be tested for depth from here on.
+  void add_depth();
 
   /// Binds it as what is drawn to. It holds what was drawn last.
   void begin();
@@ -25,6 +31,7 @@ class Target {
   int height_;
   Framebuffer framebuffer_;
   Renderbuffer colour_;
+  Renderbuffer depth_;
   std::vector<std::uint8_t> rgba_;
 };
 

@@ -152,7 +152,7 @@ struct PictureScene {
   int width = 1280;
   int height = 720;
   int frames_per_second = 30;  // divides the steps per second
-  int samples = 4;
+  int samples = 1;
   bool shadows = true;
   bool caption = true;
   bool pressures = false;  // on the caption

@@ -213,7 +213,8 @@ Section picture_section(Scene& scene) {
           {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
            "of simulated time; divides steps_per_second"},
           {"samples", &picture.samples, one_of({1, 2, 4}), "",
-           "per pixel; four cost up to 1.7 times as much as one"},
+           "per pixel; one smooths the edges of bodies, four also where they pass through each "
+           "other"},
           {"shadows", &picture.shadows, any(), "", "draw shadows"},
           {"caption", &picture.caption, any(), "", "draw the caption"},
           {"pressures", &picture.pressures, any(), "",

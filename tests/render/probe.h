@@ -34,7 +34,7 @@ int count_differences(const Image& a, const Image& b);
 Image draw_once(const Frame& frame, const RenderOptions& options);
 
 /// 320 x 240 pixels.
-RenderOptions small_picture(int samples = 4);
+RenderOptions small_picture(int samples = 1);
 
 /// Nothing but the background: no ground, no shadows, the camera at (0, -10, 0) looking along +y.
 Frame empty_frame();

@@ -1,0 +1,93 @@
+#include "render/geometry/outline.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <tuple>
+
+namespace pneuma::render {
+namespace {
+
+constexpr char front = 1, back = 2, flat = 4;
+constexpr char may_end = front | back;
+
+constexpr float alike = 0.99f;  // cosine between normals of faces that look alike: 8 degrees
+
+float depth(const View& view, const Vec3f& position) {
+  return -view.view.row(2).dot(position.homogeneous());
+}
+
+}  // namespace
+
+Vec3f facet_normal(const DrawnSurface& surface, std::uint32_t triangle) {
+  const Triangle& t = surface.triangles()[triangle];
+  const auto at = [&](std::size_t i) -> const Vec3f& { return surface.vertices()[t[i]].position; };
+  return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
+}
+
+void Outline::mark_places(const DrawnSurface& surface, const Vec3f& eye) {
+  const std::vector<SurfaceVertex>& vertices = surface.vertices();
+  const std::vector<Triangle>& triangles = surface.triangles();
+  const std::vector<std::uint32_t>& places = surface.places();
+  faces_eye_.resize(triangles.size());
+  seen_.assign(vertices.size(), 0);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& t = triangles[i];
+    const Vec3f& a = vertices[t[0]].position;
+    const Vec3f normal = (vertices[t[1]].position - a).cross(vertices[t[2]].position - a);
+    const bool faces = normal.dot(eye - a) > 0.0f;
+    faces_eye_[i] = faces;
+    // A flat mesh has vertices of its own for each triangle.
+    const bool apart = places[t[0]] != t[0] || places[t[1]] != t[1] || places[t[2]] != t[2];
+    const char kind = static_cast<char>((faces ? front : back) | (apart ? flat : 0));
+    for (const std::uint32_t corner : t) seen_[places[corner]] |= kind;
+  }
+}
+
+void Outline::collect_sides(const DrawnSurface& surface) {
+  const std::vector<std::uint32_t>& places = surface.places();
+  sides_.clear();
+  for (std::uint32_t i = 0; i < surface.triangles().size(); ++i) {
+    if (!faces_eye_[i]) continue;
+    const Triangle& t = surface.triangles()[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t from = t[c], to = t[(c + 1) % 3];
+      const char both = seen_[places[from]] & seen_[places[to]];
+      if ((both & may_end) != may_end && (both & flat) == 0) continue;
+      const auto [low, high] = std::minmax(places[from], places[to]);
+      sides_.push_back({low, high, {from, to, i}});
+    }
+  }
+}
+
+void Outline::keep_outlines(const DrawnSurface& surface, const View& view) {
+  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.edge.triangle) < std::tie(b.low, b.high, b.edge.triangle);
+  });
+  edges_.clear();
+  for (std::size_t i = 0; i < sides_.size();) {
+    const Side& side = sides_[i];
+    std::size_t next = i + 1;
+    while (next < sides_.size() && sides_[next].low == side.low && sides_[next].high == side.high) {
+      ++next;
+    }
+    const bool ends = next == i + 1;
+    const bool folds = !ends && (seen_[side.low] & flat) != 0 &&
+                       facet_normal(surface, side.edge.triangle)
+                               .dot(facet_normal(surface, sides_[i + 1].edge.triangle)) < alike;
+    const auto is_ahead = [&](std::uint32_t vertex) {
+      return depth(view, surface.vertices()[vertex].position) > view.near;
+    };
+    if ((ends || folds) && is_ahead(side.edge.from) && is_ahead(side.edge.to)) {
+      edges_.push_back(side.edge);
+    }
+    i = next;
+  }
+}
+
+void Outline::find(const DrawnSurface& surface, const View& view) {
+  mark_places(surface, view.eye);
+  collect_sides(surface);
+  keep_outlines(surface, view);
+}
+
+}  // namespace pneuma::render
