@@ -15,8 +15,8 @@
 namespace pneuma::app {
 
 /// Frames of the paper: 1/60 s of the scene's time, drawn and encoded as PNG to memory, as
-/// `pneuma render` does it: while two are drawn, another thread steps to the next and one encodes
-/// those before.
+/// `pneuma render` does it: while one is drawn, a second thread steps to the next and a third
+/// encodes the one before.
 struct FrameTimes {
   std::int64_t frames = 0;
   int width = 0;  // pixels

@@ -52,14 +52,8 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
     const sim::World start = build_world(scene_);
     builder_.emplace(scene_, start, place_camera(scene_, start, threads_).camera);
   }
-  if (!drawing_ || options.width != options_.width || options.height != options_.height) {
-    drawing_ = std::make_unique<DrawingThread>(options);
-    options_ = options;
-  }
-  const render::Frame frame = builder_->build(world_, contacts(), show);
-  render::Image image;
-  drawing_->submit([&](render::Renderer& renderer) { renderer.draw(frame, image); }).get();
-  return image;
+  if (!drawing_) drawing_.emplace();
+  return drawing_->draw(options, builder_->build(world_, contacts(), show));
 }
 
 std::vector<std::string> ScriptedWorld::warnings() const {

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/picture/build_frame.h"
-#include "app/picture/drawing_thread.h"
+#include "app/python/drawing_thread.h"
 #include "scenes/loader/scene.h"
 #include "sim/step/stepper.h"
 #include "sim/world/world.h"
@@ -47,8 +46,7 @@ class ScriptedWorld {
   sim::World world_;
   sim::Stepper stepper_;
   std::optional<FrameBuilder> builder_;
-  render::RenderOptions options_;  // of what draws
-  std::unique_ptr<DrawingThread> drawing_;
+  std::optional<DrawingThread> drawing_;
 };
 
 }  // namespace pneuma::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -38,9 +37,9 @@ struct DrawnFrame {
   std::optional<render::Image> overlay;
 };
 
-/// Has frames drawn, and encoded and written by a thread that takes them in their order, so that
-/// files, journal and checkpoint come as if there were one thread: at most as many frames are in
-/// memory as are drawn side by side, one that waits and one being written.
+/// Draws frames and hands them to a thread that encodes and writes them while the next is made: at
+/// most three frames are in memory, one being drawn, one waiting and one being written.
+/// The order of files, journal and checkpoint stays what it is without that thread.
 class FrameWriter {
  public:
   explicit FrameWriter(const FrameOutput& output) : output_(output) {}
@@ -59,14 +58,13 @@ class FrameWriter {
 
   void write(TakenFrame taken) {
     const auto frame = std::make_shared<DrawnFrame>();
+    Stopwatch watch;
+    output_.renderer.draw(taken.picture, frame->picture);
+    if (taken.overlay) output_.renderer.draw(*taken.overlay, frame->overlay.emplace());
+    taken.seconds.draw += watch.lap();
+    taken.seconds.total = since_last_frame_.lap();
     frame->of = std::move(taken);
-    const std::shared_future<void> drawn =
-        output_.drawing.submit([frame](render::Renderer& renderer) { draw(*frame, renderer); });
-    finishing_.submit([this, frame, drawn] {
-      drawn.get();
-      frame->of.seconds.total = since_last_frame_.lap();
-      finish(*frame);
-    });
+    finishing_.submit([this, frame] { finish(*frame); });
   }
 
   /// Waits until everything is on disk.
@@ -75,13 +73,6 @@ class FrameWriter {
  private:
   render::Frame build(const Simulation& simulation, const Show& show) const {
     return output_.builder.build(simulation.world(), simulation.contacts(), show);
-  }
-
-  static void draw(DrawnFrame& frame, render::Renderer& renderer) {
-    Stopwatch watch;
-    renderer.draw(frame.of.picture, frame.picture);
-    if (frame.of.overlay) renderer.draw(*frame.of.overlay, frame.overlay.emplace());
-    frame.of.seconds.draw += watch.lap();
   }
 
   void finish(DrawnFrame& frame) const {

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "app/picture/build_frame.h"
-#include "app/picture/drawing_thread.h"
 #include "app/render/log/run_log.h"
 #include "app/terminal/progress.h"
 #include "app/world/simulation.h"
+#include "render/renderer.h"
 
 namespace pneuma::app {
 
@@ -15,12 +15,12 @@ namespace pneuma::app {
 struct FrameOutput {
   const FrameBuilder& builder;
   const Pictures& pictures;
-  Drawing& drawing;
+  render::Renderer& renderer;
   RunLog& log;
 };
 
-/// Advances the simulation to frame `last` and draws all from log.next_frame() on: while two are
-/// drawn, another thread steps to the next and one encodes and writes those before. Throws
+/// Advances the simulation to frame `last` and draws all from log.next_frame() on: while one is
+/// drawn, a second thread steps to the next and a third encodes and writes the one before. Throws
 /// DivergenceError, Interrupted and base::IoError; what is on disk then is whole.
 void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
                  Progress& progress);

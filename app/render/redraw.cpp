@@ -15,8 +15,9 @@ namespace {
 
 void draw(const Simulation& simulation, const Show& show, const FrameOutput& output,
           const std::filesystem::path& file) {
-  const render::Image image =
-      output.drawing.draw(output.builder.build(simulation.world(), simulation.contacts(), show));
+  render::Image image;
+  output.renderer.draw(output.builder.build(simulation.world(), simulation.contacts(), show),
+                       image);
   base::write_file_atomically(file.string(), render::encode_png(image));
 }
 

@@ -96,22 +96,23 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   refuse_start_overlap(scene, start);
   start.settings.particles.shown = shows_particles(request.pictures);
   warn_before_run(request.pictures, scene, start, progress);
-  Drawing drawing(picture_options(scene.picture, request.backend));
-  RunLog log(folder, request.existing,
-             {scene, start, frames, request.pictures, request.on_divergence, drawing.description()},
-             [&] { return choose_camera(scene, start, request.threads, progress); });
+  render::Renderer renderer(picture_options(scene.picture, request.backend));
+  RunLog log(
+      folder, request.existing,
+      {scene, start, frames, request.pictures, request.on_divergence, renderer.description()},
+      [&] { return choose_camera(scene, start, request.threads, progress); });
   if (log.finished()) {
     if (log.lost().empty()) return progress.say("the run is finished already");
     Simulation again(scene, start, request.threads, request.on_divergence);
     const FrameBuilder builder(scene, start, log.camera());
-    return redraw_lost(again, {builder, request.pictures, drawing, log}, progress);
+    return redraw_lost(again, {builder, request.pictures, renderer, log}, progress);
   }
   log.append_launch(request.command_line, request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
   const FrameBuilder builder(scene, start, log.camera());
   try {
-    draw_frames(simulation, frames.last, {builder, request.pictures, drawing, log}, progress);
+    draw_frames(simulation, frames.last, {builder, request.pictures, renderer, log}, progress);
   } catch (const DivergenceError& error) {
     log.append_divergence(error.what());
     throw with_advice(error, request);

@@ -22,7 +22,7 @@ struct FrameSeconds {
   double draw = 0.0;
   double png = 0.0;
   double write = 0.0;
-  double total = 0.0;  // since the frame before was drawn: some are drawn side by side
+  double total = 0.0;  // since the frame before was drawn; the last frame's png and write go on
 };
 
 /// Sizes of a frame's files, by which a run that is continued knows them to be whole.

@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "app/picture/drawing_thread.h"
 #include "app/record/world_json.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
@@ -149,7 +148,6 @@ TEST_F(RenderTest, RecordsWhatEachFrameShows) {
   // No overlay, and an empty list, which looks like a null when flattened.
   expect_nulls_only_at(run, {"/run/overlay", "/run/show"});
   bool touched = false;
-  double drawing = 0.0, total = 0.0;  // s
   for (std::size_t i = 0; i < 22; ++i) {
     const json& frame = run["frames"][i];
     EXPECT_EQ(frame["frame"], i);
@@ -165,15 +163,11 @@ TEST_F(RenderTest, RecordsWhatEachFrameShows) {
     EXPECT_GE(frame["greatest_penetration"], 0.0);
     EXPECT_EQ(frame["crossings"]["between_bodies"], 0);
     EXPECT_EQ(frame["crossings"]["within_bodies"], 0);
-    EXPECT_GT(frame["seconds"]["draw"], 0.0);
-    drawing += frame["seconds"]["draw"].get<double>();
-    total += frame["seconds"]["total"].get<double>();
+    EXPECT_GE(frame["seconds"]["total"], frame["seconds"]["draw"]);
     EXPECT_EQ(frame["png_bytes"], pictures()[fmt::format("fall_{:05}.png", i)].size());
     touched |= frame["contacts"]["count"] > 0;
   }
   EXPECT_TRUE(touched);
-  EXPECT_GE(static_cast<double>(app::Drawing::threads) * total, drawing);
-  EXPECT_NEAR(run["wall_seconds"].get<double>(), total, 1e-9);
   EXPECT_GT(run["frames"][21]["seconds"]["integrate_soft"], 0.0);
   EXPECT_FALSE(run["frames"][21]["seconds"].contains("integrate_rigid"));  // not in the plan
 }
