@@ -11,8 +11,12 @@
 namespace pneuma::render {
 namespace {
 
-TEST(Layer, HoldsAllOfTheBodiesWhereverTheyAreSeen) {
-  Renderer renderer(small_picture());
+/// By the samples a pixel: with one, bodies are drawn on the picture itself.
+class LayerOf : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Samples, LayerOf, testing::Values(1, 4));
+
+TEST_P(LayerOf, HoldsAllOfTheBodiesWhereverTheyAreSeen) {
+  Renderer renderer(small_picture(GetParam()));
   Image part;
   Image whole;
   std::mt19937 random(11);
@@ -35,13 +39,13 @@ TEST(Layer, HoldsAllOfTheBodiesWhereverTheyAreSeen) {
   }
 }
 
-TEST(Layer, HoldsBodiesThatReachBehindTheEye) {
+TEST_P(LayerOf, HoldsBodiesThatReachBehindTheEye) {
   // A wall beside the eye, from 5 m behind it to 10 m before it: to the right of where its far end
   // is seen, it fills the picture.
   Frame frame = empty_frame();
   frame.meshes = {make_box({1.1f, -7.5f, 0}, {0.2f, 15, 40}, {1, 0, 0})};
-  const Image empty = draw_once(empty_frame(), small_picture());
-  const Image image = draw_once(frame, small_picture());
+  const Image empty = draw_once(empty_frame(), small_picture(GetParam()));
+  const Image image = draw_once(frame, small_picture(GetParam()));
   const double tangent = std::tan(20.0 * std::numbers::pi / 180.0) * 320.0 / 240.0;
   const int edge = static_cast<int>(160.0 * (1.0 + 1.0 / 10.0 / tangent));
   for (int y = 0; y < image.height; ++y) {
@@ -52,15 +56,15 @@ TEST(Layer, HoldsBodiesThatReachBehindTheEye) {
   }
 }
 
-TEST(Ground, HidesWhatLiesBelowIt) {
+TEST_P(LayerOf, IsHiddenBelowTheGround) {
   Frame frame;
   frame.camera = {{0, -12, 5}, Vec3f::Zero(), 40.0f};
   frame.light.shadows = false;
-  const Image ground = draw_once(frame, small_picture());
+  const Image ground = draw_once(frame, small_picture(GetParam()));
   frame.meshes = {make_box({0, 0, 0}, {2, 2, 2}, {0.8f, 0.1f, 0.1f})};
   for (const bool with_wireframe : {false, true}) {
     frame.wireframe = with_wireframe;
-    const Image image = draw_once(frame, small_picture());
+    const Image image = draw_once(frame, small_picture(GetParam()));
     for (const float z : {-0.2f, -0.5f, -0.9f}) {
       const Vec3f below = {0.3f, -1, z};
       EXPECT_EQ(pixel_of(image, frame.camera, below), pixel_of(ground, frame.camera, below)) << z;

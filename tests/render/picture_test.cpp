@@ -100,9 +100,13 @@ Frame busy_frame() {
   return frame;
 }
 
-TEST(Renderer, DrawsTheSameBytesWhateverWasDrawnBefore) {
-  const Image alone = draw_once(busy_frame(), small_picture());
-  Renderer renderer(small_picture());
+/// By the samples a pixel.
+class RendererOf : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Samples, RendererOf, testing::Values(1, 4));
+
+TEST_P(RendererOf, DrawsTheSameBytesWhateverWasDrawnBefore) {
+  const Image alone = draw_once(busy_frame(), small_picture(GetParam()));
+  Renderer renderer(small_picture(GetParam()));
   Image image;
   renderer.draw(busy_frame(), image);
   EXPECT_EQ(image.pixels, alone.pixels);
@@ -125,7 +129,7 @@ TEST(Renderer, DrawsTheSameBytesWhateverWasDrawnBefore) {
   }
 }
 
-TEST(Renderer, LeavesNothingOfThePictureBefore) {
+TEST_P(RendererOf, LeavesNothingOfThePictureBefore) {
   // No pass clears the picture: the background must cover every pixel, and the layer of bodies must
   // be empty, wherever the camera stands. What they missed would show red or blue, as the picture
   // before was.
@@ -133,7 +137,7 @@ TEST(Renderer, LeavesNothingOfThePictureBefore) {
   red.meshes = {make_box({0, 0, 0}, {50, 1, 50}, {1, 0, 0})};
   Frame blue = empty_frame();
   blue.meshes = {make_box({0, 0, 0}, {50, 1, 50}, {0, 0, 1})};
-  Renderer renderer(small_picture());
+  Renderer renderer(small_picture(GetParam()));
   Image after_red;
   Image after_blue;
   std::mt19937 random(7);
