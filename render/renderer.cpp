@@ -146,10 +146,10 @@ void Renderer::draw(const Frame& frame, Image& image) {
   r.scenery.draw(view, frame.ground, r.ground_plane);
   if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
 
-  r.layer.begin(region_of_bodies(frame, view, r.surface.vertices()));
+  r.layer.begin(frame, view, r.surface.vertices());
   if (ground_hides(frame, view)) r.ground_plane.hide_below(view);
   const ShadowMap* shadow = shadows ? &r.shadow_map : nullptr;
-  r.surfaces.draw(view, r.surface_buffers, shadow);
+  r.surfaces.draw(view, r.surface_buffers, shadow, frame.wireframe);
   // Several samples smooth outlines by themselves.
   if (r.options.samples == 1) r.outlines.draw(view, r.surface, r.drawn, shadow);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);

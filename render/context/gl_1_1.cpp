@@ -98,6 +98,10 @@ void GLAPIENTRY glPixelStorei(GLenum pname, GLint param) {
   static const auto function = load<decltype(glPixelStorei)>("glPixelStorei");
   function(pname, param);
 }
+void GLAPIENTRY glPolygonOffset(GLfloat factor, GLfloat units) {
+  static const auto function = load<decltype(glPolygonOffset)>("glPolygonOffset");
+  function(factor, units);
+}
 void GLAPIENTRY glReadBuffer(GLenum mode) {
   static const auto function = load<decltype(glReadBuffer)>("glReadBuffer");
   function(mode);

@@ -55,6 +55,14 @@ class SeenBox {
 
 }  // namespace
 
+float depth(const View& view, const Vec3f& position) {
+  return -view.view.row(2).dot(position.homogeneous());
+}
+
+Eigen::Vector2f picture_size(const View& view) {
+  return {static_cast<float>(view.width), static_cast<float>(view.height)};
+}
+
 View make_view(const Frame& frame, int width, int height) {
   View view;
   view.view = view_matrix(frame.camera);
@@ -77,7 +85,7 @@ View make_view(const Frame& frame, int width, int height) {
   DepthRange range;
   if (!all.empty()) {
     for (int i = 0; i < 8; ++i) {
-      range.add(-(view.view.row(2) * all.corner(i).homogeneous()).value());
+      range.add(depth(view, all.corner(i)));
     }
   }
   view.nearest = range.near;

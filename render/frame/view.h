@@ -31,6 +31,12 @@ View make_view(const Frame& frame, int width, int height);
 /// How far from the camera's target the ground reaches before it has faded away, in metres.
 float ground_radius(const View& view);
 
+/// m before the eye.
+float depth(const View& view, const Vec3f& position);
+
+/// Pixels.
+Eigen::Vector2f picture_size(const View& view);
+
 /// Pixels, from the picture's lower left corner.
 struct Region {
   int x = 0;

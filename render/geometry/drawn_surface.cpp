@@ -18,10 +18,10 @@ constexpr float visible_in_shadow = 1.4f;  // likewise; shadows have soft edges
 float pixels_per_metre(const Mesh& mesh, const View& view) {
   float nearest = view.far;
   for (const Vec3f& position : mesh.positions) {
-    nearest = std::min(nearest, -(view.view.row(2) * position.homogeneous()).value());
+    nearest = std::min(nearest, depth(view, position));
   }
-  const float depth = std::max(nearest, view.near);
-  return 0.5f * static_cast<float>(view.height) * view.projection(1, 1) / depth;
+  const float distance = std::max(nearest, view.near);
+  return 0.5f * static_cast<float>(view.height) * view.projection(1, 1) / distance;
 }
 
 /// Whether the surface between two points with these normals turns away, or does so next to them,

@@ -12,17 +12,7 @@ constexpr char may_end = front | back;
 
 constexpr float alike = 0.99f;  // cosine between normals of faces that look alike: 8 degrees
 
-float depth(const View& view, const Vec3f& position) {
-  return -view.view.row(2).dot(position.homogeneous());
-}
-
 }  // namespace
-
-Vec3f facet_normal(const DrawnSurface& surface, std::uint32_t triangle) {
-  const Triangle& t = surface.triangles()[triangle];
-  const auto at = [&](std::size_t i) -> const Vec3f& { return surface.vertices()[t[i]].position; };
-  return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
-}
 
 void Outline::mark_places(const DrawnSurface& surface, const Vec3f& eye) {
   const std::vector<SurfaceVertex>& vertices = surface.vertices();
@@ -63,6 +53,7 @@ void Outline::keep_outlines(const DrawnSurface& surface, const View& view) {
   std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
     return std::tie(a.low, a.high, a.edge.triangle) < std::tie(b.low, b.high, b.edge.triangle);
   });
+  const std::vector<SurfaceVertex>& vertices = surface.vertices();
   edges_.clear();
   for (std::size_t i = 0; i < sides_.size();) {
     const Side& side = sides_[i];
@@ -71,11 +62,11 @@ void Outline::keep_outlines(const DrawnSurface& surface, const View& view) {
       ++next;
     }
     const bool ends = next == i + 1;
-    const bool folds = !ends && (seen_[side.low] & flat) != 0 &&
-                       facet_normal(surface, side.edge.triangle)
-                               .dot(facet_normal(surface, sides_[i + 1].edge.triangle)) < alike;
+    // A flat mesh has its faces' normals; a smooth one has the same on both sides.
+    const bool folds = !ends && vertices[side.edge.from].normal.dot(
+                                    vertices[sides_[i + 1].edge.to].normal) < alike;
     const auto is_ahead = [&](std::uint32_t vertex) {
-      return depth(view, surface.vertices()[vertex].position) > view.near;
+      return depth(view, vertices[vertex].position) > view.near;
     };
     if ((ends || folds) && is_ahead(side.edge.from) && is_ahead(side.edge.to)) {
       edges_.push_back(side.edge);

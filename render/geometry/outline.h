@@ -15,9 +15,6 @@ struct OutlineEdge {
   std::uint32_t triangle;  // on its left
 };
 
-/// Unit, of a triangle of the surface.
-Vec3f facet_normal(const DrawnSurface& surface, std::uint32_t triangle);
-
 /// Outlines, and the creases of flat meshes. Keeps its memory from frame to frame.
 class Outline {
  public:

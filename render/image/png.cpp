@@ -11,7 +11,7 @@
 
 #include "sim/base/file.h"
 
-// stb_image_write's own deflate takes six times as long and makes larger files.
+// stb_image_write's own deflate takes ten times as long and makes larger files.
 static unsigned char* pneuma_zlib_compress(const unsigned char* data, int size,
                                            int* compressed_size, int quality);
 #define STBIW_ZLIB_COMPRESS pneuma_zlib_compress

@@ -69,9 +69,10 @@ Layer::Layer(Target& target, int samples) : target_(target) {
 
 Layer::~Layer() = default;
 
-void Layer::begin(const Region& region) {
+void Layer::begin(const Frame& frame, const View& view, std::span<const SurfaceVertex> surface) {
   glDepthMask(GL_TRUE);
   if (!samples_) return glClear(GL_DEPTH_BUFFER_BIT);
+  const Region region = region_of_bodies(frame, view, surface);
   glBindFramebuffer(GL_FRAMEBUFFER, samples_->framebuffer.name());
   glScissor(region.x, region.y, region.width, region.height);
   // llvmpipe clears all of a framebuffer as memory, but a part of it as if it were drawn, which

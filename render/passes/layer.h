@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "render/frame/view.h"
 #include "render/passes/target.h"
@@ -19,8 +20,8 @@ class Layer {
   ~Layer();
 
   /// After ground and background. Until end() depth is tested and, with several samples, nothing
-  /// is drawn outside the region.
-  void begin(const Region& region);
+  /// is drawn outside the region of the frame's bodies.
+  void begin(const Frame& frame, const View& view, std::span<const SurfaceVertex> surface);
   /// What has been drawn is in the target's picture then.
   void end();
 

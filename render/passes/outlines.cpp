@@ -1,8 +1,8 @@
 #include "render/passes/outlines.h"
 
+#include <Eigen/Geometry>
 #include <cstddef>
 
-#include "render/passes/layer.h"
 #include "render/passes/look.h"
 #include "render/passes/shader_sources.h"
 
@@ -59,6 +59,14 @@ void main() {
 }
 )";
 
+/// Unit.
+Vec3f facet_normal(const DrawnSurface& surface, const Triangle& triangle) {
+  const auto at = [&](std::size_t corner) -> const Vec3f& {
+    return surface.vertices()[triangle[corner]].position;
+  };
+  return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
+}
+
 }  // namespace
 
 Outlines::Variant::Variant(bool shadowed)
@@ -69,22 +77,20 @@ Outlines::Variant::Variant(bool shadowed)
       uniforms(program, shadowed),
       picture_size(program.uniform("picture_size")) {}
 
-Outlines::Outlines() {
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  GLuint location = 0;
-  const auto add = [&](GLint components, std::size_t offset) {
-    set_attribute(location++, components, sizeof(Instance), offset, 1);
-  };
+std::vector<InstanceAttribute> Outlines::attributes() {
+  std::vector<InstanceAttribute> result;
   for (const std::size_t end : {offsetof(Instance, from), offsetof(Instance, to)}) {
-    add(3, end + offsetof(SurfaceVertex, position));
-    add(3, end + offsetof(SurfaceVertex, normal));
-    add(4, end + offsetof(SurfaceVertex, material));
-    add(3, end + offsetof(End, light) + offsetof(IndirectLight, bounced));
-    add(2, end + offsetof(End, light) + offsetof(IndirectLight, open_to));
+    result.push_back({3, end + offsetof(SurfaceVertex, position)});
+    result.push_back({3, end + offsetof(SurfaceVertex, normal)});
+    result.push_back({4, end + offsetof(SurfaceVertex, material)});
+    result.push_back({3, end + offsetof(End, light) + offsetof(IndirectLight, bounced)});
+    result.push_back({2, end + offsetof(End, light) + offsetof(IndirectLight, open_to)});
   }
-  add(3, offsetof(Instance, facet));
+  result.push_back({3, offsetof(Instance, facet)});
+  return result;
 }
+
+Outlines::Outlines() = default;
 
 void Outlines::draw(const View& view, const DrawnSurface& surface,
                     const std::vector<IndirectLight>& light, const ShadowMap* shadow) {
@@ -93,23 +99,14 @@ void Outlines::draw(const View& view, const DrawnSurface& surface,
   for (const OutlineEdge& edge : outline_.edges()) {
     instances_.push_back({{surface.vertices()[edge.from], light[edge.from]},
                           {surface.vertices()[edge.to], light[edge.to]},
-                          facet_normal(surface, edge.triangle)});
+                          facet_normal(surface, surface.triangles()[edge.triangle])});
   }
   if (instances_.empty()) return;
   const Variant& variant = shadow != nullptr ? shadowed_ : lit_;
   variant.program.use();
   variant.uniforms.set(view, shadow);
-  set_uniform(variant.picture_size,
-              Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
-  blend_over_layer();
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDepthMask(GL_FALSE);
-  glBindVertexArray(vertex_array_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(Instance)),
-               instances_.data(), GL_STREAM_DRAW);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances_.size()));
+  set_uniform(variant.picture_size, picture_size(view));
+  buffer_.draw(instances_, GL_LEQUAL);
 }
 
 }  // namespace pneuma::render

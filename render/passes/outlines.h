@@ -8,8 +8,7 @@
 #pragma once
 
 #include "render/geometry/outline.h"
-#include "render/passes/gl_objects.h"
-#include "render/passes/program.h"
+#include "render/passes/instanced_quads.h"
 #include "render/passes/shadow_map.h"
 #include "render/passes/surfaces.h"
 
@@ -34,6 +33,8 @@ class Outlines {
     Vec3f facet;  // the normal of the triangle on the left
   };
 
+  static std::vector<InstanceAttribute> attributes();
+
   struct Variant {
     explicit Variant(bool shadowed);
     Program program;
@@ -43,8 +44,7 @@ class Outlines {
 
   Outline outline_;
   std::vector<Instance> instances_;
-  Vao vertex_array_;
-  Buffer buffer_;
+  InstanceBuffer<Instance> buffer_{attributes()};
   Variant lit_{false};
   Variant shadowed_{true};
 };

@@ -11,7 +11,7 @@ struct ShaderSources {
 };
 
 /// Each needs the text of look_source() before its fragment shader.
-ShaderSources surface_shaders();  // variants by SMOOTH and SHADOWED
+ShaderSources surface_shaders();  // variants by SMOOTH, SHADOWED and, of light only, OUTLINE
 ShaderSources ground_shaders();   // also needs nearness_source()
 
 /// The ground's shadow from a picture of it; needs nearness_source().

@@ -101,7 +101,8 @@ void main() {
   float reflected = fresnel(max(nv, abs(dot(facet, to_eye)) - 0.1), roughness);
   float shine = highlight(nl, nv, max(dot(n, half_way), 0.0), max(dot(to_eye, half_way), 0.0),
                           roughness);
-  colour = vec4(shown(mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine)), min(covered, 1.0));
+  vec3 light = mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine);
+  colour = vec4(shown(light), min(covered, 1.0));
 }
 )";
 
@@ -128,7 +129,7 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
   shadow->bind(0);
   set_uniform(world_to_map, shadow->world_to_map());
   // A body's shadow on another falls from near by and is crisper than one on the ground. Further
-  // apart than this, the four reads would be seen one by one.
+  // apart than this, the three reads would be seen one by one.
   set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
 }
 
@@ -137,7 +138,8 @@ Surfaces::Variant::Variant(bool shadowed)
               vertex_source, look_source() + fragment_source),
       uniforms(program, shadowed) {}
 
-void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow) {
+void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow,
+                    bool under_lines) {
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -149,7 +151,12 @@ void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const Shado
   // what then fails the depth test, so that drawing them would cost as much again.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
+  if (under_lines) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(1.0f, 0.0f);  // by what the depth changes over one pixel
+  }
   surface.draw();
+  glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }
 

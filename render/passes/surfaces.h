@@ -23,8 +23,10 @@ class Surfaces {
  public:
   Surfaces();
 
-  /// `shadow` is null when there are no shadows.
-  void draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow);
+  /// `shadow` is null when there are no shadows. `under_lines`: so far behind that the whole width
+  /// of a line on the surface is seen.
+  void draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow,
+            bool under_lines);
 
  private:
   /// One program with and one without shadows, so that none pays for the other.
