@@ -95,6 +95,17 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   for (const Mesh& mesh : frame.meshes) {
     mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
   }
+  put_sunward_first(view.to_light);
+}
+
+void DrawnSurface::put_sunward_first(const Vec3f& to_light) {
+  const auto is_sunward = [&](const Triangle& triangle) {
+    return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+      return vertices_[vertex].normal.dot(to_light) > 0.0f;
+    });
+  };
+  const auto averted = std::partition(triangles_.begin(), triangles_.end(), is_sunward);
+  sunward_count_ = static_cast<std::size_t>(averted - triangles_.begin());
 }
 
 void DrawnSurface::add_lit_mesh(const Mesh& mesh) {

@@ -38,7 +38,9 @@ class DrawnSurface {
   const std::vector<Vec3f>& normals() const { return normals_; }
 
   const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
+  /// First those that the sun may reach, then those that are turned away from it.
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  std::size_t sunward_count() const { return sunward_count_; }
   /// Per drawn vertex the first of its mesh at the same point: itself where the mesh is smooth.
   const std::vector<std::uint32_t>& places() const { return places_; }
 
@@ -59,6 +61,7 @@ class DrawnSurface {
   void add_flat(const Mesh& mesh, const Frame& frame);
   void add_lit_mesh(const Mesh& mesh);
   void append(const Refinement& refinement);
+  void put_sunward_first(const Vec3f& to_light);
 
   // Ordered by owner: a new shape at a dead one's address is another one.
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
@@ -68,6 +71,7 @@ class DrawnSurface {
   std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;
+  std::size_t sunward_count_ = 0;
   std::vector<std::uint32_t> places_;
 };
 

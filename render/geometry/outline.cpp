@@ -51,7 +51,7 @@ void Outline::collect_sides(const DrawnSurface& surface) {
 
 void Outline::keep_outlines(const DrawnSurface& surface, const View& view) {
   std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.edge.triangle) < std::tie(b.low, b.high, b.edge.triangle);
+    return std::tie(a.low, a.high, a.edge.from) < std::tie(b.low, b.high, b.edge.from);
   });
   const std::vector<SurfaceVertex>& vertices = surface.vertices();
   edges_.clear();

@@ -31,6 +31,7 @@ void SurfaceBuffers::upload(const DrawnSurface& surface) {
   stream(GL_ARRAY_BUFFER, surface.vertices());
   stream(GL_ELEMENT_ARRAY_BUFFER, surface.triangles());
   index_count_ = static_cast<GLsizei>(3 * surface.triangles().size());
+  sunward_count_ = static_cast<GLsizei>(3 * surface.sunward_count());
 }
 
 void SurfaceBuffers::upload_light(const std::vector<IndirectLight>& light) {
@@ -38,9 +39,17 @@ void SurfaceBuffers::upload_light(const std::vector<IndirectLight>& light) {
   stream(GL_ARRAY_BUFFER, light);
 }
 
-void SurfaceBuffers::draw() const {
+void SurfaceBuffers::draw() const { draw(0, index_count_); }
+
+void SurfaceBuffers::draw_sunward() const { draw(0, sunward_count_); }
+
+void SurfaceBuffers::draw_averted() const { draw(sunward_count_, index_count_ - sunward_count_); }
+
+void SurfaceBuffers::draw(GLsizei first_index, GLsizei count) const {
+  if (count == 0) return;
   glBindVertexArray(vao_.name());
-  glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+  const std::size_t offset = sizeof(std::uint32_t) * static_cast<std::size_t>(first_index);
+  glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset));
 }
 
 }  // namespace pneuma::render

@@ -19,13 +19,18 @@ class SurfaceBuffers {
 
   /// With the program in use.
   void draw() const;
+  void draw_sunward() const;
+  void draw_averted() const;
 
  private:
+  void draw(GLsizei first_index, GLsizei count) const;
+
   Vao vao_;
   Buffer vertices_;
   Buffer light_;
   Buffer indices_;
   GLsizei index_count_ = 0;
+  GLsizei sunward_count_ = 0;  // indices
 };
 
 }  // namespace pneuma::render

@@ -84,7 +84,11 @@ void main() {
   vec3 to_eye = normalize(eye - world);
   float nv = clamp(dot(n, to_eye), 0.0, 1.0);
   float nl = max(dot(n, to_light), 0.0);
-  vec3 half_way = normalize(to_eye + to_light + vec3(1e-6));
+  // Of the half vector h: |to_eye + to_light|^2 = 2 + 2 to_eye . to_light.
+  float el = dot(to_eye, to_light);
+  float over_length = inversesqrt(max(2.0 + 2.0 * el, 1e-6));
+  float nh = max(dot(n, to_eye) + dot(n, to_light), 0.0) * over_length;
+  float vh = (1.0 + el) * over_length;
   float lit = nl;
 #ifdef SHADOWED
   lit *= lit_share();
@@ -99,8 +103,7 @@ void main() {
   // Interpolated normals of a coarse surface turn away from the eye long before it does itself; by
   // less than the tenth they differ on fine ones, whose facets would show.
   float reflected = fresnel(max(nv, abs(dot(facet, to_eye)) - 0.1), roughness);
-  float shine = highlight(nl, nv, max(dot(n, half_way), 0.0), max(dot(to_eye, half_way), 0.0),
-                          roughness);
+  float shine = highlight(nl, nv, nh, vh, roughness);
   vec3 light = mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine);
   colour = vec4(shown(light), min(covered, 1.0));
 }
@@ -138,15 +141,17 @@ Surfaces::Variant::Variant(bool shadowed)
               vertex_source, look_source() + fragment_source),
       uniforms(program, shadowed) {}
 
+void Surfaces::use(const Variant& variant, const View& view, const ShadowMap* shadow) {
+  variant.program.use();
+  variant.uniforms.set(view, shadow);
+}
+
 void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow,
                     bool under_lines) {
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  const Variant& variant = shadow != nullptr ? shadowed_ : lit_;
-  variant.program.use();
-  variant.uniforms.set(view, shadow);
   // Far sides of closed bodies are never seen. With several samples a pixel llvmpipe shades even
   // what then fails the depth test, so that drawing them would cost as much again.
   glEnable(GL_CULL_FACE);
@@ -155,7 +160,16 @@ void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const Shado
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.0f, 0.0f);  // by what the depth changes over one pixel
   }
-  surface.draw();
+  if (shadow != nullptr) {
+    use(shadowed_, view, shadow);
+    surface.draw_sunward();
+    // The sun does not reach these, whatever the map says: reads of it are a third of the work.
+    use(lit_, view, nullptr);
+    surface.draw_averted();
+  } else {
+    use(lit_, view, nullptr);
+    surface.draw();
+  }
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }

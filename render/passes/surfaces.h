@@ -36,6 +36,8 @@ class Surfaces {
     SurfaceUniforms uniforms;
   };
 
+  static void use(const Variant& variant, const View& view, const ShadowMap* shadow);
+
   Variant lit_{false};
   Variant shadowed_{true};
 };

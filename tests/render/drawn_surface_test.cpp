@@ -45,6 +45,26 @@ TEST(DrawnSurface, GivesAFlatMeshThreeVerticesATriangleAndASmoothOneItsOwn) {
   }
 }
 
+TEST(DrawnSurface, PutsWhatTheSunMayReachFirst) {
+  Frame frame = empty_frame();
+  frame.meshes = {make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0}),
+                  make_ball({3, 0, 0}, 1, {1, 0, 0}, 12)};
+  const View view = make_view(frame, 320, 240);
+  DrawnSurface surface;
+  surface.build(frame, view);
+  const auto is_sunward = [&](const Triangle& triangle) {
+    return std::ranges::any_of(triangle, [&](std::uint32_t vertex) {
+      return surface.vertices()[vertex].normal.dot(view.to_light) > 0.0f;
+    });
+  };
+  const std::size_t first_averted = surface.sunward_count();
+  for (std::size_t i = 0; i < surface.triangles().size(); ++i) {
+    EXPECT_EQ(is_sunward(surface.triangles()[i]), i < first_averted);
+  }
+  EXPECT_GT(first_averted, 0u);
+  EXPECT_LT(first_averted, surface.triangles().size());
+}
+
 TEST(DrawnSurface, ANewShapeInADeadOnesPlaceIsAnotherOne) {
   const auto box_frame = [](const Colour& colour) {
     Frame frame = empty_frame();
