@@ -26,6 +26,7 @@ struct BenchOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
   std::optional<std::string> size;
+  std::string show;
   MeasureOptions measure;
   bool json = false;
 };
@@ -109,14 +110,24 @@ void add_bench_command(CLI::App& app, Action& action) {
       ->add_option("--size", options->size,
                    fmt::format("Size of the pictures in pixels [{}]", default_size))
       ->type_name("WxH");
+  command
+      ->add_option("--show", options->show,
+                   "What else to draw, as in pneuma render: particles are made in the steps, too")
+      ->type_name("LIST");
   add_backend_option(*command, options->measure.backend);
   add_threads_option(*command, options->measure.threads);
   command->add_flag("--json", options->json, "JSON in place of tables");
   add_examples(*command,
                {"pneuma bench", "pneuma bench one_sphere --no-pictures --json",
                 "pneuma bench one_sphere one_torus --seconds 5",
+                "pneuma bench torus_three_spheres --size 1280x720 --show particles",
                 "pneuma bench one_sphere --set simulation.integrator=implicit_euler --json"});
-  command->callback([options, &action] { action = [options] { return bench(*options); }; });
+  command->callback([options, &action] {
+    action = [options] {
+      if (!options->show.empty()) options->measure.show = parse_show("--show", options->show);
+      return bench(*options);
+    };
+  });
 }
 
 }  // namespace pneuma::app

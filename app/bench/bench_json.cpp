@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/bench/bench_report.h"
@@ -77,6 +80,7 @@ json bench_json(const BenchReport& report) {
   json result = provenance_json();
   result.update({{"date", report.date},
                  {"threads", report.options.threads},
+                 {"show", fmt::format("{}", fmt::join(shown_names(report.options.show), ","))},
                  {"clock_resolution_s", clock_resolution()},
                  {"warnings", report.warnings},
                  {"scenes", std::move(scenes)}});

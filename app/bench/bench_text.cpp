@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -148,6 +149,10 @@ std::string legend(const BenchReport& report) {
         "  with picture     the same, and drawing {} x {} pixels, and encoding them as PNG to "
         "memory\n",
         picture->width, picture->height);
+    const std::vector<std::string> shown = shown_names(report.options.show);
+    if (!shown.empty()) {
+      text += fmt::format("                   also drawn: {}\n", fmt::join(shown, ", "));
+    }
   }
   return text +
          "  5th, 95th        percentiles: 5 of 100 values are below, 5 above\n"

@@ -24,9 +24,10 @@ struct Readings {
 class FrameMaker {
  public:
   FrameMaker(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-             const render::Camera& camera, std::optional<render::Backend> backend)
+             const render::Camera& camera, const Show& show, std::optional<render::Backend> backend)
       : replay_(replay),
         steps_per_frame_(steps_per_frame),
+        show_(show),
         renderer_({.width = scene.picture.width,
                    .height = scene.picture.height,
                    .samples = scene.picture.samples,
@@ -37,7 +38,8 @@ class FrameMaker {
   void make(Readings& readings) {
     replay_.prepare(steps_per_frame_);
     const Clock::time_point start = Clock::now();
-    const render::Frame frame = builder_.build(replay_.world());
+    const render::Frame frame =
+        builder_.build(replay_.world(), replay_.stepper().contacts(), show_);
     const Clock::time_point built = Clock::now();
     stepping_.submit([this, &readings] {
       const Clock::time_point begin = Clock::now();
@@ -69,6 +71,7 @@ class FrameMaker {
  private:
   Replay& replay_;
   int steps_per_frame_;
+  Show show_;
   render::Renderer renderer_;
   FrameBuilder builder_;
   // The last members: they end before what their jobs use.
@@ -79,10 +82,10 @@ class FrameMaker {
 }  // namespace
 
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Budget& budget,
+                          const render::Camera& camera, const Show& show, const Budget& budget,
                           std::optional<render::Backend> backend) {
   Readings ignored, readings;
-  FrameMaker maker(replay, steps_per_frame, scene, camera, backend);
+  FrameMaker maker(replay, steps_per_frame, scene, camera, show, backend);
   for (int i = 0; i < warm_up_frames; ++i) maker.make(ignored);  // also fills the pipeline
   while (budget.more(static_cast<std::int64_t>(readings.total.size()))) maker.make(readings);
   maker.finish();

@@ -6,6 +6,7 @@
 
 #include "app/host/budget.h"
 #include "app/host/clock.h"
+#include "app/picture/show.h"
 #include "app/record/statistics.h"
 #include "app/world/replay.h"
 #include "render/context/backend.h"
@@ -29,9 +30,10 @@ struct FrameTimes {
   double encode = 0.0;
 };
 
-/// The frames that follow the replay's present state. Throws DivergenceError and render::GlError.
+/// The frames that follow the replay's present state, with what `show` says in them. Throws
+/// DivergenceError and render::GlError.
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Budget& budget,
+                          const render::Camera& camera, const Show& show, const Budget& budget,
                           std::optional<render::Backend> backend);
 
 }  // namespace pneuma::app

@@ -154,6 +154,7 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
 
   sim::World start = build_world(scene);
   start.settings.sleep_speed = 0.0;  // a step that nothing moves in would flatter the mean
+  start.settings.particles.shown = options.show.particles;
   refuse_start_overlap(scene, start);
   times.bodies = static_cast<std::int64_t>(start.soft.size() + start.rigid.size());
   const Part part = measured_part(scene, options.warm_up);
@@ -177,7 +178,7 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
         }).camera;
     Replay frames(scene.name, world, part.length, plain);
     times.frames =
-        measure_frames(frames, times.steps_per_frame, scene, camera,
+        measure_frames(frames, times.steps_per_frame, scene, camera, options.show,
                        Budget(options.steps, options.seconds, least_frames), options.backend);
   }
   return times;
@@ -198,6 +199,7 @@ PaperMethodFps measure_paper_method(const scenes::Scene& scene, const MeasureOpt
   }
   MeasureOptions simulation = options;
   simulation.pictures = false;
+  simulation.show = {};
   try {
     return {simulation_fps(measure_scene(as_printed, simulation)), ""};
   } catch (const DivergenceError& error) {

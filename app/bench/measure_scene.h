@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/bench/measure_frames.h"
+#include "app/picture/show.h"
 #include "app/record/contact_tally.h"
 #include "app/record/statistics.h"
 #include "render/context/backend.h"
@@ -21,6 +22,7 @@ struct MeasureOptions {
   // that bodies which are to be in contact have come together.
   std::optional<double> warm_up;
   bool pictures = true;  // without, no GL context is made
+  Show show;             // in these; particles are then part of the steps, too
   std::optional<render::Backend> backend;
   int threads = 1;
 };

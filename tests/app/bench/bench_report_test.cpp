@@ -93,6 +93,14 @@ TEST(BenchText, GivesThePartsOfAFrame) {
             (Cells{scene.name, "5.00", "4.00", "8.00", "0.100", "0.200", "3.50", "1.20", "20"}));
 }
 
+TEST(BenchText, SaysWhatElseWasDrawn) {
+  BenchReport report = report_of({two_bodies()});
+  EXPECT_EQ(bench_text(report).find("also drawn"), std::string::npos);
+  report.options.show.particles = true;
+  EXPECT_NE(bench_text(report).find("also drawn: particles"), std::string::npos);
+  EXPECT_EQ(bench_json(report)["show"], "particles");
+}
+
 TEST(BenchText, AFrameOfSeveralStepsTakesAsManyTimesAsLong) {
   SceneTimes scene = two_bodies();
   scene.steps_per_frame = 4;

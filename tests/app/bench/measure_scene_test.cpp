@@ -8,6 +8,7 @@
 
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
+#include "app/world/find_scene.h"
 #include "app/world/replay.h"
 #include "render/context/context.h"
 #include "scenes/loader/load_scene.h"
@@ -74,6 +75,17 @@ TEST(MeasureScene, MeasuresAsManyStepsAndFramesAsAskedFor) {
   expect_sound(times.frames->seconds);
   EXPECT_GT(times.frames->draw, 0.0);
   EXPECT_GT(times.frames->encode, 0.0);
+}
+
+TEST(MeasureScene, MakesParticlesWhereTheyAreShown) {
+  MeasureOptions options = few_steps(3, true);
+  const scenes::Scene scene =
+      scenes::load_scene(find_scene("two_spheres_contact"), std::vector<std::string>{"duration=1"});
+  EXPECT_FALSE(measure_scene(scene, options).plan.runs(sim::Stage::move_particles));
+  options.show.particles = true;
+  const SceneTimes times = measure_scene(scene, options);
+  EXPECT_TRUE(times.plan.runs(sim::Stage::move_particles));
+  EXPECT_EQ(times.frames->frames, 3);
 }
 
 TEST(MeasureScene, MeasuresAfterTheWarmUpToTheEnd) {
