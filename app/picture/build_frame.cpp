@@ -30,7 +30,7 @@ std::vector<std::array<std::uint32_t, 3>> indices(const std::vector<sim::Triangl
   return result;
 }
 
-ShapePointer soft_shape(const sim::SoftMesh& mesh, const scenes::BodyScene& body) {
+ShapePointer soft_shape(const sim::SoftMesh& mesh, const scenes::BodyScene& body, bool has_faces) {
   auto shape = std::make_shared<render::MeshShape>();
   shape->triangles = indices(mesh.topology.triangles());
   for (const auto& [a, b] : mesh.topology.edges()) {
@@ -41,6 +41,7 @@ ShapePointer soft_shape(const sim::SoftMesh& mesh, const scenes::BodyScene& body
     vertices.emplace_back(mesh.rest_positions[v]);
   }
   shape->colours = body_colours(vertices, body.colours, body.colour_axis);
+  if (has_faces) shape->corner_normals = corner_normals(mesh);
   return shape;
 }
 
@@ -143,8 +144,9 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start,
       const sim::SoftMesh& mesh = *start.soft.at(soft_looks_.size()).mesh;
       const bool means_faces =
           body.shape == scenes::Shape::box || body.shape == scenes::Shape::model;
-      const bool is_flat = !rounded_ || (means_faces && is_faceted(mesh));
-      soft_looks_.insert(soft_looks_.end(), copies, {soft_shape(mesh, body), roughness, is_flat});
+      const bool has_faces = rounded_ && means_faces && is_faceted(mesh);
+      soft_looks_.insert(soft_looks_.end(), copies,
+                         {soft_shape(mesh, body, has_faces), roughness, !rounded_ || has_faces});
     }
   }
 }
@@ -157,7 +159,7 @@ render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
     frame.meshes.back().roughness = soft_looks_[i].roughness;
-    if (soft_looks_[i].is_flat) frame.meshes.back().normals.clear();
+    if (soft_looks_[i].has_edges) frame.meshes.back().normals.clear();
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_looks_[i].shape));

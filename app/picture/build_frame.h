@@ -31,7 +31,7 @@ class FrameBuilder {
   struct Look {
     std::shared_ptr<const render::MeshShape> shape;
     float roughness;
-    bool is_flat;  // each triangle has its own normal
+    bool has_edges;  // sharp ones: vertices have no normals
   };
 
   std::string title_;

@@ -1,6 +1,10 @@
 // Shapes of flat faces and sharp edges, which are not to be drawn round.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "sim/mesh/soft_mesh.h"
 
 namespace pneuma::app {
@@ -9,5 +13,10 @@ namespace pneuma::app {
 /// a quarter of the length of all edges whose triangles do not lie nearly in one plane, as of a
 /// cube, a house or a part of a machine. Round shapes have edges between, however coarse they are.
 bool is_faceted(const sim::SoftMesh& mesh);
+
+/// As render::MeshShape::corner_normals: corners of one vertex have a normal in common if a way
+/// around the vertex from one to the other crosses edges only that are bent by less than 40 degrees
+/// in the shape at rest.
+std::vector<std::array<std::uint32_t, 3>> corner_normals(const sim::SoftMesh& mesh);
 
 }  // namespace pneuma::app

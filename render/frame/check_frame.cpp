@@ -39,6 +39,21 @@ void check_indices(const std::vector<std::array<std::uint32_t, N>>& features,
   }
 }
 
+void check_corner_normals(const MeshShape& shape, std::size_t mesh) {
+  const auto& normals = shape.corner_normals;
+  const std::size_t triangles = shape.triangles.size();
+  require(normals.empty() || normals.size() == triangles,
+          "mesh {} has {} triangles and normals of the corners of {}; as many are needed, or none",
+          mesh, triangles, normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (const std::uint32_t normal : normals[i]) {
+      require(normal < 3 * triangles,
+              "mesh {}: triangle {} has a corner with normal {}; allowed is below {}", mesh, i,
+              normal, 3 * triangles);
+    }
+  }
+}
+
 void check_mesh(const Mesh& mesh, std::size_t i) {
   require(mesh.shape != nullptr, "mesh {} has no shape", i);
   const std::size_t vertices = mesh.positions.size();
@@ -58,6 +73,7 @@ void check_mesh(const Mesh& mesh, std::size_t i) {
           mesh.shape->triangles.size(), mesh.room.size());
   require(std::all_of(mesh.room.begin(), mesh.room.end(), [](float room) { return room >= 0.0f; }),
           "mesh {}: the room of a triangle is negative or not a number", i);
+  check_corner_normals(*mesh.shape, i);
   check_vectors(mesh.positions, i, "position");
   check_vectors(mesh.normals, i, "normal");
   check_indices(mesh.shape->triangles, vertices, i, "triangle");

@@ -39,12 +39,16 @@ struct MeshShape {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise from outside
   std::vector<std::array<std::uint32_t, 2>> edges;      // drawn when `wireframe` is on
   std::vector<Colour> colours;                          // per vertex
+  // Of a mesh without normals, per triangle: the numbers of its corners' normals, below three times
+  // the number of triangles. Corners of one vertex with the same number are shaded smoothly with
+  // each other. Empty: each triangle is flat.
+  std::vector<std::array<std::uint32_t, 3>> corner_normals;
 };
 
 struct Mesh {
   std::shared_ptr<const MeshShape> shape;
   std::vector<Vec3f> positions;  // per vertex
-  std::vector<Vec3f> normals;    // per vertex, unit; empty for flat shading
+  std::vector<Vec3f> normals;    // per vertex, unit; empty for a surface with sharp edges
   float roughness = 0.35f;       // of the surface, 0.05 (shines) .. 1 (dull)
   std::vector<Colour> colours;   // per vertex, in place of the shape's; empty: those
   // Per triangle, m: how far the drawn surface may bulge out of it to look round; empty: nowhere.

@@ -165,28 +165,46 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
 }
 
+/// Of each corner of each triangle. Where corners share a normal, larger triangles bend it more.
+void DrawnSurface::find_corner_normals(const Mesh& mesh) {
+  const std::vector<Triangle>& triangles = mesh.shape->triangles;
+  const std::vector<Triangle>& numbers = mesh.shape->corner_normals;
+  const auto number = [&](std::size_t triangle, std::size_t corner) {
+    return numbers.empty() ? 3 * triangle + corner : numbers[triangle][corner];
+  };
+  corner_sums_.assign(3 * triangles.size(), Vec3f::Zero());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Vec3f& a = mesh.positions[triangles[t][0]];
+    const Vec3f across =
+        (mesh.positions[triangles[t][1]] - a).cross(mesh.positions[triangles[t][2]] - a);
+    for (std::size_t i = 0; i < 3; ++i) corner_sums_[number(t, i)] += across;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      normals_.push_back(corner_sums_[number(t, i)].stableNormalized());
+    }
+  }
+}
+
 void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
   add_lit_mesh(mesh);
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
+  find_corner_normals(mesh);
   Refinement apart;
   std::vector<std::uint32_t> first_at(mesh.positions.size(), ~0u);
   for (const Triangle& t : mesh.shape->triangles) {
     const auto first = static_cast<std::uint32_t>(apart.points.size());
     apart.triangles.push_back({first, first + 1, first + 2});
-    const Vec3f& a = mesh.positions[t[0]];
-    const Vec3f normal =
-        (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).stableNormalized();
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t v = t[i];
       apart.points.push_back({{first + i, first + i, first + i}, {1.0f, 0.0f, 0.0f}});
       positions_.push_back(mesh.positions[v]);
-      normals_.push_back(normal);
       const Vec3f& position = mesh.positions[v];
       if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
       places_.push_back(first_at[v]);
       vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
-                           normal, material(colours[v], mesh.roughness)});
+                           normals_[positions_.size() - 1], material(colours[v], mesh.roughness)});
     }
   }
   append(apart);

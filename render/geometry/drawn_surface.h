@@ -18,7 +18,7 @@ struct IndirectLight {
 };
 
 /// The vertices of a mesh as they are lit: one for each of a smooth mesh; three for each triangle
-/// of a flat one.
+/// of one with sharp edges.
 struct LitMesh {
   std::shared_ptr<const MeshShape> shape;
   bool smooth = false;
@@ -60,6 +60,7 @@ class DrawnSurface {
   void add_smooth(const Mesh& mesh, const Frame& frame, const View& view);
   void add_flat(const Mesh& mesh, const Frame& frame);
   void add_lit_mesh(const Mesh& mesh);
+  void find_corner_normals(const Mesh& mesh);
   void append(const Refinement& refinement);
   void put_sunward_first(const Vec3f& to_light);
 
@@ -68,6 +69,7 @@ class DrawnSurface {
   std::vector<LitMesh> lit_meshes_;
   std::vector<Vec3f> positions_;
   std::vector<Vec3f> normals_;
+  std::vector<Vec3f> corner_sums_;    // of a flat mesh's normals, by their numbers
   std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;

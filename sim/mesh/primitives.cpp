@@ -90,13 +90,17 @@ TriangleMesh make_box(const Vec3& size, int divisions) {
           const Eigen::Vector3i corner = side * Eigen::Vector3i::Unit(axis) + i * u + j * v;
           const std::array<int, 4> quad = {vertex(corner), vertex(corner + u),
                                            vertex(corner + u + v), vertex(corner + v)};
+          // The diagonal begins at quad[first].
+          const std::size_t first = (2 * i < divisions) == (2 * j < divisions) ? 0 : 1;
+          const int a = quad[first], b = quad[first + 1], c = quad[first + 2];
+          const int d = quad[(first + 3) % 4];
           // u x v points along +axis: outward on the far side, reversed on the near one.
           if (side > 0) {
-            mesh.triangles.push_back({quad[0], quad[1], quad[2]});
-            mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+            mesh.triangles.push_back({a, b, c});
+            mesh.triangles.push_back({a, c, d});
           } else {
-            mesh.triangles.push_back({quad[0], quad[2], quad[1]});
-            mesh.triangles.push_back({quad[0], quad[3], quad[2]});
+            mesh.triangles.push_back({a, c, b});
+            mesh.triangles.push_back({a, d, c});
           }
         }
       }

@@ -16,7 +16,9 @@ TriangleMesh make_sphere(double radius, int stacks, int slices);
 TriangleMesh make_torus(double radius, double tube_radius, int stacks, int slices);
 
 /// An axis-aligned box of full lengths `size`, each face cut into divisions x divisions squares of
-/// two triangles. divisions = 1 gives 8 vertices and 12 triangles, the paper's cube.
+/// two triangles, with diagonals that run from the middle of the face to its corners: springs along
+/// them would shear a box whose diagonals were all parallel. divisions = 1 gives 8 vertices and 12
+/// triangles, the paper's cube.
 TriangleMesh make_box(const Vec3& size, int divisions);
 
 /// A subdivided icosahedron, 10 * 4^subdivisions + 2 vertices. Evenly spaced, for studies.

@@ -49,6 +49,13 @@ const std::vector<BadCase> bad_cases = {
     {"normals_missing", "normals", [](Frame& f) { f.meshes[0].normals.pop_back(); }},
     {"triangle_index", "mesh 1: triangle 2 names vertex 8",
      [](Frame& f) { own_shape(f, 1).triangles[2][1] = 8; }},
+    {"corner_normals_missing", "mesh 1 has 12 triangles and normals of the corners of 11",
+     [](Frame& f) { own_shape(f, 1).corner_normals.resize(11); }},
+    {"corner_normal", "mesh 1: triangle 3 has a corner with normal 36",
+     [](Frame& f) {
+       own_shape(f, 1).corner_normals.resize(12);
+       own_shape(f, 1).corner_normals[3][2] = 36;
+     }},
     {"edge_index", "mesh 1: edge 0 names vertex 99",
      [](Frame& f) { own_shape(f, 1).edges[0][1] = 99; }},
     {"camera_in_its_target", "camera", [](Frame& f) { f.camera.eye = f.camera.target; }},

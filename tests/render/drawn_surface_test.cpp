@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 #include "tests/render/probe.h"
 #include "tests/render/shapes.h"
@@ -43,6 +45,35 @@ TEST(DrawnSurface, GivesAFlatMeshThreeVerticesATriangleAndASmoothOneItsOwn) {
     // A unit box about the origin: a face's normal is where its vertices are furthest out.
     EXPECT_NEAR(surface.vertices()[i].normal.dot(surface.vertices()[i].position), 0.5f, 1e-6f);
   }
+}
+
+TEST(DrawnSurface, SharesTheNormalsOfCornersWithOneNumber) {
+  const Vec3f centre = {0, 0, 2};
+  Mesh ball = make_ball(centre, 1, {1, 0, 0}, 24);
+  auto shape = std::make_shared<MeshShape>(*ball.shape);
+  std::vector<std::uint32_t> first_corner(ball.positions.size(), ~0u);
+  for (std::uint32_t t = 0; t < shape->triangles.size(); ++t) {
+    auto& numbers = shape->corner_normals.emplace_back();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      std::uint32_t& first = first_corner[shape->triangles[t][i]];
+      if (first == ~0u) first = 3 * t + i;
+      numbers[i] = first;
+    }
+  }
+  ball.normals.clear();
+  const auto greatest_angle = [&] {
+    float angle = 0.0f;
+    const DrawnSurface surface = built({}, {ball});
+    for (const SurfaceVertex& vertex : surface.vertices()) {
+      const Vec3f outward = (vertex.position - centre).normalized();
+      if (std::abs(outward.z()) > 0.95f) continue;  // at a pole each triangle has its own vertex
+      angle = std::max(angle, std::acos(std::min(1.0f, vertex.normal.dot(outward))));
+    }
+    return angle;
+  };
+  EXPECT_GT(greatest_angle(), 0.08f);  // of flat triangles: from their middles to their corners
+  ball.shape = shape;
+  EXPECT_LT(greatest_angle(), 0.03f);  // triangles weigh by their areas
 }
 
 TEST(DrawnSurface, PutsWhatTheSunMayReachFirst) {

@@ -41,6 +41,27 @@ TEST(Mesh, CountsAreThePapersAndEulers) {
   }
 }
 
+/// A box whose diagonals favoured one side would be sheared by its springs.
+TEST(Mesh, ABoxOfEvenDivisionsIsItsMirrorImage) {
+  const TriangleMesh mesh = make_box({1.0, 2.0, 3.0}, 4);
+  const MeshTopology topology = topology_of(mesh);
+  const auto key = [](const Vec3& point) {
+    return std::array<long, 3>{std::lround(1e6 * point.x()), std::lround(1e6 * point.y()),
+                               std::lround(1e6 * point.z())};
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    std::set<std::set<std::array<long, 3>>> edges, mirrored;
+    for (const auto& [from, to] : topology.edges()) {
+      Vec3 a = mesh.vertices[at(from)], b = mesh.vertices[at(to)];
+      edges.insert({key(a), key(b)});
+      a[axis] = -a[axis];
+      b[axis] = -b[axis];
+      mirrored.insert({key(a), key(b)});
+    }
+    EXPECT_EQ(edges, mirrored) << axis;
+  }
+}
+
 TEST(Mesh, EveryEdgeIsUniqueAndJoinsItsTwoTriangles) {
   for (const auto& [name, mesh, vertices, edges, triangles] : all_meshes()) {
     const MeshTopology topology = topology_of(mesh);

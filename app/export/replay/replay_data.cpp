@@ -163,7 +163,12 @@ void add_shape(const std::string& name, const render::MeshShape& shape, Streams&
       colours.push_back(static_cast<std::uint8_t>(std::lround(colour[channel] * 255.0f)));
     }
   }
+  std::vector<std::uint32_t> corner_normals;
+  for (const auto& t : shape.corner_normals) {
+    corner_normals.insert(corner_normals.end(), t.begin(), t.end());
+  }
   streams.add(name + "_triangles", triangles);
+  if (!corner_normals.empty()) streams.add(name + "_corner_normals", corner_normals);
   streams.add(name + "_edges", edges);
   streams.add(name + "_colours", colours);
 }
@@ -180,6 +185,7 @@ Json meshes_json(const Recording& recording, Streams& streams) {
                       {"vertices", mesh.positions.size()},
                       {"roughness", mesh.roughness},
                       {"smooth", !mesh.normals.empty()},
+                      {"has_corner_normals", !mesh.shape->corner_normals.empty()},
                       {"rounded", !mesh.room.empty()}});
   }
   return meshes;

@@ -1,10 +1,12 @@
-// Which shapes are drawn with flat faces.
+// Which shapes are drawn with sharp edges, and where these are.
 #include "app/picture/faceted.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "sim/mesh/primitives.h"
 
@@ -37,6 +39,34 @@ TEST(Faceted, IsWhatBendsAtSharpEdgesForTheMostPart) {
   EXPECT_TRUE(is_faceted(prism(0.8)));
   EXPECT_FALSE(is_faceted(prism(2.0)));
   EXPECT_FALSE(is_faceted(*sim::make_soft_mesh(sim::make_sphere(1.0, 8, 8))));
+}
+
+/// How many normals the corners have at each vertex; no two vertices may share one.
+std::map<std::size_t, int> vertices_by_normals(const sim::SoftMesh& mesh) {
+  std::map<int, std::set<std::uint32_t>> at_vertex;
+  std::map<std::uint32_t, int> vertex_of;
+  const auto normals = corner_normals(mesh);
+  for (std::size_t t = 0; t < normals.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int vertex = mesh.topology.triangles()[t][i];
+      at_vertex[vertex].insert(normals[t][i]);
+      EXPECT_EQ(vertex_of.emplace(normals[t][i], vertex).first->second, vertex);
+      EXPECT_LT(normals[t][i], 3 * normals.size());
+    }
+  }
+  std::map<std::size_t, int> counts;
+  for (const auto& [vertex, numbers] : at_vertex) ++counts[numbers.size()];
+  return counts;
+}
+
+TEST(CornerNormals, AreAsManyAtAVertexAsSmoothFacesMeetThere) {
+  using Counts = std::map<std::size_t, int>;
+  // Of 56 vertices 8 corners, 12 x 2 on edges, 6 x 4 within faces.
+  EXPECT_EQ(vertices_by_normals(*sim::make_soft_mesh(sim::make_box({2.0, 2.0, 2.0}, 3))),
+            (Counts{{1, 24}, {2, 24}, {3, 8}}));
+  EXPECT_EQ(vertices_by_normals(prism(0.8)), (Counts{{1, 2}, {2, 48}}));
+  EXPECT_EQ(vertices_by_normals(*sim::make_soft_mesh(sim::make_sphere(1.0, 16, 16))),
+            (Counts{{1, 242}}));
 }
 
 }  // namespace

@@ -54,7 +54,8 @@ class Recording {
     return { begins, places: this.stream(name + "_places"), looks: this.stream(name + "_looks") };
   }
 
-  // Each mesh with its triangles, by its own vertices' numbers; of all meshes as one the triangles of smooth ones, the
+  // Each mesh with its triangles, by its own vertices' numbers, and the numbers of their corners' normals, where some
+  // share one; of all meshes as one the triangles of smooth ones, the
   // edges, and the vertices' colours with their roughness.
   joinMeshes() {
     const smooth = [], edges = [];
@@ -62,6 +63,7 @@ class Recording {
     let first = 0;
     this.meshes = this.header.meshes.map((mesh) => {
       const triangles = this.stream(mesh.shape + "_triangles");
+      const cornerNormals = mesh.has_corner_normals ? this.stream(mesh.shape + "_corner_normals") : null;
       if (mesh.smooth) for (const v of triangles) smooth.push(first + v);
       for (const v of this.stream(mesh.shape + "_edges")) edges.push(first + v);
       const colours = Float32Array.from(this.stream(mesh.shape + "_colours"), toLinear);
@@ -70,7 +72,7 @@ class Recording {
         this.materials[4 * (first + v) + 3] = mesh.roughness;
       }
       first += mesh.vertices;
-      return { ...mesh, first: first - mesh.vertices, triangles };
+      return { ...mesh, first: first - mesh.vertices, triangles, cornerNormals };
     });
     this.smooth = Uint32Array.from(smooth);
     this.edges = Uint32Array.from(edges);

@@ -66,7 +66,7 @@ class Surface {
   constructor(recording) {
     this.smoothTriangles = recording.smooth;
     this.vertexNormals = new Float32Array(3 * recording.vertexCount);
-    const sources = [], flat = [], sharing = [], corners = [], weights = [], triangles = [];
+    const sources = [], cornerNormals = [], flat = [], sharing = [], corners = [], weights = [], triangles = [];
     const made = new Map();  // refinements, of which copies of a body have one
     for (const mesh of recording.meshes) {
       const first = sources.length, firstPoint = corners.length / 3;
@@ -82,8 +82,10 @@ class Surface {
           sources.push(mesh.first + v);
         }
       } else {
+        const firstCorner = cornerNormals.length;
         for (let i = 0; i < mesh.triangles.length; ++i) {
           if (i % 3 === 0) flat.push(sources.length);
+          cornerNormals.push(firstCorner + (mesh.cornerNormals ? mesh.cornerNormals[i] : i));
           sources.push(mesh.first + mesh.triangles[i]);
         }
       }
@@ -93,6 +95,8 @@ class Surface {
     }
     this.sources = Uint32Array.from(sources);
     this.flat = Uint32Array.from(flat);        // the first of each flat triangle's lit vertices
+    this.cornerNormals = Uint32Array.from(cornerNormals);  // the number of each corner's normal, of these triangles
+    this.flatNormals = new Float32Array(3 * cornerNormals.length);
     this.sharing = Uint32Array.from(sharing);  // lit vertices with a share of the bulge, as they are recorded
     this.corners = Uint32Array.from(corners);
     this.weights = Float32Array.from(weights);
@@ -150,12 +154,27 @@ class Surface {
       lit[at + 3] = 0;
     }
     if (shares) this.sharing.forEach((i, number) => { lit[8 * i + 3] = shares[number]; });
-    for (const first of this.flat) {
+    this.placeFlatNormals();
+  }
+
+  // Larger triangles bend a normal that corners share more. As render/geometry/drawn_surface.cpp.
+  placeFlatNormals() {
+    const { lit, flat, cornerNormals, flatNormals } = this;
+    flatNormals.fill(0);
+    flat.forEach((first, triangle) => {
       const place = (i) => lit.subarray(8 * (first + i), 8 * (first + i) + 3);
       const across = cross([...subtract(place(1), place(0))], [...subtract(place(2), place(0))]);
-      const normal = scale(across, 1 / (norm(across) || 1));
-      for (let i = 0; i < 3; ++i) lit.set(normal, 8 * (first + i) + 4);
-    }
+      for (let i = 0; i < 3; ++i) {
+        for (let k = 0; k < 3; ++k) flatNormals[3 * cornerNormals[3 * triangle + i] + k] += across[k];
+      }
+    });
+    setLengthsToOne(flatNormals);
+    flat.forEach((first, triangle) => {
+      for (let i = 0; i < 3; ++i) {
+        const normal = 3 * cornerNormals[3 * triangle + i];
+        lit.set(flatNormals.subarray(normal, normal + 3), 8 * (first + i) + 4);
+      }
+    });
   }
 
   // p + share / 2 * sum of w_i ((x_i - p) . n_i) n_i; nothing comes nearer to the ground than half its height.
