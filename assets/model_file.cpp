@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <utility>
 
 #include "sim/base/file.h"
@@ -38,6 +39,15 @@ const std::pair<std::string_view, Format>* find_ending(const std::filesystem::pa
   return found == endings.end() ? nullptr : found;
 }
 
+/// What a DAE says about itself comes first, its meshes after that.
+std::string beginning(const std::filesystem::path& path) {
+  std::string text(std::size_t{1} << 16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
 [[noreturn]] void refuse_size(const base::FileTooLarge& error, std::size_t max_bytes,
                               std::size_t read_before) {
   throw ModelError(fmt::format(
@@ -63,6 +73,21 @@ Format format_of(const std::filesystem::path& path) {
   if (const auto* found = find_ending(path)) return found->second;
   throw ModelError(fmt::format("the ending '{}' is none of a model's; allowed: {}",
                                path.extension().string(), model_endings()));
+}
+
+char up_axis(const std::filesystem::path& path) {
+  switch (format_of(path)) {
+    case Format::gltf:
+    case Format::glb:
+      return 'y';
+    case Format::dae: {
+      const std::string text = beginning(path);
+      if (text.find("Z_UP</up_axis>") != text.npos) return 'z';
+      return text.find("X_UP</up_axis>") != text.npos ? 'x' : 'y';
+    }
+    default:
+      return 'z';
+  }
 }
 
 std::string read_model_file(const std::filesystem::path& path, std::size_t max_bytes,

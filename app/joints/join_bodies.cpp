@@ -21,6 +21,8 @@ using sim::Vec3;
 /// Names in a message.
 constexpr std::size_t most_named = 10;
 
+constexpr std::string_view valve_kind = "valve", spring_kind = "spring";
+
 /// A key's value is the first number of a frame.
 std::vector<sim::KeyFrame> key_frames(const std::vector<scenes::TimedValue>& keys) {
   std::vector<sim::KeyFrame> frames;
@@ -35,7 +37,10 @@ class Joint {
  public:
   Joint(const scenes::Scene& scene, const sim::World& world, std::string_view kind,
         std::size_t index, Place place)
-      : world_(world), what_(fmt::format("{} {}", kind, index + 1)), place_(std::move(place)) {
+      : world_(world),
+        is_valve_(kind == valve_kind),
+        what_(fmt::format("{} {}", kind, index + 1)),
+        place_(std::move(place)) {
     if (place_.file.empty()) place_.file = (scene.folder / (scene.name + ".toml")).string();
   }
 
@@ -47,8 +52,10 @@ class Joint {
     const auto found = std::ranges::find(world_.soft, name, &sim::SoftBody::name);
     if (found != world_.soft.end()) return static_cast<int>(found - world_.soft.begin());
     if (std::ranges::find(world_.rigid, name, &sim::RigidBox::name) != world_.rigid.end()) {
-      refuse(fmt::format("{} = \"{}\" is a box, which has no vertices and no gas; name a soft body",
-                         key, name));
+      refuse(fmt::format("{} = \"{}\" is a box, which has no {}", key, name,
+                         is_valve_ ? "gas; name a soft body"
+                                   : "vertices for a spring; name a soft body, or a static or "
+                                     "moved one of another shape, as shape = \"icosphere\""));
     }
     std::vector<std::string_view> names;
     for (const sim::SoftBody& soft : world_.soft) {
@@ -62,6 +69,7 @@ class Joint {
 
  private:
   const sim::World& world_;
+  bool is_valve_;
   std::string what_;
   Place place_;
 };
@@ -168,11 +176,11 @@ std::shared_ptr<const sim::GasSupply> gas_supply(const scenes::BodyScene& body) 
 
 void join_bodies(const scenes::Scene& scene, sim::World& world) {
   for (std::size_t i = 0; i < scene.valves.size(); ++i) {
-    const Joint joint(scene, world, "valve", i, scene.valves[i].place);
+    const Joint joint(scene, world, valve_kind, i, scene.valves[i].place);
     world.valves.push_back(make_valve(scene.valves[i], joint));
   }
   for (std::size_t i = 0; i < scene.springs.size(); ++i) {
-    const Joint joint(scene, world, "spring", i, scene.springs[i].place);
+    const Joint joint(scene, world, spring_kind, i, scene.springs[i].place);
     world.springs.push_back(make_spring(scene.springs[i], joint, world));
   }
 }

@@ -56,7 +56,8 @@ void add_model_options(CLI::App& command, ModelChoice& choice) {
   command
       .add_option_function<std::string>(
           "--up", [&choice](const std::string& axis) { choice.rotation = rotation_of_up(axis); },
-          "Of a model file: which of its axes points upwards [y of glTF, z of others]")
+          "Of a model file: which of its axes points upwards [y of glTF, what a DAE "
+          "says, z of others]")
       ->type_name("AXIS")
       ->check(CLI::IsMember({"x", "y", "z"}));
 }

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "; did you mean 'pear.ply'?", of the models in the folders, or nothing.
+/// "; did you mean 'pear.ply'?", of the models in the folders, or nothing. First those whose names
+/// go on where this one ends: cat_500.ply for cat.ply.
 std::string near_name(const std::string& name, const std::vector<fs::path>& folders) {
   std::set<std::string> files;  // in one order, whatever the disk's
   for (const fs::path& folder : folders) {
@@ -31,6 +32,12 @@ std::string near_name(const std::string& name, const std::vector<fs::path>& fold
       if (assets::has_model_ending(entry->path())) files.insert(entry->path().filename().string());
     }
   }
+  const std::string stem = fs::path(name).stem().string();
+  std::vector<std::string_view> longer;
+  for (const std::string& file : files) {
+    if (!stem.empty() && file.starts_with(stem)) longer.push_back(file);
+  }
+  if (!longer.empty()) return fmt::format("; there are: {}", fmt::join(longer, ", "));
   return scenes::suggestion(name, {files.begin(), files.end()});
 }
 

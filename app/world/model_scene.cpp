@@ -9,6 +9,7 @@
 #include "app/record/shape_deviation.h"
 #include "app/world/settled_volume.h"
 #include "assets/load_model.h"
+#include "assets/model_file.h"
 #include "scenes/loader/keys.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/equilibrium.h"
@@ -67,12 +68,6 @@ assets::CleanModel load(const fs::path& path, const assets::CleanOptions& option
     throw_if_interrupted();  // Ctrl-C ends the importer first
     throw;
   }
-}
-
-/// Formats that say which way is up say y.
-bool is_y_up(const fs::path& path) {
-  const std::string ending = path.extension().string();
-  return ending == ".glb" || ending == ".gltf";
 }
 
 void fill(sim::SoftBody& body, double gauge) {
@@ -190,7 +185,7 @@ sim::Vec3 rotation_of_up(std::string_view axis) {
 }
 
 sim::Vec3 model_rotation(const fs::path& model, const ModelChoice& choice) {
-  return choice.rotation.value_or(rotation_of_up(is_y_up(model) ? "y" : "z"));
+  return choice.rotation.value_or(rotation_of_up(std::string(1, assets::up_axis(model))));
 }
 
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {

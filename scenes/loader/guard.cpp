@@ -107,6 +107,10 @@ std::string guarded(std::string_view text, int override_index) {
   if (text.substr(0, byte_order_mark.size()) == byte_order_mark) {
     text.remove_prefix(byte_order_mark.size());
   }
+  if (std::count(text.begin(), text.end(), '\0') > 1) {
+    throw SyntaxError({1, 1, override_index},
+                      "this is no text, but a picture, a program or the like; a scene is TOML");
+  }
   std::string result(text);
   int number = 1;
   for (std::size_t start = 0; start < text.size(); ++number) {

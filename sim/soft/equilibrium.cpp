@@ -124,10 +124,12 @@ Tensions find_tensions(const MeshTopology& topology, const VertexArray& position
   check_balance(positions, force);
   Tensions tensions = solve(spring_directions(topology, positions), force, options.softening);
   if (tensions.residual <= options.max_residual) return tensions;
-  throw EquilibriumError("the springs leave " + base::text(tensions.residual) +
-                         " of the pressure force unbalanced, " + base::text(options.max_residual) +
-                         " is allowed: the shape is too flat to be held by its springs. Use a "
-                         "thicker shape, or springs at rest in the shape (rest = \"shape\")");
+  throw EquilibriumError(
+      "the springs leave " + base::text(tensions.residual) + " of the pressure force unbalanced, " +
+      base::text(options.max_residual) +
+      " is allowed: its faces are too flat to be held by springs along them. Use "
+      "a rounder shape, or springs at rest in the shape (rest = \"shape\"), and "
+      "bending where it is to keep its faces");
 }
 
 /// mol, with which the gas pushes no more than what is outside; 0 without ambient pressure.

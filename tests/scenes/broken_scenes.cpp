@@ -39,6 +39,7 @@ const std::vector<BrokenScene> documents = {
     {"unclosed_table", "[camera\n[[body]]\n", 1, 8, {}},
     {"key_twice", sphere("k = 1\nk = 2"), 3, 5, {"k"}},
     {"table_twice", before_body("[camera]\n[picture]\n[camera]\n"), 3, 1, {"camera"}},
+    {"no_text", std::string("\x89PNG\r\n\x1a\n\0\0", 10), 1, 1, {"this is no text"}},
     {"not_utf8", "title = \"\xff\"\n[[body]]\n", 1, 10, {"ASCII but for comments"}},
     {"beyond_ascii_in_a_string", "title = \"x\xc3\xa4\"\n[[body]]\n", 1, 11, {"ASCII"}},
     {"beyond_ascii_in_an_open_string", "[[body]]\nk = 22'\xcd\x92\n", 2, 8, {"ASCII"}},

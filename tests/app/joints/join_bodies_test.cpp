@@ -68,7 +68,9 @@ TEST(JoinBodies, RefusesWhatCannotBeJoined) {
       "position = [0, -9, 5]\n";
   expect_in(refusal(balls + "[[valve]]\nfrom = \"a\"\nto = \"b\"\n"),
             {"joined.toml:15:1", "valve 1", "no soft body", "a.1, a.2, b"});
-  expect_in(refusal(balls + "[[valve]]\nfrom = \"b\"\nto = \"cube\"\n"), {"is a box"});
+  expect_in(refusal(balls + "[[valve]]\nfrom = \"b\"\nto = \"cube\"\n"), {"is a box", "no gas"});
+  expect_in(refusal(balls + "[[spring]]\nfrom = \"b\"\nto = \"cube\"\nk = 1\n"),
+            {"is a box", "no vertices", "icosphere"});
   expect_in(refusal(balls + "[[valve]]\nfrom = \"b\"\nto = \"b\"\n"), {"the same body"});
   expect_in(refusal(balls + still + "[[valve]]\nfrom = \"b\"\nto = \"s\"\n"), {"has no gas"});
   expect_in(refusal(balls + "[[body]]\nname = \"g\"\ngas_exponent = 1.4\nposition = [0, -9, 5]\n"

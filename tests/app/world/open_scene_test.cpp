@@ -74,6 +74,20 @@ TEST_F(OpenScene, ItsTextIsAFileToKeep) {
   EXPECT_EQ(scenes::scene_fingerprint(again), scenes::scene_fingerprint(scene));
 }
 
+TEST_F(OpenScene, ADaeStandsAsItSays) {
+  const std::string dae = assets::dae_text(sim::make_box({3.0, 6.0, 1.0}, 2));
+  const std::string z_up = "<up_axis>Z_UP</up_axis>";
+  const std::filesystem::path path = file().parent_path() / "slab.dae";
+  for (const auto& [up, height] :
+       {std::pair{"<up_axis>X_UP</up_axis>", 3.0}, std::pair{"<up_axis>Y_UP</up_axis>", 6.0},
+        std::pair{z_up.c_str(), 1.0}, std::pair{"", 6.0}}) {
+    std::string text = dae;
+    write_text(path, text.replace(text.find(z_up), z_up.size(), up));
+    const sim::World world = build_world(open_scene(path.string(), {}));
+    EXPECT_NEAR(sim::bounds(world).size().z(), height, 1e-6) << up;
+  }
+}
+
 TEST_F(OpenScene, AModelThatIsTurnedStandsAboveTheGround) {
   const auto lowest = [&](const scenes::Scene& scene) {
     const auto size = sim::bounds(build_world(scene).soft.at(0).positions);
