@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/base/text.h"
 #include "sim/mesh/measure.h"
@@ -15,6 +16,10 @@ namespace {
 
 /// Fraction of the energy of springs at twice their length, and of nRT: less gained is rounding.
 constexpr double energy_rounding = 1e-9;
+
+/// Of the shortest side of a box, which lies no more than a hundredth of that in another where it
+/// has room.
+constexpr double squeezed_depth = 0.1;
 
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
                    const std::string& what) {
@@ -228,6 +233,30 @@ std::optional<Divergence> find_first_divergence(const World& world,
   }
   for (const RigidBox& box : world.rigid) {
     if (auto divergence = find_divergence(world, box)) return divergence;
+  }
+  return std::nullopt;
+}
+
+std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
+                                            std::span<const SweptContact> contacts) {
+  const auto free_box = [&](int body) -> const RigidBox* {
+    if (body == swept_ground || !bodies.is_rigid(body) || is_kinematic(world, body)) return nullptr;
+    return &world.rigid[at(bodies.box(body))];
+  };
+  const auto name = [&](int body) -> std::string {
+    return body == swept_ground ? "the ground" : world.rigid[at(bodies.box(body))].name;
+  };
+  for (const SweptContact& contact : contacts) {
+    if (contact.distance >= 0.0) continue;
+    const auto [first, second] = std::pair(contact.first.body, contact.second.body);
+    const RigidBox* const box = free_box(first) ? free_box(first) : free_box(second);
+    if (!box || (second != swept_ground && !bodies.is_rigid(second))) continue;
+    const double depth = -contact.distance;
+    if (depth <= squeezed_depth * box->size.minCoeff()) continue;
+    return Divergence{Stage::find_contacts, world.steps + 1, box->name,
+                      "it has no room left: it is pressed " + base::text(depth) + " m into " +
+                          name(box == free_box(first) ? second : first) +
+                          ". Let what is moved leave more room"};
   }
   return std::nullopt;
 }

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/base/workers.h"
 #include "sim/soft/soft_state.h"
 #include "sim/step/stepper.h"
+#include "sim/step/swept_contact.h"
 
 namespace pneuma::sim {
 
@@ -40,5 +42,10 @@ std::optional<Divergence> find_divergence(const World& world, const RigidBox& bo
 std::optional<Divergence> find_first_divergence(const World& world,
                                                 std::vector<std::optional<Divergence>>& outcomes,
                                                 base::Workers& workers);
+
+/// At the start of a step: of the contacts, that of a free box which lies deep in something else.
+/// In a world where boxes are moved it has no room left, and impulses would grow without end.
+std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
+                                            std::span<const SweptContact> contacts);
 
 }  // namespace pneuma::sim

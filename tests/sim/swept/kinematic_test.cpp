@@ -42,6 +42,28 @@ TEST(Kinematic, AMovedBoxTakesAFreeOneAlongAtItsSpeed) {
   EXPECT_GT(world.rigid[1].position.x() - world.rigid[0].position.x(), 0.99);
 }
 
+/// A press comes down on a cube of 1 m that lies on the ground, until it leaves `room` (m) for it.
+std::optional<Divergence> press_cube(double room) {
+  World world;
+  world.rigid = {make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5}),
+                 make_kinematic({3.0, 3.0, 1.0}, {0.0, 0.0, 1.5 + 1.2}, {0.0, 0.0, -1.0})};
+  world.rigid[0].name = "victim";
+  Stepper stepper(world);
+  while (world.rigid[1].position.z() - 0.5 > room) {
+    if (auto divergence = stepper.step(world)) return divergence;
+  }
+  world.rigid[1].velocity.setZero();
+  return run(world, 0.5);
+}
+
+TEST(Kinematic, ABoxWithoutRoomEndsTheRunByName) {
+  EXPECT_FALSE(press_cube(1.01));
+  const auto divergence = press_cube(0.6);
+  ASSERT_TRUE(divergence);
+  EXPECT_EQ(divergence->body, "victim");
+  EXPECT_NE(divergence->what.find("no room left"), std::string::npos) << divergence->what;
+}
+
 TEST(Kinematic, ABallIsPressedBetweenASlabAndAPlateAndCrossesNeither) {
   World world;
   SoftBody ball = make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, 8.1});
