@@ -48,12 +48,17 @@ vec3 backdrop(float height) {
 )";
 
 constexpr const char* reflection_functions = R"(
-// Schlick's form (1994) for a refractive index of 1.5, at grazing angles no more than what a rough
-// surface mirrors (Lagarde, "Adopting a physically based shading model", 2011).
+// Schlick's form (1994) for a refractive index of 1.5 with a rough surface's end (Lagarde, "Adopting
+// a physically based shading model", 2011), which runs on to twice what GGX mirrors at a grazing
+// angle: outlines would glow. It is cut off at what a polynomial gives there, within 0.07 of Karis'
+// fit ("Physically based shading on mobile", 2014) and enough for highlight() to be all of it.
 float fresnel(float cosine, float roughness) {
   float grazing = 1.0 - cosine;
   float squared = grazing * grazing;
-  return 0.04 + (max(1.0 - roughness, 0.04) - 0.04) * squared * squared * grazing;
+  float smoothness = 1.0 - roughness;
+  float most = smoothness * smoothness * (0.5 + 0.5 * smoothness);
+  return min(0.04 + (max(smoothness, 0.04) - 0.04) * squared * squared * grazing,
+             max(most, 0.08));
 }
 
 // Of what comes from all sides onto a surface, this enters it and lights its colour.

@@ -77,14 +77,16 @@ TEST_F(ModelScene, IsFoundBesideTheSceneAndAmongTheProgramsModels) {
 }
 
 TEST_F(ModelScene, AMissingFileIsBlamedOnTheScenesLine) {
-  const scenes::Scene scene = load({"model.file=it.pyl"});
-  try {
-    build_world(scene);
-    FAIL() << "built";
-  } catch (const scenes::SceneError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("--set model.file=it.pyl: body '"), std::string::npos) << message;
-    EXPECT_NE(message.find("did you mean 'it.ply'?"), std::string::npos) << message;
+  for (const auto& [typed, meant] : {std::pair{"model.file=it.pyl", "there are: it.ply"},
+                                     std::pair{"model.file=ti.ply", "did you mean 'it.ply'?"}}) {
+    try {
+      build_world(load({typed}));
+      FAIL() << "built";
+    } catch (const scenes::SceneError& error) {
+      const std::string message = error.what();
+      EXPECT_NE(message.find(fmt::format("--set {}: body '", typed)), std::string::npos) << message;
+      EXPECT_NE(message.find(meant), std::string::npos) << message;
+    }
   }
 }
 

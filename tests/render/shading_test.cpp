@@ -96,7 +96,9 @@ Pixel shaded(const Colour& colour, const Eigen::Vector3d& normal, const Eigen::V
   const double above = t * t * (3.0 - 2.0 * t);
   const Eigen::Array3d mirrored =
       floor_light * (1.0 - above) + (mirror.z() > 0.0 ? sky_at(mirror.z()) : horizon) * above;
-  const double reflected = schlick(normal.dot(to_eye), 1.0 - roughness);
+  const double smoothness = 1.0 - roughness;
+  const double reflected = std::min(schlick(normal.dot(to_eye), smoothness),
+                                    smoothness * smoothness * (0.5 + 0.5 * smoothness));
   const Eigen::Array3d light =
       tone_mapped(0.96 * albedo * diffuse * (1.0 - reflected) + mirrored * reflected +
                   sun * lit * highlight(normal, to_light, to_eye));

@@ -118,7 +118,7 @@ TEST(GasAdvice, HasWordsForBodiesThatNothingHolds) {
   const GasAdvice flat = advices_on("[[body]]\nshape = \"box\"\n").at(0);
   EXPECT_TRUE(flat.blown_up());
   EXPECT_FALSE(flat.max_held.has_value());
-  EXPECT_NE(gas_warning(flat).find("less gas"), std::string::npos) << gas_warning(flat);
+  EXPECT_NE(gas_warning(flat).find("inflation = 1.5"), std::string::npos) << gas_warning(flat);
 }
 
 }  // namespace
