@@ -82,8 +82,11 @@ char up_axis(const std::filesystem::path& path) {
       return 'y';
     case Format::dae: {
       const std::string text = beginning(path);
-      if (text.find("Z_UP</up_axis>") != text.npos) return 'z';
-      return text.find("X_UP</up_axis>") != text.npos ? 'x' : 'y';
+      const std::size_t tag = text.find("<up_axis>");
+      if (tag == text.npos) return 'y';
+      const std::string said = text.substr(tag, text.find("</", tag) - tag);
+      if (said.find("Z_UP") != said.npos) return 'z';
+      return said.find("X_UP") != said.npos ? 'x' : 'y';
     }
     default:
       return 'z';

@@ -20,8 +20,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "; did you mean 'pear.ply'?", of the models in the folders, or nothing. First those whose names
-/// go on where this one ends: cat_500.ply for cat.ply.
+/// Names in a message.
+constexpr std::size_t most_models = 10;
+
+/// "; did you mean 'pear.ply'?", of the models in the folders, or nothing. If there are, those
+/// whose names go on where this one ends: cat_500.ply for cat.ply.
 std::string near_name(const std::string& name, const std::vector<fs::path>& folders) {
   std::set<std::string> files;  // in one order, whatever the disk's
   for (const fs::path& folder : folders) {
@@ -35,7 +38,8 @@ std::string near_name(const std::string& name, const std::vector<fs::path>& fold
   const std::string stem = fs::path(name).stem().string();
   std::vector<std::string_view> longer;
   for (const std::string& file : files) {
-    if (!stem.empty() && file.starts_with(stem)) longer.push_back(file);
+    const bool goes_on = !stem.empty() && file.starts_with(stem);
+    if (goes_on && longer.size() < most_models) longer.push_back(file);
   }
   if (!longer.empty()) return fmt::format("; there are: {}", fmt::join(longer, ", "));
   return scenes::suggestion(name, {files.begin(), files.end()});

@@ -62,9 +62,12 @@ void Outline::keep_outlines(const DrawnSurface& surface, const View& view) {
       ++next;
     }
     const bool ends = next == i + 1;
-    // A flat mesh has its faces' normals; a smooth one has the same on both sides.
-    const bool folds = !ends && vertices[side.edge.from].normal.dot(
-                                    vertices[sides_[i + 1].edge.to].normal) < alike;
+    // Where the sides of an edge share a normal, at both ends, it is smooth.
+    const auto differ = [&](std::uint32_t one, std::uint32_t other) {
+      return vertices[one].normal.dot(vertices[other].normal) < alike;
+    };
+    const bool folds = !ends && (differ(side.edge.from, sides_[i + 1].edge.to) ||
+                                 differ(side.edge.to, sides_[i + 1].edge.from));
     const auto is_ahead = [&](std::uint32_t vertex) {
       return depth(view, vertices[vertex].position) > view.near;
     };

@@ -108,8 +108,9 @@ std::string guarded(std::string_view text, int override_index) {
     text.remove_prefix(byte_order_mark.size());
   }
   if (std::count(text.begin(), text.end(), '\0') > 1) {
-    throw SyntaxError({1, 1, override_index},
-                      "this is no text, but a picture, a program or the like; a scene is TOML");
+    throw SyntaxError(
+        {1, 1, override_index},
+        "this is no text, but a picture, a program or text in UTF-16; a scene is TOML in ASCII");
   }
   std::string result(text);
   int number = 1;

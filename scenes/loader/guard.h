@@ -11,7 +11,7 @@ namespace pneuma::scenes {
 
 /// The text, fit for toml++: without a byte order mark, and with question marks for all that is
 /// beyond ASCII in comments. Throws SyntaxError at the first of these, which no scene needs:
-/// - Several bytes 0, which say that the file is no text at all.
+/// - Several bytes 0, which say that the file is no text of single bytes.
 /// - Bytes beyond ASCII outside of comments, on which toml++ can fail wherever it looks for blanks
 ///   (https://github.com/marzer/tomlplusplus/issues/190 and 295).
 /// - A table's header that starts with anything but a name, such as `[&`

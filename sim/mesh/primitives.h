@@ -17,8 +17,8 @@ TriangleMesh make_torus(double radius, double tube_radius, int stacks, int slice
 
 /// An axis-aligned box of full lengths `size`, each face cut into divisions x divisions squares of
 /// two triangles, with diagonals that run from the middle of the face to its corners: springs along
-/// them would shear a box whose diagonals were all parallel. divisions = 1 gives 8 vertices and 12
-/// triangles, the paper's cube.
+/// them would shear a box whose diagonals were all parallel. Of odd divisions the middle squares
+/// favour one side. divisions = 1 gives 8 vertices and 12 triangles, the paper's cube.
 TriangleMesh make_box(const Vec3& size, int divisions);
 
 /// A subdivided icosahedron, 10 * 4^subdivisions + 2 vertices. Evenly spaced, for studies.

@@ -17,8 +17,8 @@ namespace {
 /// Fraction of the energy of springs at twice their length, and of nRT: less gained is rounding.
 constexpr double energy_rounding = 1e-9;
 
-/// Of the shortest side of a box, which lies no more than a hundredth of that in another where it
-/// has room.
+/// Of the shortest side of a box that something moved presses on: it gives way before that if it
+/// can.
 constexpr double squeezed_depth = 0.1;
 
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
@@ -174,6 +174,51 @@ bool may_have_gained_energy(const SoftBody& body, const StepSums& sums) {
   return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * sums.squares_before;
 }
 
+class SqueezedBoxes {
+ public:
+  SqueezedBoxes(const World& world, const SweptBodies& bodies,
+                std::span<const SweptContact> contacts)
+      : world_(world), bodies_(bodies), contacts_(contacts) {}
+
+  std::optional<Divergence> find(const SweptContact& contact) const {
+    const int first = contact.first.body, second = contact.second.body;
+    for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
+      if (!is_free_box(body) || !(other == swept_ground || bodies_.is_rigid(other))) continue;
+      const RigidBox& box = world_.rigid[at(bodies_.box(body))];
+      const double depth = -contact.distance;
+      if (depth <= squeezed_depth * box.size.minCoeff() || !is_pressed(body)) continue;
+      return Divergence{Stage::find_contacts, world_.steps + 1, box.name,
+                        "it has no room left: it is pressed " + base::text(depth) + " m into " +
+                            name(other) + ". Let what is moved leave more room"};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool is_free_box(int body) const {
+    return body != swept_ground && bodies_.is_rigid(body) && !is_kinematic(world_, body);
+  }
+  /// Also while it holds still between two moves.
+  bool is_moved(int body) const {
+    if (body == swept_ground || !is_kinematic(world_, body)) return false;
+    return moves(world_, body) ||
+           (bodies_.is_rigid(body) && world_.rigid[at(bodies_.box(body))].motion);
+  }
+  bool is_pressed(int box) const {
+    return std::ranges::any_of(contacts_, [&](const SweptContact& contact) {
+      return (contact.first.body == box && is_moved(contact.second.body)) ||
+             (contact.second.body == box && is_moved(contact.first.body));
+    });
+  }
+  std::string name(int body) const {
+    return body == swept_ground ? "the ground" : world_.rigid[at(bodies_.box(body))].name;
+  }
+
+  const World& world_;
+  const SweptBodies& bodies_;
+  std::span<const SweptContact> contacts_;
+};
+
 }  // namespace
 
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
@@ -239,24 +284,10 @@ std::optional<Divergence> find_first_divergence(const World& world,
 
 std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
                                             std::span<const SweptContact> contacts) {
-  const auto free_box = [&](int body) -> const RigidBox* {
-    if (body == swept_ground || !bodies.is_rigid(body) || is_kinematic(world, body)) return nullptr;
-    return &world.rigid[at(bodies.box(body))];
-  };
-  const auto name = [&](int body) -> std::string {
-    return body == swept_ground ? "the ground" : world.rigid[at(bodies.box(body))].name;
-  };
+  const SqueezedBoxes squeezed(world, bodies, contacts);
   for (const SweptContact& contact : contacts) {
     if (contact.distance >= 0.0) continue;
-    const auto [first, second] = std::pair(contact.first.body, contact.second.body);
-    const RigidBox* const box = free_box(first) ? free_box(first) : free_box(second);
-    if (!box || (second != swept_ground && !bodies.is_rigid(second))) continue;
-    const double depth = -contact.distance;
-    if (depth <= squeezed_depth * box->size.minCoeff()) continue;
-    return Divergence{Stage::find_contacts, world.steps + 1, box->name,
-                      "it has no room left: it is pressed " + base::text(depth) + " m into " +
-                          name(box == free_box(first) ? second : first) +
-                          ". Let what is moved leave more room"};
+    if (auto divergence = squeezed.find(contact)) return divergence;
   }
   return std::nullopt;
 }

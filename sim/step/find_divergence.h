@@ -43,8 +43,8 @@ std::optional<Divergence> find_first_divergence(const World& world,
                                                 std::vector<std::optional<Divergence>>& outcomes,
                                                 base::Workers& workers);
 
-/// At the start of a step: of the contacts, that of a free box which lies deep in something else.
-/// In a world where boxes are moved it has no room left, and impulses would grow without end.
+/// At the start of a step: of the contacts, that of a free box which something moved presses deep
+/// into something else. It has no room left, and impulses would grow without end.
 std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
                                             std::span<const SweptContact> contacts);
 

@@ -101,9 +101,7 @@ class SweptStep {
       search_.start();
     });
     if (!m_.touched_asleep.empty()) return touched_asleep();
-    if (has_moved_boxes()) {
-      if (auto squeezed = find_squeezed_box(world_, bodies_, m_.contacts)) return squeezed;
-    }
+    if (auto squeezed = find_squeezed_box(world_, bodies_, m_.contacts)) return squeezed;
     std::size_t first_new = 0;  // contact that was not yet solved for
     for (int round = 0; round < max_rounds; ++round) {
       bool collides = false;
@@ -141,12 +139,6 @@ class SweptStep {
     return bodies_.let_carried_fall(
         world_, m_.carried_boxes,
         fall_within(step(), world_.settings.integrator, world_.settings.gravity));
-  }
-
-  bool has_moved_boxes() const {
-    return std::ranges::any_of(world_.rigid, [](const RigidBox& box) {
-      return box.is_kinematic && !(box.velocity.isZero(0.0) && box.angular_velocity.isZero(0.0));
-    });
   }
 
   /// What sleeps must wake before the step can be done.

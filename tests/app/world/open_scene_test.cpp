@@ -79,7 +79,7 @@ TEST_F(OpenScene, ADaeStandsAsItSays) {
   const std::string z_up = "<up_axis>Z_UP</up_axis>";
   const std::filesystem::path path = file().parent_path() / "slab.dae";
   for (const auto& [up, height] :
-       {std::pair{"<up_axis>X_UP</up_axis>", 3.0}, std::pair{"<up_axis>Y_UP</up_axis>", 6.0},
+       {std::pair{"<up_axis> X_UP </up_axis>", 3.0}, std::pair{"<up_axis>Y_UP</up_axis>", 6.0},
         std::pair{z_up.c_str(), 1.0}, std::pair{"", 6.0}}) {
     std::string text = dae;
     write_text(path, text.replace(text.find(z_up), z_up.size(), up));
