@@ -34,7 +34,7 @@ vec3 tone_mapped(vec3 light) {
 }
 
 // sRGB within 1.2 of 255, from roots in place of powers, which take several times as long on a CPU;
-// at the dark end, where a straight piece belongs, within 4.5.
+// at the dark end, where a straight piece belongs, within 3.
 vec3 shown(vec3 light) {
   vec3 root = sqrt(max(tone_mapped(light), vec3(0.0)));
   return clamp((1.21128893 - 0.19818435 * root) * root - 0.01758249, 0.0, 1.0);

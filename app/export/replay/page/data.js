@@ -55,8 +55,8 @@ class Recording {
   }
 
   // Each mesh with its triangles, by its own vertices' numbers, and the numbers of their corners' normals, where some
-  // share one; of all meshes as one the triangles of smooth ones, the
-  // edges, and the vertices' colours with their roughness.
+  // share one; of all meshes as one the triangles of smooth ones, the edges, and the vertices' colours with their
+  // roughness.
   joinMeshes() {
     const smooth = [], edges = [];
     this.materials = new Float32Array(4 * this.vertexCount);
