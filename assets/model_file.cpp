@@ -75,21 +75,21 @@ Format format_of(const std::filesystem::path& path) {
                                path.extension().string(), model_endings()));
 }
 
-char up_axis(const std::filesystem::path& path) {
+std::string_view up_axis(const std::filesystem::path& path) {
   switch (format_of(path)) {
     case Format::gltf:
     case Format::glb:
-      return 'y';
+      return "y";
     case Format::dae: {
       const std::string text = beginning(path);
       const std::size_t tag = text.find("<up_axis>");
-      if (tag == text.npos) return 'y';
+      if (tag == text.npos) return "y";
       const std::string said = text.substr(tag, text.find("</", tag) - tag);
-      if (said.find("Z_UP") != said.npos) return 'z';
-      return said.find("X_UP") != said.npos ? 'x' : 'y';
+      if (said.find("Z_UP") != said.npos) return "z";
+      return said.find("X_UP") != said.npos ? "x" : "y";
     }
     default:
-      return 'z';
+      return "z";
   }
 }
 

@@ -26,9 +26,9 @@ bool has_model_ending(const std::filesystem::path& path);
 /// "obj, ply, stl, off, gltf, glb, 3ds, dae or fbx".
 std::string model_endings();
 
-/// 'x', 'y' or 'z': which axis of the file points upwards. What a DAE says, and y if it does not; y
+/// "x", "y" or "z": which axis of the file points upwards. What a DAE says, and y if it does not; y
 /// of glTF; z of other formats, whose files come both ways and do not say.
-char up_axis(const std::filesystem::path& path);
+std::string_view up_axis(const std::filesystem::path& path);
 
 /// The whole file. Throws ModelError when it cannot be read, is a folder, is empty or is, with the
 /// `read_before` bytes of the model's other files, larger than `max_bytes`; no more than that is

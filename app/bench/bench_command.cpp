@@ -103,7 +103,7 @@ void add_bench_command(CLI::App& app, Action& action) {
                    "Leave out the scene's first S seconds, at most half of it [half of it]")
       ->type_name("S")
       ->check(CLI::Range(0.0, 3600.0));
-  command->add_flag_callback(
+  auto* no_pictures = command->add_flag_callback(
       "--no-pictures", [options] { options->measure.pictures = false; },
       "Measure the simulation only; needs no OpenGL");
   command
@@ -113,7 +113,8 @@ void add_bench_command(CLI::App& app, Action& action) {
   command
       ->add_option("--show", options->show,
                    "What else to draw, as in pneuma render: particles are made in the steps, too")
-      ->type_name("LIST");
+      ->type_name("LIST")
+      ->excludes(no_pictures);
   add_backend_option(*command, options->measure.backend);
   add_threads_option(*command, options->measure.threads);
   command->add_flag("--json", options->json, "JSON in place of tables");

@@ -111,8 +111,7 @@ std::string gas_warning(const GasAdvice& advice) {
       fmt::format("{}: gas blows {} up: {}", body_and_alike(advice.body, advice.count),
                   advice.count > 1 ? "them" : "it", volumes_text(advice));
   if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
-  if (!advice.max_held)
-    return grows + "; less gas keeps it smaller: inflation = 1.5 alone, say, half as large again";
+  if (!advice.max_held) return grows + "; inflation = 1.5 alone would make it 1.5 times";
   return fmt::format(
       "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
       "springs of k = {:g} N/m hold",

@@ -185,7 +185,7 @@ sim::Vec3 rotation_of_up(std::string_view axis) {
 }
 
 sim::Vec3 model_rotation(const fs::path& model, const ModelChoice& choice) {
-  return choice.rotation.value_or(rotation_of_up(std::string(1, assets::up_axis(model))));
+  return choice.rotation ? *choice.rotation : rotation_of_up(assets::up_axis(model));
 }
 
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {

@@ -51,7 +51,8 @@ constexpr const char* reflection_functions = R"(
 // Schlick's form (1994) for a refractive index of 1.5 with a rough surface's end (Lagarde, "Adopting
 // a physically based shading model", 2011), which runs on to twice what GGX mirrors at a grazing
 // angle: outlines would glow. It is cut off at what a polynomial gives there, within 0.07 of Karis'
-// fit ("Physically based shading on mobile", 2014) and enough for highlight() to be all of it.
+// fit ("Physically based shading on mobile", 2014) and enough that with highlight() no
+// more is sent than arrives.
 float fresnel(float cosine, float roughness) {
   float grazing = 1.0 - cosine;
   float squared = grazing * grazing;

@@ -163,7 +163,7 @@ void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const Shado
   if (shadow != nullptr) {
     use(shadowed_, view, shadow);
     surface.draw_sunward();
-    // The sun does not reach these, whatever the map says: reads of it are a third of the work.
+    // The sun does not reach these, whatever the map says.
     use(lit_, view, nullptr);
     surface.draw_averted();
   } else {

@@ -284,6 +284,7 @@ std::optional<Divergence> find_first_divergence(const World& world,
 
 std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
                                             std::span<const SweptContact> contacts) {
+  if (world.rigid.empty()) return std::nullopt;
   const SqueezedBoxes squeezed(world, bodies, contacts);
   for (const SweptContact& contact : contacts) {
     if (contact.distance >= 0.0) continue;

@@ -129,7 +129,7 @@ TEST_P(LitPlane, HasTheColourThatTheFormulasGive) {
   const Pixel expected =
       shaded(colour, Eigen::Vector3d::UnitZ(), -plane.light.cast<double>().normalized(),
              plane.eye.cast<double>().normalized());
-  // One for rounding, one for the roots in place of powers, one for the harmonics in place of the
+  // One for rounding, one for the root in place of powers, one for the harmonics in place of the
   // sky.
   EXPECT_LE(greatest_difference(pixel_of(image, frame.camera, Vec3f::Zero()), expected), 3);
 }
