@@ -13,6 +13,58 @@ std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
   return static_cast<std::size_t>(impulse - memory.impulses.data());
 }
 
+bool is_hit(const SweptContact& contact) { return contact.returns_energy && contact.is_near; }
+
+/// Of an island that two boxes make, or one and the ground, and that bounces and rubs.
+class LoneImpact {
+ public:
+  LoneImpact(SweptMemory& memory, int island)
+      : m_(memory), impulses_(memory.solver.impulses_of(island)) {}
+
+  bool is_one() const {
+    const SweptContact& first = contact(impulses_.front());
+    if (!is_box(first.first.body) ||
+        !(first.second.body == swept_ground || is_box(first.second.body)))
+      return false;
+    const auto is_of_others = [&](const SweptImpulse* impulse) {
+      const SweptContact& other = contact(impulse);
+      return other.first.body != first.first.body || other.second.body != first.second.body;
+    };
+    const auto rubs = [&](const SweptImpulse* impulse) {
+      return is_hit(contact(impulse)) && impulse->has_friction();
+    };
+    return std::ranges::none_of(impulses_, is_of_others) && std::ranges::any_of(impulses_, rubs);
+  }
+
+  void follow(double tolerance) {
+    double restitution = 0.0;
+    m_.impact_points.clear();
+    for (SweptImpulse* impulse : impulses_) {
+      const SweptContact& at_end = contact(impulse);
+      ImpactPoint point{.impulse = impulse,
+                        .velocity = m_.end_velocities[contact_of(m_, impulse)],
+                        .parting = at_end.parting};
+      point.speed = at_end.normal.dot(point.velocity);
+      if (is_hit(at_end)) {
+        point.speed += at_end.drift;
+        point.approach = at_end.approach;
+        restitution = (at_end.parting + at_end.drift) / at_end.approach;
+      }
+      m_.impact_points.push_back(point);
+    }
+    m_.impact_path.follow(m_.impact_points, restitution, tolerance);
+  }
+
+ private:
+  const SweptContact& contact(const SweptImpulse* impulse) const {
+    return m_.contacts[contact_of(m_, impulse)];
+  }
+  bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
+
+  SweptMemory& m_;
+  std::span<SweptImpulse* const> impulses_;
+};
+
 class ReturnedEnergy {
  public:
   ReturnedEnergy(SweptMemory& memory, double tolerance)
@@ -164,6 +216,14 @@ double take_from_relative_motion(World& world, SweptMemory& memory, int island, 
 }
 
 }  // namespace
+
+void follow_impacts(SweptMemory& memory, double tolerance) {
+  if (std::ranges::none_of(memory.contacts, is_hit)) return;
+  for (int island = 0; island < memory.solver.island_count(); ++island) {
+    LoneImpact impact(memory, island);
+    if (impact.is_one()) impact.follow(tolerance);
+  }
+}
 
 void limit_returned_energy(SweptMemory& memory, double tolerance) {
   ReturnedEnergy(memory, tolerance).limit();

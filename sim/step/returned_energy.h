@@ -5,6 +5,10 @@
 
 namespace pneuma::sim {
 
+/// What two boxes, or one and the ground, do to each other while nothing else takes part, follows
+/// the path of their impulse (impact_path.h) in place of the solution, if it bounces and rubs.
+void follow_impacts(SweptMemory& memory, double tolerance);
+
 /// Newton's restitution can create energy, of bodies that turn or rub while they bounce: the speed
 /// of one point does not say what two bodies have lost. So the contacts of an island do no work
 /// above zero in a step in which any of them returns energy (restitution as a ratio of energies:

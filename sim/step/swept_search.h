@@ -13,6 +13,7 @@
 #include "sim/response/carried_boxes.h"
 #include "sim/response/fall_asleep.h"
 #include "sim/step/swept_solver.h"
+#include "sim/swept/impact_path.h"
 
 namespace pneuma::sim {
 
@@ -82,6 +83,8 @@ struct SweptMemory {
       end_velocities;  // m/s, per contact: of the sides before the impulses of the end
   std::vector<Vec3> given_at_start;  // N s, per contact of the end: of the same features
   ReturnedEnergyMemory returned_energy;
+  ImpactPath impact_path;
+  std::vector<ImpactPoint> impact_points;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
   NearGroups near_groups;

@@ -211,6 +211,7 @@ class SweptStep {
     for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
     warm_start_.apply(Moment::end, fraction_);
     solve_since(0);
+    follow_impacts(m_, tolerance());
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       m_.work += m_.impulses[i].work(m_.end_velocities[i]);
@@ -292,6 +293,8 @@ class SweptStep {
       contact.parting = -before.approach;
       contact.returns_energy = true;
     } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
+      contact.approach = before.approach;
+      contact.drift = before.drift;
       contact.parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
       contact.returns_energy = true;
     } else if (search_.is_rigid(contact)) {

@@ -155,6 +155,14 @@ void SweptImpulse::start_from(double normal, const Vec3& friction) {
   friction_impulse_ = start_friction_ = across - dot(across, normal_) * normal_;
 }
 
+void SweptImpulse::count_from(double normal, const Vec3& friction) {
+  normal_impulse_ -= normal;
+  start_normal_ -= normal;
+  max_normal_ -= normal;
+  friction_impulse_ -= to_vec4d(friction);
+  start_friction_ -= to_vec4d(friction);
+}
+
 void SweptImpulse::warm_start(const Vec3& impulse) {
   const Vec4d whole = to_vec4d(impulse);
   const double along = dot(whole, normal_), pressing = std::max(0.0, along);

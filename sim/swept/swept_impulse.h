@@ -86,6 +86,8 @@ class SweptImpulse {
   void aim(double parting, const Vec3& sliding);
   /// Starts from an impulse that was given before and may be taken back, but no more than that.
   void start_from(double normal, const Vec3& friction);
+  /// Lets what it is count from there on: what it was given stays, and limits hold for the rest.
+  void count_from(double normal, const Vec3& friction);
   /// Gives an impulse (N s) at once: what the same contact needed in the last step.
   void warm_start(const Vec3& impulse);
   /// Gives no more along the normal than it started from.
@@ -114,6 +116,8 @@ class SweptImpulse {
   /// N s on the first side, together with what was started from.
   Vec4d impulse() const { return normal_impulse_ * normal_ + friction_impulse_; }
   double mobility() const { return mobility_; }  // 1/kg, along the normal
+  Vec3 normal() const { return to_vec3(normal_); }
+  bool has_friction() const { return friction_ > 0.0; }
 
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
