@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/inspect/inspect.h"
 #include "sim/response/group_motion.h"
 #include "sim/response/vibration.h"
 
@@ -12,6 +13,9 @@ namespace {
 std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
   return static_cast<std::size_t>(impulse - memory.impulses.data());
 }
+
+/// Of an island's energy of motion and springs, in a step.
+constexpr double max_added_work = 1e-9;
 
 bool is_hit(const SweptContact& contact) { return contact.returns_energy && contact.is_near; }
 
@@ -195,24 +199,36 @@ double energy_of_fall(const Settings& settings, double mass) {
   return 0.5 * mass * (time_step(settings) * settings.gravity).squaredNorm();
 }
 
+double spring_energy_of_island(World& world, SweptMemory& memory, int island) {
+  double sum = 0.0;
+  for_each_soft_body(world, memory, island, [&](const SoftBody& body) {
+    sum += energy(body, world.settings.gravity).spring;
+  });
+  return sum;
+}
+
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
 /// body at rest, holds the island it takes from all motion, whose momentum the holder gets. Loads
 /// press soft bodies at the start of each step, whose damping takes that until its end, so that
 /// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
 /// against each other shrink by the same factor, so that at contacts what parts still parts.
-/// Returns what was taken: no more than there is, and nothing if pins, or bodies that keep their
-/// velocities, hold the island.
-double take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
+/// Nothing is asked for if pins, or bodies that keep their velocities, hold the island. Of one that
+/// nothing holds, whose energy its loads cannot change, none may be left.
+Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
   const Holder holder = holder_of(world, memory, island);
-  if (holder == Holder::moved) return 0.0;
+  if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
+  const double of_motion = motion.energy();
   if (holder == Holder::none) {
     motion.leave_out_common();
   } else if (motion.has_soft_bodies()) {
-    energy -= energy_of_fall(world.settings, motion.mass());
+    energy = std::max(0.0, energy - energy_of_fall(world.settings, motion.mass()));
   }
-  return motion.take(energy);
+  const double taken = motion.take(energy), left = energy - taken;
+  if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
+  const double all = of_motion + spring_energy_of_island(world, memory, island);
+  return {.taken = taken, .left = left > max_added_work * all ? left : 0.0};
 }
 
 }  // namespace
@@ -229,20 +245,24 @@ void limit_returned_energy(SweptMemory& memory, double tolerance) {
   ReturnedEnergy(memory, tolerance).limit();
 }
 
-double take_back_excess_work(World& world, SweptMemory& memory) {
-  double taken = 0.0;
-  if (is_implicit(world.settings.integrator)) return taken;
+Excess take_back_excess_work(World& world, SweptMemory& memory) {
+  Excess all;
+  if (is_implicit(world.settings.integrator)) return all;
   for (std::size_t i = 0; i < memory.work_of_islands.size(); ++i) {
     const int island = static_cast<int>(i);
     const double work = memory.work_of_islands[i];
     if (!(work > 0.0)) continue;
     const double of_vibrations = slow_vibrations(world, memory, island, work);
-    taken += of_vibrations;
-    if (of_vibrations < work) {
-      taken += take_from_relative_motion(world, memory, island, work - of_vibrations);
+    all.taken += of_vibrations;
+    if (of_vibrations >= work) continue;
+    const Excess of_island = take_from_relative_motion(world, memory, island, work - of_vibrations);
+    all.taken += of_island.taken;
+    if (of_island.left > all.left) {
+      all.left = of_island.left;
+      all.island = island;
     }
   }
-  return taken;
+  return all;
 }
 
 }  // namespace pneuma::sim

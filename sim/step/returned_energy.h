@@ -20,6 +20,12 @@ void follow_impacts(SweptMemory& memory, double tolerance);
 /// of its start, with their work.
 void limit_returned_energy(SweptMemory& memory, double tolerance);
 
+struct Excess {
+  double taken = 0.0;  // J
+  double left = 0.0;   // J, that an island has no motion to take from, if it is more than rounding
+  int island = -1;     // that has most of it left
+};
+
 /// The impulses at both ends of a step do no work together if what presses bodies on each other is
 /// the same at both ends. Where it grows they take energy and where it falls they add some, of
 /// second order in the step: an island whose contacts have added energy gives it up again from the
@@ -29,8 +35,7 @@ void limit_returned_energy(SweptMemory& memory, double tolerance);
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///
-/// The velocities must be those of the end, and the memory know the work of its islands. Returns
-/// the energy taken (J, >= 0).
-double take_back_excess_work(World& world, SweptMemory& memory);
+/// The velocities must be those of the end, and the memory know the work of its islands.
+Excess take_back_excess_work(World& world, SweptMemory& memory);
 
 }  // namespace pneuma::sim

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/base/text.h"
 #include "sim/inspect/inspect.h"
 #include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
@@ -218,7 +219,9 @@ class SweptStep {
       m_.driven_work += driven_work(i, Moment::end);
     }
     bodies_.add_changes(world_);
-    m_.work -= take_back_excess_work(world_, m_);
+    const Excess excess = take_back_excess_work(world_, m_);
+    if (excess.left > 0.0) return added_energy(excess);
+    m_.work -= excess.taken;
     warm_start_.remember(fraction_);
     report();
     if (world_.settings.ground) meet_ground();
@@ -344,10 +347,27 @@ class SweptStep {
                                   : world_.soft[at(body)].name;
   }
 
+  bool can_be_halved() const { return fraction_ > std::ldexp(1.0, -max_halvings); }
+
+  /// As blocked(): it names the sides of the contact that has given most.
+  Divergence added_energy(const Excess& excess) const {
+    Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
+    if (can_be_halved()) return divergence;
+    const auto impulses = m_.solver.impulses_of(excess.island);
+    const SweptImpulse* most = std::ranges::max(
+        impulses, {}, [](const SweptImpulse* impulse) { return impulse->normal_impulse(); });
+    const SweptContact& contact = m_.contacts[at(static_cast<int>(most - m_.impulses.data()))];
+    divergence.body = name(contact.first.body);
+    divergence.what = "its contacts with " + name(contact.second.body) + " add " +
+                      base::text(excess.left) +
+                      " J, which is more than their motion against each other can give back";
+    return divergence;
+  }
+
   /// Without words, which need memory, where the step can still be halved.
   Divergence blocked() const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
-    if (fraction_ > std::ldexp(1.0, -max_halvings)) return divergence;
+    if (can_be_halved()) return divergence;
     divergence.body = name(search_.blocked()->first);
     divergence.what = "it cannot be kept from passing through " + name(search_.blocked()->second) +
                       " in parts of the step either";

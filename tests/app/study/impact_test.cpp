@@ -43,6 +43,14 @@ TEST(ImpactRun, HoldsWhatTurnsOnItsWay) {
   }
 }
 
+/// A needle sticks in a soft box that presses on it harder in every step: once there is no motion
+/// left to take from what that adds, the run ends with a message.
+TEST(ImpactRun, DoesNotGoOnWithEnergyThatContactsAdd) {
+  const ImpactResult result = run_impact(random_impact(20261122, 662));
+  EXPECT_NE(result.outcome, ImpactOutcome::crossed);
+  EXPECT_LE(result.most_work, 1e-9) << result.message;
+}
+
 /// The paper's contacts are found at the ends of steps: between them bodies pass each other.
 TEST(ImpactRun, SeesBodiesThatPassThroughEachOtherWithinAStep) {
   RandomImpact impact;
