@@ -14,7 +14,6 @@
 #include "render/renderer.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"
-#include "sim/mesh/measure.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {
@@ -161,55 +160,6 @@ TEST_P(PaperSceneTest, ComesOutTheSameWithPictures) {
     ASSERT_FALSE(stepper.step(world));
   }
   EXPECT_EQ(sim::state_hash(world), expected);
-}
-
-/// Distance from the axis of the torus, which stands at the origin in these scenes.
-double from_axis(const sim::Vec3& place) { return place.head<2>().norm(); }
-
-sim::World world_at_end(const std::string& name) {
-  const scenes::Scene scene = scenes::load_scene(find_scene(name));
-  sim::World world = build_world(scene);
-  sim::Stepper stepper(world);
-  while (world.steps < all_steps(scene)) EXPECT_FALSE(stepper.step(world));
-  return world;
-}
-
-sim::Vec3 middle(const sim::SoftBody& body) {
-  sim::Vec3 sum = sim::Vec3::Zero();
-  for (int v = 0; v < body.positions.size(); ++v) sum += body.positions[v];
-  return sum / body.positions.size();
-}
-
-TEST(PaperScenes, WhatWasDroppedIntoATorusIsInItsHole) {
-  // Nearer to the axis than the middle of the tube, and lower than the top of it.
-  const auto expect_in_hole = [](const sim::Vec3& place, const sim::SoftBody& torus,
-                                 const std::string& name) {
-    const sim::Bounds bounds = sim::bounds(torus.positions);
-    const sim::Vec3 centre = middle(torus);
-    const double outer = 0.5 * (bounds.high.x() - bounds.low.x());
-    EXPECT_LT(from_axis(place - centre), 0.75 * outer) << name;
-    EXPECT_LT(place.z(), bounds.high.z() + 1.5) << name;
-  };
-  const sim::World one = world_at_end("sphere_in_torus");
-  const auto body = [](const sim::World& world, const std::string& name) -> const sim::SoftBody& {
-    return *std::ranges::find(world.soft, name, &sim::SoftBody::name);
-  };
-  expect_in_hole(middle(body(one, "sphere")), body(one, "torus"), "sphere");
-  for (const char* scene : {"torus_four_cubes", "torus_three_spheres_four_cubes"}) {
-    const sim::World world = world_at_end(scene);
-    ASSERT_EQ(world.rigid.size(), 4u);
-    for (const sim::RigidBox& cube : world.rigid) {
-      expect_in_hole(cube.position, body(world, "torus"), scene + cube.name);
-    }
-    if (world.soft.size() < 4) continue;
-    for (const char* sphere : {"left", "right"}) {
-      expect_in_hole(middle(body(world, sphere)), body(world, "torus"), sphere);
-    }
-    const sim::SoftBody& torus = body(world, "torus");
-    EXPECT_GT(
-        from_axis(middle(body(world, "outside")) - middle(torus)),
-        0.5 * sim::bounds(torus.positions).high.x() - 0.5 * sim::bounds(torus.positions).low.x());
-  }
 }
 
 TEST_P(PaperSceneTest, SettlesWithinItsBoundsOfPenetrationEnergyAndSpeed) {
