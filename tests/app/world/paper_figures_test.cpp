@@ -12,7 +12,9 @@
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
+#include "sim/mesh/primitives.h"
 #include "sim/step/stepper.h"
+#include "sim/swept/closest_points.h"
 
 namespace pneuma::app {
 namespace {
@@ -21,6 +23,7 @@ using sim::SoftBody;
 using sim::Vec3;
 using sim::World;
 
+/// `after_step(world, stepper)`.
 template <class Visit>
 World run_scene(const std::string& name, const Visit& after_step) {
   const scenes::Scene scene = scenes::load_scene(find_scene(name));
@@ -30,13 +33,13 @@ World run_scene(const std::string& name, const Visit& after_step) {
                              scene.picture.frames_per_second;
   while (world.steps < steps) {
     EXPECT_FALSE(stepper.step(world));
-    after_step(world);
+    after_step(world, stepper);
   }
   return world;
 }
 
 World world_at_end(const std::string& name) {
-  return run_scene(name, [](const World&) {});
+  return run_scene(name, [](const World&, const sim::Stepper&) {});
 }
 
 const SoftBody& body(const World& world, const std::string& name) {
@@ -113,7 +116,7 @@ double bend(const SoftBody& torus) {
 
 TEST(PaperFigures, In65TopRightTheTorusIsBentByTheSpheresItLiesOn) {
   double most = 0.0;
-  const World world = run_scene("torus_three_spheres", [&](const World& now) {
+  const World world = run_scene("torus_three_spheres", [&](const World& now, const sim::Stepper&) {
     most = std::max(most, bend(body(now, "torus")));
   });
   EXPECT_GT(most, 0.1);
@@ -136,7 +139,7 @@ double dent(const SoftBody& ball) {
 
 TEST(PaperFigures, In65BottomRightTheCatDentsTheSphereAndSlidesOffIt) {
   double deepest = 0.0;
-  const World world = run_scene("cat_on_sphere", [&](const World& now) {
+  const World world = run_scene("cat_on_sphere", [&](const World& now, const sim::Stepper&) {
     deepest = std::max(deepest, dent(body(now, "sphere")));
   });
   const SoftBody& cat = body(world, "cat");
@@ -145,6 +148,77 @@ TEST(PaperFigures, In65BottomRightTheCatDentsTheSphereAndSlidesOffIt) {
   EXPECT_LT(dent(sphere), 0.1);
   EXPECT_LT(sim::bounds(cat.positions).low.z(), 0.01) << "it is on the ground";
   EXPECT_GT(from_axis(middle(cat) - middle(sphere)), outer_radius(sphere)) << "and beside it";
+}
+
+struct Surface {
+  sim::TriangleMesh mesh;
+  double size = 0.0;  // m, the diagonal of its bounds
+};
+
+Surface surface_of(const World& world, const sim::ContactSide& side) {
+  Surface surface;
+  if (side.kind == sim::SideKind::soft) {
+    const SoftBody& soft = world.soft[sim::at(side.body)];
+    surface.mesh.triangles = soft.mesh->topology.triangles();
+    for (int v = 0; v < soft.positions.size(); ++v) {
+      surface.mesh.vertices.push_back(soft.positions[v]);
+    }
+  } else {
+    const sim::RigidBox& box = world.rigid[sim::at(side.body)];
+    surface.mesh = sim::make_box(box.size, 1);
+    for (Vec3& vertex : surface.mesh.vertices) vertex = box.position + box.orientation * vertex;
+  }
+  sim::Bounds bounds;
+  for (const Vec3& vertex : surface.mesh.vertices) bounds.include(vertex);
+  surface.size = bounds.size().norm();
+  return surface;
+}
+
+/// Whether any vertex of one is nearer to a triangle of the other, or any edge to an edge.
+bool are_nearer(const sim::TriangleMesh& one, const sim::TriangleMesh& other, double distance) {
+  for (const sim::Triangle& t : other.triangles) {
+    const sim::Corners corners = {other.vertices[sim::at(t[0])], other.vertices[sim::at(t[1])],
+                                  other.vertices[sim::at(t[2])]};
+    for (const Vec3& vertex : one.vertices) {
+      if (sim::closest_vertex_triangle(vertex, corners, distance)) return true;
+    }
+    for (const sim::Triangle& u : one.triangles) {
+      for (std::size_t i = 0; i < 9; ++i) {
+        const sim::Segment edge = {corners[i % 3], corners[(i + 1) % 3]};
+        const sim::Segment side = {one.vertices[sim::at(u[i / 3])],
+                                   one.vertices[sim::at(u[(i / 3 + 1) % 3])]};
+        if (sim::closest_edge_edge(side, edge, distance)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+class PaperFigure : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PaperFigure,
+                         testing::Values("two_spheres_contact", "three_spheres_contact",
+                                         "sphere_in_torus", "torus_four_cubes",
+                                         "torus_three_spheres", "torus_three_spheres_four_cubes",
+                                         "cat_on_sphere"));
+
+/// What presses on each other is nearer than a hundredth of the smaller body.
+TEST_P(PaperFigure, NoGapShowsBetweenWhatTouches) {
+  int touched = 0;
+  run_scene(GetParam(), [&](const World& now, const sim::Stepper& stepper) {
+    if (now.steps % now.settings.steps_per_second != 0) return;
+    for (const sim::Contact& contact : stepper.contacts()) {
+      if (contact.second.kind == sim::SideKind::ground) continue;
+      const Surface first = surface_of(now, contact.first),
+                    second = surface_of(now, contact.second);
+      const double gap = 0.01 * std::min(first.size, second.size);
+      EXPECT_TRUE(are_nearer(first.mesh, second.mesh, gap) ||
+                  are_nearer(second.mesh, first.mesh, gap))
+          << sim::time(now);
+      ++touched;
+    }
+  });
+  EXPECT_GT(touched, 0);
 }
 
 }  // namespace
