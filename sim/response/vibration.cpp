@@ -26,23 +26,24 @@ struct RigidMotion {
     centre = centre / count;
     velocity = velocity / count;
     Vec4d turning{};
-    Mat3 inertia = Mat3::Zero();  // of masses of one kilogram
+    Vec4d moments{}, products{};  // of inertia of masses of one kilogram; x y, y z, z x
     for (int i = 0; i < count; ++i) {
       const Vec4d arm = x[i] - centre;
       turning += cross(arm, v[i] - velocity);
-      const Vec3 r = to_vec3(arm);
-      inertia += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+      moments += dot(arm, arm) - arm * arm;
+      products += arm * yzx(arm);
     }
+    Mat3 inertia;
+    inertia << moments[0], -products[0], -products[2],  //
+        -products[0], moments[1], -products[1],         //
+        -products[2], -products[1], moments[2];
     angular_velocity = to_vec4d(inertia.ldlt().solve(to_vec3(turning)));
   }
 
   Vec4d at_point(Vec4d point) const { return velocity + cross(angular_velocity, point - centre); }
 };
 
-}  // namespace
-
-double energy_of_vibration(const SoftBody& body) {
-  const RigidMotion rigid(body);
+double energy_of_vibration(const SoftBody& body, const RigidMotion& rigid) {
   const VertexReader x(body.positions), v(body.velocities);
   double sum = 0.0;
   for (int i = 0; i < body.positions.size(); ++i) {
@@ -52,8 +53,7 @@ double energy_of_vibration(const SoftBody& body) {
   return 0.5 * body.material.vertex_mass * sum;
 }
 
-void slow_vibration(SoftBody& body, double factor) {
-  const RigidMotion rigid(body);
+void slow_vibration(SoftBody& body, const RigidMotion& rigid, double factor) {
   const VertexReader x(body.positions);
   for (int i = 0; i < body.positions.size(); ++i) {
     const Vec3 of_rigid = to_vec3(rigid.at_point(x[i]));
@@ -61,11 +61,23 @@ void slow_vibration(SoftBody& body, double factor) {
   }
 }
 
+}  // namespace
+
+double energy_of_vibration(const SoftBody& body) {
+  return energy_of_vibration(body, RigidMotion(body));
+}
+
+void slow_vibration(SoftBody& body, double factor) {
+  slow_vibration(body, RigidMotion(body), factor);
+}
+
 double take_from_vibration(SoftBody& body, double energy) {
-  const double there_is = energy_of_vibration(body);
+  if (!(energy > 0.0)) return 0.0;
+  const RigidMotion rigid(body);
+  const double there_is = energy_of_vibration(body, rigid);
   const double taken = std::min(energy, there_is);
   if (!(taken > 0.0)) return 0.0;
-  slow_vibration(body, std::sqrt(1.0 - taken / there_is));
+  slow_vibration(body, rigid, std::sqrt(1.0 - taken / there_is));
   return taken;
 }
 

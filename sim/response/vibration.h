@@ -12,7 +12,8 @@ double energy_of_vibration(const SoftBody& body);
 /// Multiplies its velocities by a factor.
 void slow_vibration(SoftBody& body, double factor);
 
-/// Takes so much energy (J, >= 0) from it, or all that there is. Returns what was taken.
+/// Takes so much energy (J) from it, or all that there is; nothing if `energy` is not above 0.
+/// Returns what was taken.
 double take_from_vibration(SoftBody& body, double energy);
 
 }  // namespace pneuma::sim
