@@ -122,6 +122,11 @@ std::optional<Divergence> find_lost_volume(const World& world, Stage stage, cons
   return std::nullopt;
 }
 
+/// J, of squared velocities that add up to `squares` ((m/s)^2).
+double kinetic_energy(const SoftMaterial& material, double squares) {
+  return 0.5 * material.vertex_mass * squares;
+}
+
 /// J, what gas and gravity have added to motion and springs.
 double work(const World& world, const SoftBody& body, const SoftState& start) {
   const MeshTopology& topology = body.mesh->topology;
@@ -139,17 +144,31 @@ double rounding_energy(const SoftBody& body) {
   return energy_rounding * (0.5 * body.material.k * squares + gas_strength(body.material));
 }
 
-std::optional<Divergence> find_gained_energy(const World& world, const SoftBody& body,
-                                             const SoftState& start) {
+/// Whether the energy of motion and springs may be more than max_gain times `before` (J), which is
+/// that of the start or less. No body can have strained its springs much without having moved much.
+///
+/// With E the energy of motion K and springs S, E1 > 100 E0 takes K1 > 50 E0 or S1 > 50 E0. In the
+/// latter case S1 > 50 S0 and sqrt S1 - sqrt S0 > 0.85 sqrt S1, while lengths change by no more
+/// than their ends move: (sqrt S1 - sqrt S0)^2 <= k/2 sum (|dx_a| + |dx_b|)^2 <= k sum d |dx|^2,
+/// where d is the number of springs of a vertex.
+bool may_have_gained_energy(const SoftBody& body, const StepSums& sums, double before) {
   const SoftMaterial& material = body.material;
-  const auto kinetic = [&](const VertexArray& velocities) {
-    return 0.5 * material.vertex_mass * velocities.rows().squaredNorm();
-  };
-  const double after =
-      kinetic(body.velocities) + spring_energy(*body.mesh, body.positions, material.k);
-  const double moving = kinetic(start.velocities);
-  if (after <= max_gain * moving) return std::nullopt;
+  if (kinetic_energy(material, sums.end.squares) > 0.5 * max_gain * before) return true;
+  const MeshTopology& topology = body.mesh->topology;
+  const double mean_springs = 2.0 * topology.edge_count() / topology.vertex_count();
+  return material.k * mean_springs * sums.squared_ways > 0.36 * max_gain * before;
+}
+
+/// Springs are measured only of what motion alone leaves in doubt.
+std::optional<Divergence> find_gained_energy(const World& world, const SoftBody& body,
+                                             const SoftState& start, const StepSums& sums) {
+  const SoftMaterial& material = body.material;
+  const double moving = kinetic_energy(material, sums.squares_before);
+  if (!may_have_gained_energy(body, sums, moving)) return std::nullopt;
   const double before = moving + spring_energy(*body.mesh, start.positions, material.k);
+  if (!may_have_gained_energy(body, sums, before)) return std::nullopt;
+  const double after = kinetic_energy(material, sums.end.squares) +
+                       spring_energy(*body.mesh, body.positions, material.k);
   if (after <= max_gain * before) return std::nullopt;
   const double added = work(world, body, start);
   if (after <= max_gain * (before + added) + rounding_energy(body)) return std::nullopt;
@@ -158,20 +177,6 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
                  "its energy of motion and springs jumped from " + base::text(before) + " to " +
                      base::text(after) + " J, to which gas and gravity added " + base::text(added) +
                      " J" + fastest_text(body, vertex));
-}
-
-/// No body can have strained its springs much without having moved much.
-///
-/// With E the energy of motion K and springs S, E1 > 100 E0 takes K1 > 50 K0, or S1 > 50 S0 and
-/// S1 > 50 K0. In the latter case sqrt S1 - sqrt S0 > 0.85 sqrt S1, while lengths change by no more
-/// than their ends move: (sqrt S1 - sqrt S0)^2 <= k/2 sum (|dx_a| + |dx_b|)^2 <= k sum d |dx|^2,
-/// where d is the number of springs of a vertex.
-bool may_have_gained_energy(const SoftBody& body, const StepSums& sums) {
-  if (sums.end.squares > 0.5 * max_gain * sums.squares_before) return true;
-  const MeshTopology& topology = body.mesh->topology;
-  const double mean_springs = 2.0 * topology.edge_count() / topology.vertex_count();
-  const double strained = body.material.k * mean_springs * sums.squared_ways;
-  return strained > 0.36 * max_gain * 0.5 * body.material.vertex_mass * sums.squares_before;
 }
 
 class SqueezedBoxes {
@@ -229,8 +234,7 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   const StepSums sums = checks_energy ? step_sums(body, start) : StepSums{.end = motion_sums(body)};
   if (auto wild = find_wild_vertex(world, stage, body, sums.end)) return wild;
   if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
-  if (!checks_energy || !may_have_gained_energy(body, sums)) return std::nullopt;
-  return find_gained_energy(world, body, start);
+  return checks_energy ? find_gained_energy(world, body, start, sums) : std::nullopt;
 }
 
 std::optional<Divergence> find_divergence_of_joined(const World& world, const SoftBody& body,
