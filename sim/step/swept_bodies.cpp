@@ -99,6 +99,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
+  may_be_changed_.resize(world.soft.size());
   kicked_.resize(world.soft.size());
   falls_.assign(world.rigid.size(), Vec3::Zero());
   allowances_.resize(surfaces_.size());
@@ -164,7 +165,10 @@ void SweptBodies::begin_at_end(const World& world) {
 
 template <class MotionOf>
 void SweptBodies::begin(const World& world, const MotionOf& motion) {
-  for (VertexArray& changes : changes_) changes.rows().setZero();
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (may_be_changed_[i] != 0) changes_[i].rows().setZero();
+  }
+  std::ranges::fill(may_be_changed_, std::uint8_t{0});
   box_changes_.clear();
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     if (is_asleep(world, soft_count_ + static_cast<int>(i))) {
@@ -292,6 +296,7 @@ Vec3 SweptBodies::start_point(const SurfacePoint& point) const {
 SweptSide SweptBodies::side(const World& world, const SurfacePoint& point) {
   if (point.body == swept_ground || is_fixed(world, point.body)) return {};
   if (is_rigid(point.body)) return {box_changes_[at(box(point.body))], point.point};
+  may_be_changed_[at(point.body)] = 1;
   const SoftBody& soft = world.soft[at(point.body)];
   if (soft.pins) return pinned_side(soft, point);
   return {changes_[at(point.body)], vertices(point), point.weights, soft.material.vertex_mass};
@@ -463,7 +468,7 @@ std::optional<Divergence> SweptBodies::move_again(World& world, const MotionStar
 
 void SweptBodies::add_changes(World& world) const {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    if (changes_[i].size() > 0) world.soft[i].velocities.rows() += changes_[i].rows();
+    if (may_be_changed_[i] != 0) world.soft[i].velocities.rows() += changes_[i].rows();
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     world.rigid[i].velocity += to_vec3(box_changes_[i].velocity);

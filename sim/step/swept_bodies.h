@@ -153,6 +153,7 @@ class SweptBodies {
   std::vector<VertexArray> corners_;                        // of the boxes, in their own axes, m
   std::vector<std::unique_ptr<const MeshTopology>> boxes_;  // their triangles
   std::vector<VertexArray> changes_;                        // m/s, per soft body
+  std::vector<std::uint8_t> may_be_changed_;  // per soft body: an impulse got a side of it
   std::vector<BoxChange> box_changes_;
   std::vector<BoxChange> shifts_;          // of the boxes, or empty
   std::vector<Vec3> falls_;                // m, of the boxes, within the step
