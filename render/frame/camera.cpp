@@ -86,6 +86,17 @@ ViewFit::ViewFit(const ViewDirection& direction, float field_of_view, float aspe
   const float side = (1.0f - margins.side) * slope * aspect;
   across_ = {side, side};
   upright_ = {(1.0f - margins.bottom) * slope, (1.0f - margins.top) * slope};
+  const Eigen::RowVector3f depth = -axes_.row(2);
+  const Eigen::RowVector3f planes[] = {axes_.row(0) - across_.high * depth,
+                                       -axes_.row(0) - across_.low * depth,
+                                       axes_.row(1) - upright_.high * depth,
+                                       -axes_.row(1) - upright_.low * depth,
+                                       depth,
+                                       -depth};
+  for (std::size_t i = 0; i < outermost_.size(); ++i) {
+    const Vec3f level(planes[i].x(), planes[i].y(), 0.0f);
+    outermost_[i] = level.normalized();  // of zero, where all points of a circle are alike: zero
+  }
 }
 
 void ViewFit::add(const Vec3f& point) {
@@ -95,6 +106,23 @@ void ViewFit::add(const Vec3f& point) {
   upright_.add(seen.y(), depth);
   nearest_ = std::min(nearest_, depth);
   furthest_ = std::max(furthest_, depth);
+}
+
+void ViewFit::add_circle(const Vec3f& centre, float radius) {
+  for (const Vec3f& direction : outermost_) add(centre + radius * direction);
+}
+
+ViewFit::Seen ViewFit::seen() const {
+  return {across_.right, across_.left, upright_.right, upright_.left, -nearest_, furthest_};
+}
+
+void ViewFit::include(const Seen& seen) {
+  across_.right = std::max(across_.right, seen[0]);
+  across_.left = std::max(across_.left, seen[1]);
+  upright_.right = std::max(upright_.right, seen[2]);
+  upright_.left = std::max(upright_.left, seen[3]);
+  nearest_ = std::min(nearest_, -seen[4]);
+  furthest_ = std::max(furthest_, seen[5]);
 }
 
 Camera ViewFit::camera() const {

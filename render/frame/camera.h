@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "render/frame/frame.h"
 
@@ -50,6 +51,14 @@ class ViewFit {
           const Vec3f& origin);
 
   void add(const Vec3f& point);
+  /// All points of a level circle: a point that is turned about the vertical through `centre`.
+  void add_circle(const Vec3f& centre, float radius);
+
+  /// What the fit knows of its points: how far they reach towards each side, m. Only ever grows.
+  using Seen = std::array<float, 6>;
+  Seen seen() const;
+  /// Adds the points of another fit with the same arguments.
+  void include(const Seen& seen);
 
   /// Of all points so far, at least one. Its target is level with the middle of their depths, and
   /// no nearer than a millimetre.
@@ -78,6 +87,7 @@ class ViewFit {
   float field_of_view_;
   Span across_;
   Span upright_;
+  std::array<Vec3f, 6> outermost_;  // directions to the points of a circle that decide
   float nearest_ = std::numeric_limits<float>::infinity();  // depth of the points, m
   float furthest_ = -std::numeric_limits<float>::infinity();
 };

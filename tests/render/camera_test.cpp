@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "tests/render/probe.h"
 
@@ -141,6 +143,37 @@ TEST(LookAtBounds, StandsOffFromABoxWithoutSize) {
   const Camera camera = look_at_bounds({point, point}, {10.0f, 20.0f}, 40.0f, 1.0f);
   EXPECT_TRUE(camera.eye.allFinite());
   EXPECT_GT((camera.eye - camera.target).norm(), 0.0f);
+}
+
+/// A margin on each side, to tell them apart.
+ViewFit fit_of_four_margins() {
+  return ViewFit({35.0f, 20.0f}, 40.0f, 1.5f, {0.1f, 0.05f, 0.3f}, {1, 2, 3});
+}
+
+TEST(ViewFit, OfACircleIsThatOfItsPoints) {
+  const Vec3f centre = {2, 1, 4};
+  ViewFit circle = fit_of_four_margins(), points = fit_of_four_margins();
+  circle.add_circle(centre, 3.0f);
+  for (int i = 0; i < 3600; ++i) {
+    const float angle = static_cast<float>(i) * std::numbers::pi_v<float> / 1800.0f;
+    points.add(centre + 3.0f * Vec3f(std::cos(angle), std::sin(angle), 0.0f));
+  }
+  // Half of 0.1 degree leaves 3 m * 4e-7 of the circle; the rest is rounding.
+  EXPECT_LT((circle.camera().eye - points.camera().eye).norm(), 1e-5f);
+  EXPECT_LT((circle.camera().target - points.camera().target).norm(), 1e-5f);
+}
+
+TEST(ViewFit, GoesOnWithWhatAnotherHasSeen) {
+  const std::vector<Vec3f> points = {{3, 1, 2}, {-2, 4, 9}, {5, -3, 1}, {0, 0, 5}};
+  ViewFit all = fit_of_four_margins(), first = fit_of_four_margins(), rest = fit_of_four_margins();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    all.add(points[i]);
+    (i < 2 ? first : rest).add(points[i]);
+  }
+  EXPECT_NE(rest.seen(), all.seen());
+  rest.include(first.seen());
+  EXPECT_EQ(rest.seen(), all.seen());
+  EXPECT_EQ(rest.camera().eye, all.camera().eye);
 }
 
 TEST(ViewFit, LeavesItsMarginsFreeAndNoMore) {
