@@ -17,7 +17,7 @@ numpy.bool = bool  # which Blender 3.4's glTF reader still asks of Debian's NumP
 mesh_file, record_file, size, samples, picture_file, our_file = sys.argv[sys.argv.index("--") + 1:]
 width, height = (int(side) for side in size.split("x"))
 with open(record_file, encoding="utf-8") as file:
-    camera_of_run = json.load(file)["camera"]
+    camera_of_run = json.load(file)["frames"][0]["camera"]
 
 CONTACT_REACH = 0.1  # of the bodies' mean size
 FAR = 60.0  # mean sizes: what is further away is the horizon

@@ -23,8 +23,8 @@ struct Readings {
 
 class FrameMaker {
  public:
-  FrameMaker(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-             const render::Camera& camera, const Show& show, std::optional<render::Backend> backend)
+  FrameMaker(Replay& replay, int steps_per_frame, const scenes::Scene& scene, RunCamera& camera,
+             const Show& show, std::optional<render::Backend> backend)
       : replay_(replay),
         steps_per_frame_(steps_per_frame),
         show_(show),
@@ -32,14 +32,15 @@ class FrameMaker {
                    .height = scene.picture.height,
                    .samples = scene.picture.samples,
                    .backend = backend}),
-        builder_(scene, replay.world(), camera) {}
+        builder_(scene, replay.world()),
+        camera_(camera) {}
 
   /// Draws the replay's present state while it goes on to the next.
   void make(Readings& readings) {
     replay_.prepare(steps_per_frame_);
     const Clock::time_point start = Clock::now();
-    const render::Frame frame =
-        builder_.build(replay_.world(), replay_.stepper().contacts(), show_);
+    const render::Frame frame = builder_.build(replay_.world(), camera_.at(replay_.world()),
+                                               replay_.stepper().contacts(), show_);
     const Clock::time_point built = Clock::now();
     stepping_.submit([this, &readings] {
       const Clock::time_point begin = Clock::now();
@@ -74,6 +75,7 @@ class FrameMaker {
   Show show_;
   render::Renderer renderer_;
   FrameBuilder builder_;
+  RunCamera& camera_;
   // The last members: they end before what their jobs use.
   Background stepping_{1};
   Background encoding_{1};
@@ -82,7 +84,7 @@ class FrameMaker {
 }  // namespace
 
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Show& show, const Budget& budget,
+                          RunCamera& camera, const Show& show, const Budget& budget,
                           std::optional<render::Backend> backend) {
   Readings ignored, readings;
   FrameMaker maker(replay, steps_per_frame, scene, camera, show, backend);

@@ -6,11 +6,11 @@
 
 #include "app/host/budget.h"
 #include "app/host/clock.h"
+#include "app/picture/run_camera.h"
 #include "app/picture/show.h"
 #include "app/record/statistics.h"
 #include "app/world/replay.h"
 #include "render/context/backend.h"
-#include "render/frame/frame.h"
 #include "scenes/loader/scene.h"
 
 namespace pneuma::app {
@@ -33,7 +33,7 @@ struct FrameTimes {
 /// The frames that follow the replay's present state, with what `show` says in them. Throws
 /// DivergenceError and render::GlError.
 FrameTimes measure_frames(Replay& replay, int steps_per_frame, const scenes::Scene& scene,
-                          const render::Camera& camera, const Show& show, const Budget& budget,
+                          RunCamera& camera, const Show& show, const Budget& budget,
                           std::optional<render::Backend> backend);
 
 }  // namespace pneuma::app

@@ -10,7 +10,7 @@
 #include "app/host/clock.h"
 #include "app/host/errors.h"
 #include "app/host/interrupt.h"
-#include "app/picture/place_camera.h"
+#include "app/picture/run_camera.h"
 #include "app/world/build_world.h"
 #include "app/world/replay.h"
 #include "app/world/start_overlap.h"
@@ -172,10 +172,10 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
   Replay stages(scene.name, world, part.length, profiled);
   measure_stages(stages, options, times);
   if (options.pictures) {
-    const render::Camera camera =
-        place_camera(scene, start, options.threads, [](const sim::World&) {
-          throw_if_interrupted();
-        }).camera;
+    CameraEvents events;
+    events.looked_ahead = [](const sim::World&, double) { throw_if_interrupted(); };
+    RunCamera camera(scene, start, options.threads, OnDivergence::automatic, events);
+    camera.look_to_the_end(start);  // not while frames are measured
     Replay frames(scene.name, world, part.length, plain);
     times.frames =
         measure_frames(frames, times.steps_per_frame, scene, camera, options.show,

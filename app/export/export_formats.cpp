@@ -15,7 +15,7 @@
 #include "app/export/vtk_series.h"
 #include "app/host/errors.h"
 #include "app/host/version.h"
-#include "app/picture/choose_camera.h"
+#include "app/picture/camera_events.h"
 #include "sim/base/file.h"
 
 namespace pneuma::app {
@@ -63,8 +63,8 @@ std::int64_t vertex_count(const sim::World& world) {
 
 std::unique_ptr<FrameSink> open_replay(const ExportJob& job) {
   check_replay_size(vertex_count(job.start), job.frames);
-  const render::Camera camera = choose_camera(job.scene, job.start, job.threads, job.progress);
-  return std::make_unique<ReplaySink>(job.scene, job.start, camera,
+  return std::make_unique<ReplaySink>(job.scene, job.start, job.threads,
+                                      camera_events(job.scene, job.progress),
                                       job.folder / (job.scene.name + ".html"));
 }
 

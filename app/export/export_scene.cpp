@@ -61,6 +61,8 @@ void run_frames(Simulation& simulation, const Frames& frames, FrameSink& sink, P
     if (state.frame >= frames.first) {
       sink.add(simulation);
       ++state.drawn;
+    } else {
+      sink.pass(simulation);
     }
     state.elapsed = seconds_since(start);
     progress.show(progress_line(state));

@@ -122,13 +122,11 @@ void add_overlays(const sim::World& world, std::span<const sim::Contact> contact
 
 }  // namespace
 
-FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start,
-                           const render::Camera& camera)
+FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start)
     : title_(scene.title.empty() ? scene.name : scene.title),
       caption_(scene.picture.caption),
       pressures_(scene.picture.pressures),
       rounded_(scene.picture.rounded),
-      camera_(scene, start, camera),
       joints_(start) {
   scenery_.light.shadows = scene.picture.shadows;
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
@@ -151,10 +149,10 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start,
   }
 }
 
-render::Frame FrameBuilder::build(const sim::World& world, std::span<const sim::Contact> contacts,
-                                  const Show& show) const {
+render::Frame FrameBuilder::build(const sim::World& world, const render::Camera& camera,
+                                  std::span<const sim::Contact> contacts, const Show& show) const {
   render::Frame frame = scenery_;
-  frame.camera = camera_.at(world);
+  frame.camera = camera;
   frame.wireframe = show.wireframe;
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));

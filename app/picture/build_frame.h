@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/picture/camera_motion.h"
 #include "app/picture/joint_meshes.h"
 #include "app/picture/show.h"
 #include "render/frame/frame.h"
@@ -20,12 +19,12 @@ namespace pneuma::app {
 /// colours) is made once and shared by all frames.
 class FrameBuilder {
  public:
-  /// `start`: the scene's world at its start. `camera`: where the camera is then.
-  FrameBuilder(const scenes::Scene& scene, const sim::World& start, const render::Camera& camera);
+  /// `start`: the scene's world at its start.
+  FrameBuilder(const scenes::Scene& scene, const sim::World& start);
 
-  /// `contacts`: those of the step that led to this state.
-  render::Frame build(const sim::World& world, std::span<const sim::Contact> contacts = {},
-                      const Show& show = {}) const;
+  /// `camera`: as RunCamera has it for this state. `contacts`: those of the step that led to it.
+  render::Frame build(const sim::World& world, const render::Camera& camera,
+                      std::span<const sim::Contact> contacts = {}, const Show& show = {}) const;
 
  private:
   struct Look {
@@ -38,8 +37,7 @@ class FrameBuilder {
   bool caption_ = false;
   bool pressures_ = false;  // on the caption
   bool rounded_ = true;
-  render::Frame scenery_;  // all that is the same in every frame
-  CameraMotion camera_;
+  render::Frame scenery_;          // all that is the same in every frame
   std::vector<Look> soft_looks_;   // as World::soft
   std::vector<Look> rigid_looks_;  // as World::rigid
   JointMeshes joints_;

@@ -75,15 +75,14 @@ sim::Bounds bounds_of_body(const sim::World& world, const std::string& name) {
   return bounds;
 }
 
-CameraMotion::CameraMotion(const scenes::Scene& scene, const sim::World& start,
-                           const render::Camera& camera)
-    : scene_(scene.camera), start_(camera) {
+CameraMotion::CameraMotion(const scenes::Scene& scene, const sim::World& start)
+    : scene_(scene.camera) {
   if (!scene_.follow.empty()) followed_from_ = bounds_of_body(start, scene_.follow).centre();
 }
 
-render::Camera CameraMotion::at(const sim::World& world) const {
+render::Camera CameraMotion::at(const render::Camera& at_rest, const sim::World& world) const {
   if (!scene_.path.empty()) return camera_on_path(scene_, sim::time(world));
-  render::Camera camera = start_;
+  render::Camera camera = at_rest;
   if (!scene_.follow.empty()) {
     const Vec3 moved = bounds_of_body(world, scene_.follow).centre() - followed_from_;
     camera.eye += moved.cast<float>();

@@ -23,14 +23,14 @@ sim::Bounds bounds_of_body(const sim::World& world, const std::string& name);
 /// A function of the state alone, so that a run that is resumed sees the same.
 class CameraMotion {
  public:
-  /// `start`: the scene's world at its start. `camera`: where the camera is then.
-  CameraMotion(const scenes::Scene& scene, const sim::World& start, const render::Camera& camera);
+  /// `start`: the scene's world at its start.
+  CameraMotion(const scenes::Scene& scene, const sim::World& start);
 
-  render::Camera at(const sim::World& world) const;
+  /// `at_rest`: the camera without this motion.
+  render::Camera at(const render::Camera& at_rest, const sim::World& world) const;
 
  private:
   scenes::CameraScene scene_;
-  render::Camera start_;
   sim::Vec3 followed_from_ = sim::Vec3::Zero();  // centre of the body that is followed
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/host/errors.h"
-#include "app/picture/place_camera.h"
 #include "app/world/build_world.h"
 #include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
@@ -33,14 +32,15 @@ int picture_side(const char* name, const std::optional<int>& given, int of_scene
 ScriptedWorld::ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides,
                              int threads)
     : scene_(open_scene(scene, overrides)),
-      threads_(threads),
       world_(checked_world(scene_)),
-      stepper_(world_, {.threads = threads, .plan = {}}) {}
+      stepper_(world_, {.threads = threads, .plan = {}}),
+      camera_(scene_, world_, threads) {}
 
 void ScriptedWorld::step() {
   if (const auto divergence = stepper_.step(world_)) {
     throw divergence_error(scene_.name, *divergence, world_);
   }
+  camera_.see(world_);
 }
 
 render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
@@ -48,12 +48,9 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
   options.width = picture_side("width", size.width, scene_.picture.width);
   options.height = picture_side("height", size.height, scene_.picture.height);
   options.samples = scene_.picture.samples;
-  if (!builder_) {
-    const sim::World start = build_world(scene_);
-    builder_.emplace(scene_, start, place_camera(scene_, start, threads_).camera);
-  }
+  if (!builder_) builder_.emplace(scene_, build_world(scene_));
   if (!drawing_) drawing_.emplace();
-  return drawing_->draw(options, builder_->build(world_, contacts(), show));
+  return drawing_->draw(options, builder_->build(world_, camera_.at(world_), contacts(), show));
 }
 
 std::vector<std::string> ScriptedWorld::warnings() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/picture/build_frame.h"
+#include "app/picture/run_camera.h"
 #include "app/python/drawing_thread.h"
 #include "scenes/loader/scene.h"
 #include "sim/step/stepper.h"
@@ -29,8 +30,8 @@ class ScriptedWorld {
   /// One step. Throws DivergenceError; the world is then in its last valid state.
   void step();
 
-  /// The picture that `pneuma render` would make of this state, on any thread. An automatic camera
-  /// has the whole of the scene in view: at the first picture the scene is run once ahead. Throws
+  /// The picture that `pneuma render` would make of this state, on any thread. For an
+  /// automatic camera the scene is run ahead a little: see RunCamera. Throws
   /// UsageError for a size out of range, and render::GlError.
   render::Image draw(const PictureSize& size, Show show);
 
@@ -42,9 +43,9 @@ class ScriptedWorld {
 
  private:
   scenes::Scene scene_;
-  int threads_;
   sim::World world_;
   sim::Stepper stepper_;
+  RunCamera camera_;
   std::optional<FrameBuilder> builder_;
   std::optional<DrawingThread> drawing_;
 };

@@ -46,12 +46,15 @@ class FrameWriter {
 
   TakenFrame take(const Simulation& simulation) {
     TakenFrame frame;
+    const render::Camera camera = output_.camera.at(simulation.world());
     Stopwatch watch;
-    frame.picture = build(simulation, output_.pictures.show);
-    if (output_.pictures.overlay) frame.overlay = build(simulation, *output_.pictures.overlay);
+    frame.picture = build(simulation, camera, output_.pictures.show);
+    if (output_.pictures.overlay) {
+      frame.overlay = build(simulation, camera, *output_.pictures.overlay);
+    }
     frame.seconds.draw = watch.lap();
     frame.number = simulation.frame();
-    frame.state = recorder_.state(simulation);
+    frame.state = recorder_.state(simulation, {camera, output_.camera.seen()});
     frame.checkpoint = sim::save_state(simulation.world());
     return frame;
   }
@@ -71,8 +74,9 @@ class FrameWriter {
   void wait() { finishing_.finish(); }
 
  private:
-  render::Frame build(const Simulation& simulation, const Show& show) const {
-    return output_.builder.build(simulation.world(), simulation.contacts(), show);
+  render::Frame build(const Simulation& simulation, const render::Camera& camera,
+                      const Show& show) const {
+    return output_.builder.build(simulation.world(), camera, simulation.contacts(), show);
   }
 
   void finish(DrawnFrame& frame) const {
@@ -132,9 +136,14 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
       frame = writer.take(simulation);
       crossed.add(simulation, frame->state, progress);
       pressed.add(simulation.world());
+    } else {
+      output.camera.see(simulation.world());
     }
     const bool more = state.frame < last;
-    if (more) stepping.submit([&simulation] { simulation.advance_frame(); });
+    if (more) {
+      stepping.submit([&simulation] { simulation.advance_frame(); });
+      output.camera.prepare_next();
+    }
     if (frame) {
       writer.write(std::move(*frame));
       ++state.drawn;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "app/picture/build_frame.h"
+#include "app/picture/run_camera.h"
 #include "app/render/log/run_log.h"
 #include "app/terminal/progress.h"
 #include "app/world/simulation.h"
@@ -14,6 +15,7 @@ namespace pneuma::app {
 /// What becomes of a frame's state.
 struct FrameOutput {
   const FrameBuilder& builder;
+  RunCamera& camera;
   const Pictures& pictures;
   render::Renderer& renderer;
   RunLog& log;

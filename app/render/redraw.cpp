@@ -13,11 +13,11 @@
 namespace pneuma::app {
 namespace {
 
-void draw(const Simulation& simulation, const Show& show, const FrameOutput& output,
-          const std::filesystem::path& file) {
+void draw(const Simulation& simulation, const render::Camera& camera, const Show& show,
+          const FrameOutput& output, const std::filesystem::path& file) {
   render::Image image;
-  output.renderer.draw(output.builder.build(simulation.world(), simulation.contacts(), show),
-                       image);
+  output.renderer.draw(
+      output.builder.build(simulation.world(), camera, simulation.contacts(), show), image);
   base::write_file_atomically(file.string(), render::encode_png(image));
 }
 
@@ -39,12 +39,14 @@ void redraw_lost(Simulation& simulation, const FrameOutput& output, Progress& pr
       throw_if_interrupted();
       progress.show(fmt::format("stepping to the lost frame {}: t = {:.2f} s", frame,
                                 sim::time(simulation.world())));
+      output.camera.see(simulation.world());
       simulation.advance_frame();
     }
     require_state(simulation, line, folder);
-    draw(simulation, output.pictures.show, output, folder.frame(frame));
+    const render::Camera camera = output.camera.at(simulation.world());
+    draw(simulation, camera, output.pictures.show, output, folder.frame(frame));
     if (output.pictures.overlay) {
-      draw(simulation, *output.pictures.overlay, output, folder.overlay(frame));
+      draw(simulation, camera, *output.pictures.overlay, output, folder.overlay(frame));
     }
   }
   progress.say(fmt::format("{} lost pictures drawn again", output.log.lost().size()));

@@ -12,7 +12,8 @@
 #include "app/host/find_program.h"
 #include "app/host/interrupt.h"
 #include "app/host/run_command.h"
-#include "app/picture/choose_camera.h"
+#include "app/picture/camera_events.h"
+#include "app/picture/place_camera.h"
 #include "app/render/animated_png.h"
 #include "app/render/contact_sheet.h"
 #include "app/render/draw_frames.h"
@@ -99,20 +100,23 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   render::Renderer renderer(picture_options(scene.picture, request.backend));
   RunLog log(
       folder, request.existing,
-      {scene, start, frames, request.pictures, request.on_divergence, renderer.description()},
-      [&] { return choose_camera(scene, start, request.threads, progress); });
+      {scene, start, frames, request.pictures, request.on_divergence, renderer.description()});
+  if (log.finished() && log.lost().empty()) return progress.say("the run is finished already");
+
+  const FrameBuilder builder(scene, start);
+  RunCamera camera(scene, start, request.threads, request.on_divergence,
+                   camera_events(scene, progress));
+  const FrameOutput output = {builder, camera, request.pictures, renderer, log};
   if (log.finished()) {
-    if (log.lost().empty()) return progress.say("the run is finished already");
     Simulation again(scene, start, request.threads, request.on_divergence);
-    const FrameBuilder builder(scene, start, log.camera());
-    return redraw_lost(again, {builder, request.pictures, renderer, log}, progress);
+    return redraw_lost(again, output, progress);
   }
+  if (log.seen()) camera.go_on(*log.seen());
   log.append_launch(request.command_line, request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
-  const FrameBuilder builder(scene, start, log.camera());
   try {
-    draw_frames(simulation, frames.last, {builder, request.pictures, renderer, log}, progress);
+    draw_frames(simulation, frames.last, output, progress);
   } catch (const DivergenceError& error) {
     log.append_divergence(error.what());
     throw with_advice(error, request);
@@ -178,13 +182,12 @@ void make_turntable(const RenderRequest& request, const scenes::Scene& scene,
     progress.show(fmt::format("t = {:.2f} s", sim::time(simulation.world())));
     simulation.advance_frame();
   }
-  const bool automatic =
-      !scene.camera.eye && scene.camera.path.empty() && scene.camera.follow.empty();
-  const render::Camera base = automatic ? camera_around(scene, simulation.world())
-                                        : place_camera(scene, start, request.threads).camera;
-  const FrameBuilder builder(scene, start, base);
+  // It goes around this moment, whatever the run comes to.
   const render::Camera camera =
-      automatic ? base : CameraMotion(scene, start, base).at(simulation.world());
+      is_left_to_program(scene.camera)
+          ? camera_around(scene, simulation.world())
+          : RunCamera(scene, start, request.threads).at(simulation.world());
+  const FrameBuilder builder(scene, start);
   draw_turntable(simulation, camera, builder, request.pictures.show, request.turntable, folder,
                  renderer, progress);
 }

@@ -16,7 +16,7 @@ RunFolder turntable_folder(const RunFolder& run) {
 void draw_turntable(const Simulation& simulation, const render::Camera& camera,
                     const FrameBuilder& builder, const Show& show, int pictures,
                     const RunFolder& folder, render::Renderer& renderer, Progress& progress) {
-  render::Frame frame = builder.build(simulation.world(), simulation.contacts(), show);
+  render::Frame frame = builder.build(simulation.world(), camera, simulation.contacts(), show);
   render::Image image;
   for (int i = 0; i < pictures; ++i) {
     throw_if_interrupted();

@@ -42,9 +42,9 @@ std::string without_comment(const std::string& line) {
   return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
-/// The effective scene as "section, key = value" and where its camera was placed; bodies are
+/// The effective scene as "section, key = value" and where its camera was in a frame; bodies are
 /// numbered.
-std::vector<std::string> settings_of(const Json& record) {
+std::vector<std::string> settings_of(const Json& record, const Json& frame) {
   std::vector<std::string> settings;
   std::istringstream text(record["scene_toml"].get<std::string>());
   std::string section;
@@ -58,14 +58,16 @@ std::vector<std::string> settings_of(const Json& record) {
       settings.push_back(section + without_comment(line));
     }
   }
-  const auto camera = record.find("camera");
-  if (camera != record.end()) settings.push_back("camera as placed: " + camera->dump());
+  const auto camera = frame.find("camera");
+  if (camera != frame.end()) settings.push_back("camera as placed: " + camera->dump());
   return settings;
 }
 
 /// Both scenes are printed by one printer, key by key: what only one of them has.
-std::vector<std::string> different_settings(const RecordedRun& first, const RecordedRun& second) {
-  const std::array scenes = {settings_of(first.record), settings_of(second.record)};
+std::vector<std::string> different_settings(const RecordedRun& first, const RecordedRun& second,
+                                            std::int64_t frame) {
+  const std::array scenes = {settings_of(first.record, *frames_by_number(first).at(frame)),
+                             settings_of(second.record, *frames_by_number(second).at(frame))};
   std::vector<std::string> result;
   for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
     for (const std::string& setting : scenes[side]) {
@@ -178,7 +180,7 @@ RunComparison compare_runs(const RecordedRun& first, const RecordedRun& second) 
   for (const auto& [number, frame] : firsts) {
     const auto found = seconds.find(number);
     if (found == seconds.end()) continue;
-    ++comparison.common_frames;
+    if (comparison.common_frames++ == 0) comparison.first_common = number;
     comparison.last_common = number;
     if (!comparison.state_differs && (*frame)["state_hash"] != (*found->second)["state_hash"]) {
       comparison.state_differs = number;
@@ -194,7 +196,7 @@ RunComparison compare_runs(const RecordedRun& first, const RecordedRun& second) 
   }
   comparison.only_first = static_cast<std::int64_t>(firsts.size()) - comparison.common_frames;
   comparison.only_second = static_cast<std::int64_t>(seconds.size()) - comparison.common_frames;
-  comparison.settings = different_settings(first, second);
+  comparison.settings = different_settings(first, second, comparison.first_common);
   return comparison;
 }
 

@@ -28,12 +28,14 @@ struct ComparedNumber {
 
 struct RunComparison {
   std::int64_t common_frames = 0;  // that both runs have
+  std::int64_t first_common = 0;
   std::int64_t last_common = 0;
   std::int64_t only_first = 0;  // frames that the other run lacks
   std::int64_t only_second = 0;
   std::optional<std::int64_t> state_differs;    // the first frame with another state
   std::optional<std::int64_t> picture_differs;  // with another picture, or one only
-  /// Of the effective scenes, those that only one has: "A: body 1, k = 50".
+  /// Of the effective scenes, those that only one has: "A: body 1, k = 50"; and the cameras of the
+  /// first common frame.
   std::vector<std::string> settings;
 
   bool equal() const { return !state_differs && !picture_differs && only_first + only_second == 0; }

@@ -135,8 +135,8 @@ struct SpringScene {
 /// Where the camera is at a time (s): its eye, then its target, m.
 using CameraKey = std::array<double, 7>;
 
-/// Without an eye and a target the camera is placed so that every body is in view over the whole
-/// run.
+/// Without an eye and a target the camera is placed so that every body is in view, and draws back
+/// when they come to go further.
 struct CameraScene {
   std::optional<Vec3> eye;      // m
   std::optional<Vec3> target;   // m

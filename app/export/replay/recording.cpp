@@ -7,9 +7,10 @@
 
 namespace pneuma::app {
 
-Recorder::Recorder(const scenes::Scene& scene, const sim::World& world,
-                   const render::Camera& camera)
-    : builder_(scene, world, camera) {
+Recorder::Recorder(const scenes::Scene& scene, const sim::World& start, int threads,
+                   CameraEvents events)
+    : builder_(scene, start),
+      camera_(scene, start, threads, OnDivergence::automatic, std::move(events)) {
   recording_.name = scene.name;
   recording_.title = scene.title.empty() ? scene.name : scene.title;
   recording_.frames_per_second = scene.picture.frames_per_second;
@@ -21,7 +22,8 @@ Recorder::Recorder(const scenes::Scene& scene, const sim::World& world,
 void Recorder::add(const Simulation& simulation) {
   const sim::World& world = simulation.world();
   const auto contacts = simulation.contacts();
-  render::Frame drawn = builder_.build(world);
+  render::Frame drawn = builder_.build(world, camera_.at(world));
+  camera_.prepare_next();
   RecordedFrame frame;
   frame.camera = drawn.camera;
   for (const render::Mesh& mesh : drawn.meshes) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/picture/build_frame.h"
+#include "app/picture/run_camera.h"
 #include "app/world/simulation.h"
 #include "render/frame/frame.h"
 #include "scenes/loader/scene.h"
@@ -39,13 +40,18 @@ struct Recording {
 
 class Recorder {
  public:
-  Recorder(const scenes::Scene& scene, const sim::World& world, const render::Camera& camera);
+  /// `start`: the scene's world at its start.
+  Recorder(const scenes::Scene& scene, const sim::World& start, int threads = 1,
+           CameraEvents events = {});
 
+  /// A frame that is not recorded, before those that are.
+  void pass(const Simulation& simulation) { camera_.see(simulation.world()); }
   void add(const Simulation& simulation);
   const Recording& recording() const { return recording_; }
 
  private:
   FrameBuilder builder_;
+  RunCamera camera_;
   Recording recording_;
 };
 

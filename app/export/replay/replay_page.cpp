@@ -68,9 +68,9 @@ std::string replay_page(const Recording& recording) {
                               {"script", script}});
 }
 
-ReplaySink::ReplaySink(const scenes::Scene& scene, const sim::World& start,
-                       const render::Camera& camera, std::filesystem::path file)
-    : recorder_(scene, start, camera), file_(std::move(file)) {}
+ReplaySink::ReplaySink(const scenes::Scene& scene, const sim::World& start, int threads,
+                       CameraEvents events, std::filesystem::path file)
+    : recorder_(scene, start, threads, std::move(events)), file_(std::move(file)) {}
 
 std::filesystem::path ReplaySink::finish() {
   const std::string page = replay_page(recorder_.recording());

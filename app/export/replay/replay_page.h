@@ -14,9 +14,10 @@ std::string replay_page(const Recording& recording);
 /// Keeps the run in memory and writes the page in the end.
 class ReplaySink : public FrameSink {
  public:
-  ReplaySink(const scenes::Scene& scene, const sim::World& start, const render::Camera& camera,
+  ReplaySink(const scenes::Scene& scene, const sim::World& start, int threads, CameraEvents events,
              std::filesystem::path file);
 
+  void pass(const Simulation& simulation) override { recorder_.pass(simulation); }
   void add(const Simulation& simulation) override { recorder_.add(simulation); }
   std::filesystem::path finish() override;
 

@@ -11,6 +11,8 @@ class FrameSink {
  public:
   virtual ~FrameSink() = default;
 
+  /// The simulation has come to a frame before those that are wanted.
+  virtual void pass(const Simulation& /*simulation*/) {}
   /// The simulation has come to a frame that is wanted.
   virtual void add(const Simulation& simulation) = 0;
 

@@ -8,6 +8,7 @@
 
 #include "app/render/log/journal.h"
 #include "app/render/log/run_folder.h"
+#include "render/frame/camera.h"
 #include "sim/world/world.h"
 
 namespace pneuma::app {
@@ -37,6 +38,7 @@ struct Continuation {
   sim::World world;                 // at the frame before, or at the start
   std::uint64_t journal_bytes = 0;  // of the journal that hold
   std::string change;               // why the settings change here; empty: they do not
+  std::optional<render::ViewFit::Seen> seen = {};  // of the run up to `world`: see RunCamera
 };
 
 /// The last frame for which picture, journal and saved state agree, with all frames before it

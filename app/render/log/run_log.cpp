@@ -8,27 +8,25 @@
 
 namespace pneuma::app {
 
-RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run,
-               const ChooseCamera& choose_camera)
+RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run)
     : folder_(folder) {
   const Json identity = identity_json(run);
   const OpenedFolder opened =
       open_folder(folder, existing, identity, scenes::print_scene(run.scene));
   if (opened.finished) {
     lost_ = opened.lost;
-    if (!lost_.empty()) camera_ = camera_of(opened.record);
     return;
   }
 
   const auto& old = opened.unfinished;
-  const Json header = old ? old->header : run_header(identity, run.scene, choose_camera());
-  camera_ = camera_of(header);
+  const Json header = old ? old->header : run_header(identity, run.scene);
   const int steps_per_frame = scenes::steps_per_frame(run.scene);
   Continuation from =
       old ? find_continuation(folder, *old, identity, run.start, run.frames.first, steps_per_frame)
-          : Continuation{run.frames.first, run.start, 0, ""};
+          : Continuation{run.frames.first, run.start, 0, "", {}};
   next_frame_ = from.next_frame;
   world_ = std::move(from.world);
+  seen_ = from.seen;
 
   journal_.emplace(folder.journal(), from.journal_bytes);
   if (!old) journal_->append(header);

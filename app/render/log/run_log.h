@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,25 +14,22 @@ namespace pneuma::app {
 
 class RunLog {
  public:
-  /// Chooses the camera of a run that starts; one that is continued keeps its own.
-  using ChooseCamera = std::function<render::Camera()>;
-
   /// Opens the folder for the run as `existing` says, and finds the frame from which it goes on.
   /// Throws base::IoError when the folder holds something else (see resume.h).
-  RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run,
-         const ChooseCamera& choose_camera);
+  RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity& run);
 
-  /// The run has come to its end before: nothing below may be called but folder(), lost() and
-  /// camera().
+  /// The run has come to its end before: nothing below may be called but folder() and
+  /// lost().
   bool finished() const { return !journal_; }
   /// Of a finished run: the record's lines of frames whose pictures are gone, in their order.
   const std::vector<Json>& lost() const { return lost_; }
 
   const RunFolder& folder() const { return folder_; }
-  const render::Camera& camera() const { return camera_; }
   /// The first frame that is still to be drawn, and the world at the one before it or at the start.
   std::int64_t next_frame() const { return next_frame_; }
   const sim::World& world() const { return world_; }
+  /// What an automatic camera has seen of the run up to there; none: nothing but the start.
+  const std::optional<render::ViewFit::Seen>& seen() const { return seen_; }
 
   /// Each appends its line. They throw base::IoError.
   void append_launch(const std::vector<std::string>& command_line, int threads);
@@ -48,9 +44,9 @@ class RunLog {
 
  private:
   RunFolder folder_;
-  render::Camera camera_;
   std::int64_t next_frame_ = 0;
   sim::World world_;
+  std::optional<render::ViewFit::Seen> seen_;
   std::vector<Json> lost_;
   std::optional<Journal> journal_;  // none: the run is finished
 };

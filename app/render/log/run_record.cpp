@@ -41,6 +41,12 @@ Json crossings_json(const sim::Crossings& crossings) {
   return {{"between_bodies", crossings.between_bodies}, {"within_bodies", crossings.within_bodies}};
 }
 
+Json camera_json(const render::Camera& camera) {
+  return {{"eye", vector_json<Json>(camera.eye)},
+          {"target", vector_json<Json>(camera.target)},
+          {"field_of_view", camera.field_of_view}};
+}
+
 Json program_with_libraries() {
   Json program = program_json<Json>();
   program["libraries"] = Json::object();
@@ -73,7 +79,7 @@ Json identity_json(const RunIdentity& run) {
   return identity;
 }
 
-Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera) {
+Json run_header(const Json& identity, const scenes::Scene& scene) {
   return {{"run", identity},
           {"title", scene.title},
           {"figure", scene.figure},
@@ -81,27 +87,17 @@ Json run_header(const Json& identity, const scenes::Scene& scene, const render::
           {"steps_per_second", scene.settings.steps_per_second},
           {"frames_per_second", scene.picture.frames_per_second},
           {"units", json_units},
-          {"camera",
-           {{"eye", vector_json<Json>(camera.eye)},
-            {"target", vector_json<Json>(camera.target)},
-            {"field_of_view", camera.field_of_view}}},
           {"scene_toml", scenes::print_scene(scene)},
           {"program", program_with_libraries()}};
 }
 
-render::Camera camera_of(const Json& header) {
+std::optional<render::ViewFit::Seen> seen_in(const Json& line) {
+  if (!line.contains("seen")) return std::nullopt;
   try {
-    const Json& json = header.at("camera");
-    render::Camera camera;
-    for (int axis = 0; axis < 3; ++axis) {
-      camera.eye[axis] = json.at("eye").at(static_cast<std::size_t>(axis)).get<float>();
-      camera.target[axis] = json.at("target").at(static_cast<std::size_t>(axis)).get<float>();
-    }
-    camera.field_of_view = json.at("field_of_view").get<float>();
-    return camera;
+    return line["seen"].get<render::ViewFit::Seen>();
   } catch (const Json::exception& error) {
     throw base::IoError(
-        fmt::format("the journal's camera cannot be read ({}); start again with "
+        fmt::format("what the camera has seen cannot be read in the journal ({}); start again with "
                     "--overwrite",
                     error.what()));
   }
@@ -136,7 +132,7 @@ Json launch_line(const std::vector<std::string>& command_line, int threads, std:
             {"machine", machine_json<Json>()}}}};
 }
 
-FrameState FrameRecorder::state(const Simulation& simulation) {
+FrameState FrameRecorder::state(const Simulation& simulation, const FrameCamera& camera) {
   const sim::World& world = simulation.world();
   Json times = Json::object();
   const sim::StageTimes& stage_times = simulation.stepper().stage_times();
@@ -158,7 +154,9 @@ FrameState FrameRecorder::state(const Simulation& simulation) {
                {"gas", gas_of_bodies_json<Json>(world)},
                {"contacts", contacts_json(simulation.contacts())},
                {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
-               {"crossings", crossings_json(crossings)}};
+               {"crossings", crossings_json(crossings)},
+               {"camera", camera_json(camera.camera)}};
+  if (camera.seen) line["seen"] = *camera.seen;
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
   const std::vector<sim::CrossingPair> deep = crossings_beyond_touch(world, crossings);
   const auto of_itself = [](const sim::CrossingPair& pair) { return pair.first == pair.second; };

@@ -12,7 +12,7 @@
 #include "app/render/log/journal.h"
 #include "app/terminal/frame_range.h"
 #include "app/world/simulation.h"
-#include "render/frame/frame.h"
+#include "render/frame/camera.h"
 #include "scenes/loader/scene.h"
 
 namespace pneuma::app {
@@ -45,10 +45,17 @@ struct RunIdentity {
 Json identity_json(const RunIdentity& run);
 
 /// The first line of a journal.
-Json run_header(const Json& identity, const scenes::Scene& scene, const render::Camera& camera);
+Json run_header(const Json& identity, const scenes::Scene& scene);
 
-/// The camera in a header, exactly as it was. Throws base::IoError when it is not there.
-render::Camera camera_of(const Json& header);
+/// What a frame is seen with.
+struct FrameCamera {
+  render::Camera camera;
+  std::optional<render::ViewFit::Seen> seen;  // see RunCamera
+};
+
+/// What an automatic camera had seen up to a frame's line, exactly as it was; none of another
+/// camera. Throws base::IoError when it cannot be read.
+std::optional<render::ViewFit::Seen> seen_in(const Json& line);
 
 /// A line per time that the run is started or continued: where, when and how.
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);
@@ -75,7 +82,7 @@ struct FrameState {
 /// Makes a line per frame; with the parts of the steps that were done in parts, if any.
 class FrameRecorder {
  public:
-  FrameState state(const Simulation& simulation);
+  FrameState state(const Simulation& simulation, const FrameCamera& camera);
 
  private:
   sim::StageTimes stage_times_ = {};  // up to the last line

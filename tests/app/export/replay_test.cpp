@@ -133,13 +133,13 @@ TEST_F(ReplayTest, SaysHowFarBodiesAreDrawnRounded) {
   const auto shares = replay.series<std::uint8_t>("shares");
   const scenes::Scene loaded = scenes::load_scene(scene());
   Simulation simulation(loaded, build_world(loaded), 1);
-  const FrameBuilder builder(loaded, simulation.world(), {});
+  const FrameBuilder builder(loaded, simulation.world());
   const auto frames = replay.header["frames"].get<std::size_t>();
   const auto steps = replay.header["share_steps"].get<float>();
   std::size_t held = 0;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     std::size_t vertex = 0;
-    for (const render::Mesh& mesh : builder.build(simulation.world()).meshes) {
+    for (const render::Mesh& mesh : builder.build(simulation.world(), {}).meshes) {
       if (mesh.room.empty()) continue;  // the box
       const std::vector<float> share =
           render::bulge_shares(mesh.shape->triangles, mesh.positions, mesh.normals, mesh.room);
@@ -230,7 +230,7 @@ TEST_F(ReplayTest, RefusesARunThatIsTooLongForAPage) {
 TEST_F(ReplayTest, RefusesMoreContactsThanAPageHolds) {
   const scenes::Scene loaded = scenes::load_scene(scene());
   Simulation simulation(loaded, build_world(loaded), 1);
-  Recorder recorder(loaded, simulation.world(), {});
+  Recorder recorder(loaded, simulation.world());
   for (; simulation.frame() < 20; simulation.advance_frame()) recorder.add(simulation);
   const std::size_t bytes = replay_data(recorder.recording()).bytes.size();
   EXPECT_NO_THROW(replay_data(recorder.recording(), bytes));

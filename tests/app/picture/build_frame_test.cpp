@@ -40,7 +40,7 @@ Built build(const std::vector<std::string>& overrides = {}, Show show = {}) {
   Built built;
   built.scene = scenes::parse_scene(two_kinds, "test.toml", overrides);
   built.world = build_world(built.scene);
-  built.frame = FrameBuilder(built.scene, built.world, {}).build(built.world, {}, show);
+  built.frame = FrameBuilder(built.scene, built.world).build(built.world, {}, {}, show);
   return built;
 }
 
@@ -104,8 +104,8 @@ TEST(BuildFrame, DrawsABoxWithoutDiagonals) {
 TEST(BuildFrame, SharesShapesBetweenCopiesAndFrames) {
   const scenes::Scene scene = scenes::parse_scene(two_kinds, "test.toml");
   const sim::World world = build_world(scene);
-  const FrameBuilder builder(scene, world, {});
-  const render::Frame first = builder.build(world), second = builder.build(world);
+  const FrameBuilder builder(scene, world);
+  const render::Frame first = builder.build(world, {}), second = builder.build(world, {});
   EXPECT_EQ(first.meshes[0].shape, first.meshes[1].shape);
   for (std::size_t i = 0; i < first.meshes.size(); ++i) {
     EXPECT_EQ(first.meshes[i].shape, second.meshes[i].shape);
@@ -123,7 +123,7 @@ TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
     const scenes::Scene scene =
         scenes::parse_scene("[[body]]\nposition = [0, 0, 9]\n" + shape + "\n", "x.toml");
     const sim::World world = build_world(scene);
-    return FrameBuilder(scene, world, {}).build(world).meshes.at(0).normals.empty();
+    return FrameBuilder(scene, world).build(world, {}).meshes.at(0).normals.empty();
   };
   EXPECT_TRUE(is_flat("shape = \"box\""));
   EXPECT_FALSE(is_flat("shape = \"sphere\"\nstacks = 2\nslices = 3"));
@@ -141,16 +141,16 @@ TEST(BuildFrame, FollowsThePictureSettings) {
 TEST(BuildFrame, SaysSceneTimeAndStep) {
   Built built = build();
   built.world.steps = 90;
-  const FrameBuilder builder(built.scene, built.world, {});
-  EXPECT_EQ(builder.build(built.world).caption->text, "Balls and bricks\nt = 1.50 s   step 90");
+  const FrameBuilder builder(built.scene, built.world);
+  EXPECT_EQ(builder.build(built.world, {}).caption->text, "Balls and bricks\nt = 1.50 s   step 90");
   EXPECT_FALSE(build({"picture.caption=false"}).frame.caption);
 }
 
 TEST(BuildFrame, KeepsTheLettersOfAName) {
   Built built = build({"title=\"\""});
   built.scene.name = "Bälle × 2";  // from the name of the file, which may be anything
-  const FrameBuilder builder(built.scene, built.world, {});
-  EXPECT_TRUE(builder.build(built.world).caption->text.starts_with("Bälle × 2\n"));
+  const FrameBuilder builder(built.scene, built.world);
+  EXPECT_TRUE(builder.build(built.world, {}).caption->text.starts_with("Bälle × 2\n"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "app/world/build_world.h"
 #include "render/frame/check_frame.h"
 #include "scenes/loader/load_scene.h"
+#include "sim/mesh/measure.h"
 
 namespace pneuma::app {
 namespace {
@@ -64,7 +65,7 @@ struct Made {
 
   render::Frame frame(const std::string& list) const {
     const render::Frame made =
-        FrameBuilder(scene, world, {}).build(world, {}, parse_show("--show", list));
+        FrameBuilder(scene, world).build(world, {}, {}, parse_show("--show", list));
     EXPECT_NO_THROW(render::check_frame(made));
     return made;
   }
@@ -163,9 +164,9 @@ TEST(Impulses, AreArrowsFromTheirContactsByTheScaleInTheCaption) {
   contacts[1].impulse = {0.0, 0.75, 0.0};
   render::Camera camera;
   camera.eye = {0.0f, -20.0f, 5.0f};
-  const FrameBuilder builder(made.scene, made.world, camera);
+  const FrameBuilder builder(made.scene, made.world);
   const render::Frame frame =
-      builder.build(made.world, contacts, parse_show("--show", "impulses=1.5"));
+      builder.build(made.world, camera, contacts, parse_show("--show", "impulses=1.5"));
   EXPECT_NO_THROW(render::check_frame(frame));
   EXPECT_EQ(frame.points.size(), 2u);
   ASSERT_EQ(frame.lines.size(), 6u) << "a shaft and two sides of a head each";
@@ -176,13 +177,15 @@ TEST(Impulses, AreArrowsFromTheirContactsByTheScaleInTheCaption) {
   ASSERT_TRUE(frame.caption);
   EXPECT_NE(frame.caption->text.find("1 m is an impulse of 1.5 N s"), std::string::npos);
   // Without a scale the picture's own, a round one that keeps the longest within a fifth.
-  const render::Frame own = builder.build(made.world, contacts, parse_show("--show", "impulses"));
+  const render::Frame own =
+      builder.build(made.world, camera, contacts, parse_show("--show", "impulses"));
   const float longest = (own.lines[0].to - own.lines[0].from).norm();
   const float height =
       2.0f * std::tan(camera.field_of_view * 0.5f * 0.0174533f) * camera.eye.norm();
   EXPECT_LE(longest, 0.2f * height * 1.0001f);
   EXPECT_GE(longest, 0.2f * height / 2.5001f);
-  EXPECT_TRUE(builder.build(made.world, {}, parse_show("--show", "impulses")).lines.empty());
+  EXPECT_TRUE(
+      builder.build(made.world, camera, {}, parse_show("--show", "impulses")).lines.empty());
 }
 
 TEST(Ghost, IsDrawnAsTheEdgesOfTheRestShape) {

@@ -91,5 +91,35 @@ TEST_F(MorePictures, AMovingCameraComesOutTheSameAfterAResume) {
   EXPECT_EQ(pictures(), pictures("whole"));
 }
 
+/// One that is left to the program moves when a ball goes beyond what it has looked ahead for.
+TEST_F(MorePictures, AnAutomaticCameraComesOutTheSameWhateverIsDrawn) {
+  write_text(scene(), std::string(falling_ball) + R"(
+[[body]]
+name = "flying"
+radius = 1.0
+rho_g = 0.0
+position = [6.0, 0.0, 9.0]
+velocity = [2.0, 0.0, 9.0]
+[simulation]
+gravity = [0, 0, -4]
+)");
+  const std::string longer = "--set duration=4 ";
+  ASSERT_EQ(render_into("whole", longer + "--frames 101").exit_code, 0);
+  const auto whole = pictures("whole");
+  const auto eye = [&](std::size_t frame) { return record("whole")["frames"][frame]["camera"]; };
+  ASSERT_NE(eye(0), eye(99)) << "it has not moved";
+
+  ASSERT_EQ(render_into("part", longer + "--frames 90-100").exit_code, 0);
+  for (const auto& [name, bytes] : pictures("part")) EXPECT_EQ(bytes, whole.at(name)) << name;
+
+  // More frames than at first, by two threads, and a lost one again.
+  ASSERT_EQ(render(longer + "--frames 30").exit_code, 0);
+  ASSERT_EQ(render(longer + "--frames 101 --threads 2 --resume").exit_code, 0);
+  EXPECT_EQ(pictures(), whole);
+  fs::remove(out() / "fall_00095.png");
+  ASSERT_EQ(render(longer + "--frames 101 --resume").exit_code, 0);
+  EXPECT_EQ(pictures(), whole);
+}
+
 }  // namespace
 }  // namespace pneuma::app

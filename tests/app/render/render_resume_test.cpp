@@ -13,8 +13,10 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// Long enough that most moments lie within it and not within the start of the program.
-const std::string longer = "--set duration=3";
+// Long enough that most moments lie within it and not within the start of the program. The ball
+// slides beyond what the camera has looked ahead for at the start.
+const std::string longer =
+    "--set 'ball.velocity=[2,0,0]' --set ball.rho_g=0 --set ball.friction=0 --set duration=3";
 
 /// Kills the program after some seconds.
 std::string killed_after(double seconds) {
@@ -44,6 +46,8 @@ class ResumeTest : public RenderTest {
     seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     EXPECT_EQ(result.exit_code, 0) << result.output;
     reference_ = pictures("reference");
+    const json frames = record("reference")["frames"];
+    EXPECT_NE(frames.front()["camera"], frames.back()["camera"]) << "the camera has not moved";
   }
 
   void expect_like_the_reference() const {

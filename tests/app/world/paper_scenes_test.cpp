@@ -149,13 +149,13 @@ TEST_P(PaperSceneTest, ComesOutTheSameHoweverItIsRun) {
 TEST_P(PaperSceneTest, ComesOutTheSameWithPictures) {
   sim::World world = build_world(scene_);
   const std::uint64_t expected = hash_at_end(scene_, world, {});
-  const FrameBuilder builder(scene_, world, render::Camera{});
+  const FrameBuilder builder(scene_, world);
   render::Renderer renderer({.width = 64, .height = 48, .samples = 1});
   render::Image image;
   sim::Stepper stepper(world);
   while (world.steps < compared_steps(scene_)) {
     if (world.steps % 60 == 0) {
-      renderer.draw(builder.build(world, stepper.contacts(), {true, true, true}), image);
+      renderer.draw(builder.build(world, {}, stepper.contacts(), {true, true, true}), image);
     }
     ASSERT_FALSE(stepper.step(world));
   }

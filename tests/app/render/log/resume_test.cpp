@@ -37,7 +37,7 @@ class UnfinishedRun : public testing::Test {
     for (int frame = 0; frame < 5; ++frame) {
       if (frame > 0) simulation.advance_frame();
       write_text(folder_.frame(frame), "12345");
-      journal.append(frame_line(recorder.state(simulation), {.frame = 5, .overlay = {}}, {}));
+      journal.append(frame_line(recorder.state(simulation, {}), {.frame = 5, .overlay = {}}, {}));
       states_.push_back(sim::save_state(simulation.world()));
       hashes_.push_back(sim::state_hash(simulation.world()));
     }

@@ -16,11 +16,8 @@ namespace fs = std::filesystem;
 /// Runs of five frames of a ball, with pictures that are only as long as pictures.
 class RunLogOfABall : public testing::Test {
  protected:
-  RunLog open(ExistingRun existing, float eye) const {
-    return RunLog(folder_, existing, {scene_, start_, {0, 4}, {}, OnDivergence::stop, "test"},
-                  [eye] {
-                    return render::Camera{.eye = {eye, 0.0f, 1.0f}};
-                  });
+  RunLog open(ExistingRun existing) const {
+    return RunLog(folder_, existing, {scene_, start_, {0, 4}, {}, OnDivergence::stop, "test"});
   }
 
   /// Draws so many frames of the run.
@@ -31,8 +28,9 @@ class RunLogOfABall : public testing::Test {
     for (int frame = 0; frame < count; ++frame) {
       while (simulation.frame() < log.next_frame() + frame) simulation.advance_frame();
       write_text(folder_.frame(simulation.frame()), "12345");
-      log.append_frame(recorder.state(simulation), {.frame = 5, .overlay = {}}, {},
-                       sim::save_state(simulation.world()));
+      const auto seen = static_cast<float>(simulation.frame()) / 3.0f;
+      log.append_frame(recorder.state(simulation, {{}, {{seen, 2, 3, 4, 5, 6}}}),
+                       {.frame = 5, .overlay = {}}, {}, sim::save_state(simulation.world()));
     }
   }
 
@@ -43,32 +41,32 @@ class RunLogOfABall : public testing::Test {
   sim::World start_ = build_world(scene_);
 };
 
-TEST_F(RunLogOfABall, StartsWithTheWorldAndTheCameraThatItIsGiven) {
-  const RunLog log = open(ExistingRun::refuse, 3.0f);
+TEST_F(RunLogOfABall, StartsWithTheWorldThatItIsGiven) {
+  const RunLog log = open(ExistingRun::refuse);
   EXPECT_FALSE(log.finished());
   EXPECT_EQ(log.next_frame(), 0);
-  EXPECT_EQ(log.camera().eye.x(), 3.0f);
+  EXPECT_FALSE(log.seen());
   EXPECT_EQ(sim::state_hash(log.world()), sim::state_hash(start_));
 }
 
-TEST_F(RunLogOfABall, GoesOnAfterTheLastFrameWithItsOwnCamera) {
+TEST_F(RunLogOfABall, GoesOnAfterTheLastFrameWithWhatWasSeenUpToIt) {
   {
-    RunLog log = open(ExistingRun::refuse, 3.0f);
+    RunLog log = open(ExistingRun::refuse);
     draw(log, 2);
   }
-  RunLog log = open(ExistingRun::resume, 7.0f);
+  RunLog log = open(ExistingRun::resume);
   EXPECT_EQ(log.next_frame(), 2);
-  EXPECT_EQ(log.camera().eye.x(), 3.0f);
+  EXPECT_EQ(log.seen(), (render::ViewFit::Seen{1.0f / 3.0f, 2, 3, 4, 5, 6}));
   EXPECT_EQ(log.world().steps, scenes::steps_per_frame(scene_));
 }
 
 TEST_F(RunLogOfABall, BecomesARecordWhenItIsClosed) {
   {
-    RunLog log = open(ExistingRun::refuse, 3.0f);
+    RunLog log = open(ExistingRun::refuse);
     draw(log, 2);
   }
   {
-    RunLog log = open(ExistingRun::resume, 3.0f);
+    RunLog log = open(ExistingRun::resume);
     draw(log, 3);
     log.close();
   }
@@ -79,17 +77,17 @@ TEST_F(RunLogOfABall, BecomesARecordWhenItIsClosed) {
   EXPECT_EQ(record["frames"][4]["frame"], 4);
   EXPECT_FALSE(fs::exists(folder_.journal()));
   EXPECT_FALSE(fs::exists(folder_.state()));
-  EXPECT_TRUE(open(ExistingRun::resume, 3.0f).finished());
+  EXPECT_TRUE(open(ExistingRun::resume).finished());
 }
 
 TEST_F(RunLogOfABall, SaysWhyARunThatDivergedGoesOnWithOtherSteps) {
   {
-    RunLog log = open(ExistingRun::refuse, 3.0f);
+    RunLog log = open(ExistingRun::refuse);
     draw(log, 2);
     log.append_divergence("the gas exploded");
   }
   scene_.settings.steps_per_second *= 2;
-  const RunLog log = open(ExistingRun::resume, 3.0f);
+  const RunLog log = open(ExistingRun::resume);
   EXPECT_EQ(log.next_frame(), 2);
   const Json change = read_journal(folder_.journal())->lines.back();
   EXPECT_EQ(change["reason"], "the gas exploded");
