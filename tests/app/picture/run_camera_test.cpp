@@ -124,7 +124,7 @@ TEST(RunCamera, HasAllBodiesInViewInEveryFrame) {
 TEST(RunCamera, StartsAndStopsToMoveWithoutJerks) {
   const scenes::Scene scene = scene_of(apart);
   ViewOfBodies view(scene, build_world(scene));
-  Vec3f nearest;
+  Vec3f nearest = Vec3f::Zero();
   float fastest = 0.0f;
   for_each_frame(scene, 240, [&](const sim::World& world, std::int64_t frame) {
     view.add(world);
