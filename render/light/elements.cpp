@@ -23,6 +23,18 @@ Light3 open_light(const std::array<Light3, 3>& irradiance, const Light3& floor, 
   return irradiance[0] + z * (irradiance[1] + z * irradiance[2]) + floor * (0.5f - 0.5f * z);
 }
 
+/// m, how far a patch reaches beyond its middle: what touches it must not be behind its disc.
+float bulge(const Mesh& mesh, const std::vector<std::uint32_t>& patch, const Vec3f& middle,
+            const Vec3f& normal) {
+  float highest = 0.0f;
+  for (const std::uint32_t i : patch) {
+    for (const std::uint32_t v : mesh.shape->triangles[i]) {
+      highest = std::max(highest, normal.dot(mesh.positions[v] - middle));
+    }
+  }
+  return highest;
+}
+
 Element patch_element(const Mesh& mesh, std::span<const Vec3f> albedo,
                       const std::vector<std::uint32_t>& patch) {
   Vec3f area_vector = Vec3f::Zero();
@@ -40,11 +52,36 @@ Element patch_element(const Mesh& mesh, std::span<const Vec3f> albedo,
     colour += size / 3.0f * (albedo[a] + albedo[b] + albedo[c]);
   }
   const float over = 1.0f / std::max(area, 1e-12f);
-  return {over * centre, area_vector.stableNormalized(), area_vector.norm(), over * colour.array()};
+  const Vec3f normal = area_vector.stableNormalized();
+  return {over * centre + bulge(mesh, patch, over * centre, normal) * normal, normal,
+          area_vector.norm(), over * colour.array()};
 }
 
-BodyElements with_whole(std::vector<Element> elements) {
-  BodyElements body;
+/// A patch of many triangles falls into these, one of few into quarters of them.
+void add_parts(const Mesh& mesh, const std::vector<std::uint32_t>& patch, const Light3& radiosity,
+               std::vector<Element>& parts) {
+  constexpr std::size_t few = 4;
+  const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+    const Vec3f area = 0.5f * (b - a).cross(c - a);
+    parts.push_back({(a + b + c) / 3.0f, area.stableNormalized(), area.norm(), radiosity});
+  };
+  for (const std::uint32_t i : patch) {
+    const auto& t = mesh.shape->triangles[i];
+    const Vec3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    if (patch.size() >= few) {
+      add(a, b, c);
+      continue;
+    }
+    const Vec3f ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+    add(a, ab, ca);
+    add(ab, b, bc);
+    add(ca, bc, c);
+    add(bc, ca, ab);
+  }
+}
+
+BodyElements with_whole(BodyElements body) {
+  const std::vector<Element>& elements = body.elements;
   Element& whole = body.whole;
   whole = {Vec3f::Zero(), Vec3f::Zero(), 0.0f, Light3::Zero()};
   for (const Element& element : elements) {
@@ -58,7 +95,6 @@ BodyElements with_whole(std::vector<Element> elements) {
   for (const Element& element : elements) {
     body.radius = std::max(body.radius, (element.centre - whole.centre).norm());
   }
-  body.elements = std::move(elements);
   return body;
 }
 
@@ -95,16 +131,19 @@ BodyElements elements_of(const Mesh& mesh, std::span<const Vec3f> albedo,
   constexpr float usually_open = 0.75f;
   static const Environment environment;
   static const auto irradiance = sky_irradiance(environment);
-  std::vector<Element> elements;
+  BodyElements body;
   for (const std::vector<std::uint32_t>& patch : patches) {
     Element element = patch_element(mesh, albedo, patch);
     const float facing = element.normal.dot(to_light);
     Light3 light = usually_open * open_light(irradiance, environment.floor, element.normal.z());
     if (facing > 0.0f && is_lit(element.centre)) light += facing * environment.sun;
-    element.radiosity *= light;
-    elements.push_back(element);
+    element.radiosity *= light / (1.0f - (1.0f - usually_open) * element.radiosity);
+    body.elements.push_back(element);
+    body.first_part.push_back(static_cast<std::uint32_t>(body.parts.size()));
+    add_parts(mesh, patch, element.radiosity, body.parts);
   }
-  return with_whole(std::move(elements));
+  body.first_part.push_back(static_cast<std::uint32_t>(body.parts.size()));
+  return with_whole(std::move(body));
 }
 
 }  // namespace pneuma::render

@@ -3,7 +3,8 @@
 // Bunnell, "Dynamic Ambient Occlusion and Indirect Lighting" (GPU Gems 2, 2005, chapter 14): a
 // surface is replaced by discs; what a point gets from a disc is its form factor times what the
 // disc sends. Where the paper takes a disc a vertex and several passes, here are at most 64 patches
-// a body and one pass, with what the discs get estimated (elements_of).
+// a body and one pass, with what the discs get estimated (elements_of). Receivers that are near a
+// patch see its parts.
 #pragma once
 
 #include <functional>
@@ -26,6 +27,8 @@ struct Element {
 /// One body's.
 struct BodyElements {
   std::vector<Element> elements;
+  std::vector<Element> parts;             // of the elements, one after the other
+  std::vector<std::uint32_t> first_part;  // per element; and the number of all parts
   Element whole;        // a ball in its place: a quarter of its area (Cauchy's cross section)
   float radius = 0.0f;  // m about the ball's centre, of all elements
 };
@@ -41,7 +44,8 @@ using IsLit = std::function<bool(const Vec3f& point)>;
 inline constexpr std::size_t most_elements = 64;  // of one body
 
 /// Of a mesh with these patches. An element gets the sun where it is lit, and three quarters of sky
-/// and floor: about what bodies that lie together leave each other.
+/// and floor, about what bodies that lie together leave each other; the rest of what it sees is
+/// like itself.
 BodyElements elements_of(const Mesh& mesh, std::span<const Vec3f> albedo,
                          const std::vector<std::vector<std::uint32_t>>& patches,
                          const Vec3f& to_light, const IsLit& is_lit);

@@ -9,38 +9,56 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float far_away = 3.0f;  // radii of the body from its centre to the receivers
+constexpr float near = 2.0f;      // radii of an element from its centre to the receivers
 // Radii of a group. Its bodies take up to (r / d)^2 of the hemisphere, and by where in the group
 // they are less or more by the order of that squared.
 constexpr float far_from_group = 4.0f;
 constexpr float smallest_share = 0.02f;  // of the hemisphere, as a divisor
 
-/// The part of the hemisphere that a disc of the area A takes, at a distance d:
-/// A cos(r) cos(e) / (pi d^2 + A), with the angles at receiver and element (GPU Gems 2, 14.3). A
-/// ball faces every receiver.
-template <bool is_ball>
-void add_element(const Element& element, Receivers& to) {
+/// `dz`: m, by which the element is above the receivers.
+void add_taken(const Element& element, const Receivers::Column& taken, const Receivers::Column& dz,
+               Receivers& to) {
+  const Receivers::Column above = taken * (1e6f * dz).max(0.0f).min(1.0f);  // no branch
+  to.above += above;
+  to.below += taken - above;
+  to.red += taken * element.radiosity[0];
+  to.green += taken * element.radiosity[1];
+  to.blue += taken * element.radiosity[2];
+}
+
+/// The part of the hemisphere that a disc of the area A takes, seen from a distance d large beside
+/// its radius r: A cos(r) cos(e) / (pi d^2), with the angles at receiver and element. Nearer by, a
+/// receiver at the height h above the disc's plane is looked at from sqrt(h^2 + r^2), so that discs
+/// side by side take all of the hemisphere of what they cover at whatever height.
+void add_disc(const Element& element, Receivers& to) {
   using Column = Receivers::Column;
   const Vec3f& at = element.centre;
   const Vec3f& normal = element.normal;
   const Column dx = at.x() - to.x;
   const Column dy = at.y() - to.y;
   const Column dz = at.z() - to.z;
+  const Column height = -normal.x() * dx - normal.y() * dy - normal.z() * dz;
+  const Column raised = (height * height + element.area / pi).sqrt();
+  const Column up = raised - height;
+  const Column squared = dx * dx + dy * dy + dz * dz + raised * raised - height * height + 1e-9f;
+  const Column facing = to.nx * normal.x() + to.ny * normal.y() + to.nz * normal.z();
+  const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz - up * facing).max(0.0f);
+  const Column in_front = (1e6f * height).max(0.0f).min(1.0f);
+  add_taken(element, in_front * element.area / pi * at_receiver * raised / (squared * squared), dz,
+            to);
+}
+
+/// A ball faces every receiver: A cos(r) / (pi d^2 + A) (GPU Gems 2, 14.3).
+void add_ball(const Element& element, Receivers& to) {
+  using Column = Receivers::Column;
+  const Vec3f& at = element.centre;
+  const Column dx = at.x() - to.x;
+  const Column dy = at.y() - to.y;
+  const Column dz = at.z() - to.z;
   const Column squared = dx * dx + dy * dy + dz * dz + 1e-9f;
   const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz).max(0.0f);
-  Column at_element;
-  if constexpr (is_ball) {
-    at_element = squared.sqrt();
-  } else {
-    at_element = (-normal.x() * dx - normal.y() * dy - normal.z() * dz).max(0.0f);
-  }
-  const Column taken =
-      element.area * at_receiver * at_element / (squared * (pi * squared + element.area));
-  const Column above = taken * (1e6f * dz).max(0.0f).min(1.0f);  // no branch for 0 or all of it
-  to.above += above;
-  to.below += taken - above;
-  to.red += taken * element.radiosity[0];
-  to.green += taken * element.radiosity[1];
-  to.blue += taken * element.radiosity[2];
+  add_taken(element, element.area * at_receiver / (squared.sqrt() * (pi * squared + element.area)),
+            dz, to);
 }
 
 struct Ball {
@@ -68,17 +86,26 @@ void add_whole(Receivers& to, const Add& add) {
   to.floor_left *= (1.0f - (to.below - below) / to.floor).max(0.0f);
 }
 
-void add_ball(const Element& whole, Receivers& receivers) {
-  add_whole(receivers, [&] { add_element<true>(whole, receivers); });
+void add_whole_ball(const Element& whole, Receivers& receivers) {
+  add_whole(receivers, [&] { add_ball(whole, receivers); });
 }
 
 void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) {
   if (ball.distance_to(body.whole.centre) > far_away * body.radius) {
-    add_ball(body.whole, receivers);
+    add_whole_ball(body.whole, receivers);
     return;
   }
   add_whole(receivers, [&] {
-    for (const Element& element : body.elements) add_element<false>(element, receivers);
+    for (std::size_t i = 0; i < body.elements.size(); ++i) {
+      const Element& element = body.elements[i];
+      if (ball.distance_to(element.centre) > near * std::sqrt(element.area / pi)) {
+        add_disc(element, receivers);
+        continue;
+      }
+      for (std::size_t part = body.first_part[i]; part < body.first_part[i + 1]; ++part) {
+        add_disc(body.parts[part], receivers);
+      }
+    }
   });
 }
 
@@ -119,7 +146,7 @@ void gather(const BodyTree& tree, Receivers& receivers) {
     if (group.is_one()) {
       add_body(tree.bodies()[group.body], ball, receivers);
     } else if (ball.distance_to(group.whole.centre) > far_from_group * group.radius) {
-      add_ball(group.whole, receivers);
+      add_whole_ball(group.whole, receivers);
       i = group.after;
       continue;
     }

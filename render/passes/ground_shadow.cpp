@@ -252,9 +252,11 @@ void GroundShadow::add_up() {
       const float open = 1.0f - contact_[static_cast<std::size_t>(y / 2 * contact_size + x / 2)];
       const Between columns(x);
       const auto first = static_cast<std::size_t>(columns.first);
-      const Eigen::Array4f left =
-          open * open * columns.mix(ambient[first], ambient[first + 1]) + (1.0f - blocked) * sun;
-      left_[0][i] = left[green];
+      const Eigen::Array4f of_sky = columns.mix(ambient[first], ambient[first + 1]);
+      const Eigen::Array4f of_sun = (1.0f - blocked) * sun;
+      const Eigen::Array4f left = open * open * of_sky + of_sun;
+      // What surfaces see of it: where one comes near the ground it hides from the others.
+      left_[0][i] = of_sky[green] + of_sun[green];
       const auto tone = [&](int channel) {
         return tone_[static_cast<std::size_t>(1023.0f * left[channel])];
       };
