@@ -2,6 +2,9 @@
 
 const mostElements = 64;  // of one body, and some that are left over between others
 
+const partsPerRow = 1024;
+const undividedFrom = 4;  // triangles of a patch: of fewer each falls into four parts
+
 // Triangles in groups of neighbours.
 function patches(triangles) {
   const count = triangles.length / 3;
@@ -31,7 +34,9 @@ function patches(triangles) {
   return result;
 }
 
-// Tables of all bodies' elements, a row for each body.
+const partCount = (patch) => (patch.length < undividedFrom ? 4 : 1) * patch.length;
+
+// Tables of all bodies' elements, a row for each body, and of their parts.
 class Elements {
   constructor(recording) {
     const shapes = new Map();
@@ -41,13 +46,17 @@ class Elements {
       return { first: mesh.first, triangles: mesh.triangles, patches: shapes.get(mesh.shape) };
     });
     this.columns = this.bodies.reduce((most, body) => Math.max(most, body.patches.length), 1);
-    // Centre and area; normal, 0; albedo, 0.
+    // Centre and area; normal, the first of its parts; albedo, how many parts.
     this.discs = new Float32Array(3 * 4 * this.columns * this.bodies.length);
+    const parts = this.bodies.reduce((sum, body) => body.patches.reduce((of, patch) => of + partCount(patch), sum), 0);
+    // Centre and area; normal, 0.
+    this.parts = new Float32Array(2 * 4 * partsPerRow * Math.max(Math.ceil(parts / partsPerRow), 1));
     // Of the ball in a body's place: centre and the radius that has all elements; area and how many there are.
     this.balls = new Float32Array(2 * 4 * this.bodies.length);
   }
 
   measure(positions) {
+    this.measured = 0;  // parts
     this.bodies.forEach((body, row) => {
       const begin = 12 * this.columns * row;
       body.patches.forEach((patch, i) => this.measurePatch(body, patch, positions, begin + 12 * i));
@@ -77,8 +86,44 @@ class Elements {
     }
     const over = 1 / (3 * Math.max(area, 1e-12));
     const facing = Math.sqrt(ax * ax + ay * ay + az * az), unit = 1 / (facing || 1);
-    discs.set([cx * over, cy * over, cz * over, facing, ax * unit, ay * unit, az * unit, 0,
-      red * over, green * over, blue * over, 0], at);
+    const normal = [ax * unit, ay * unit, az * unit], centre = [cx * over, cy * over, cz * over];
+    const out = this.bulge(first, triangles, patch, positions, centre, normal);
+    discs.set([...centre.map((c, k) => c + out * normal[k]), facing, ...normal, this.measured,
+      red * over, green * over, blue * over, partCount(patch)], at);
+    for (const t of patch) {
+      const corners = [0, 1, 2].map((i) => 3 * (first + triangles[3 * t + i]));
+      this.measureParts(corners, positions, patch.length < undividedFrom);
+    }
+  }
+
+  // How far a patch reaches beyond its middle.
+  bulge(first, triangles, patch, positions, centre, normal) {
+    let highest = 0;
+    for (const t of patch) {
+      for (let i = 0; i < 3; ++i) {
+        const a = 3 * (first + triangles[3 * t + i]);
+        let height = 0;
+        for (let k = 0; k < 3; ++k) height += normal[k] * (positions[a + k] - centre[k]);
+        highest = Math.max(highest, height);
+      }
+    }
+    return highest;
+  }
+
+  measureParts(corners, positions, inQuarters) {
+    const [a, b, c] = corners.map((at) => Array.from(positions.subarray(at, at + 3)));
+    if (!inQuarters) return this.measurePart(a, b, c);
+    const half = (p, q) => p.map((value, k) => 0.5 * (value + q[k]));
+    const ab = half(a, b), bc = half(b, c), ca = half(c, a);
+    for (const part of [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]) this.measurePart(...part);
+  }
+
+  measurePart(a, b, c) {
+    const p = b.map((value, k) => value - a[k]), q = c.map((value, k) => value - a[k]);
+    const across = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    const size = Math.hypot(...across), unit = 1 / (size || 1);
+    this.parts.set([...a.map((value, k) => (value + b[k] + c[k]) / 3), 0.5 * size,
+      ...across.map((value) => value * unit), 0], 8 * this.measured++);
   }
 
   // A quarter of the elements' area is a convex body's mean cross section (Cauchy).

@@ -80,7 +80,7 @@ void main() {
 }`,
 };
 
-// What is left of the ground's colour, in sRGB; alpha: of its light, about the luminance.
+// What is left of the ground's colour, in sRGB; alpha: of the light that surfaces see of it, about the luminance.
 const leftFragment = `in vec2 at;
 uniform sampler2D narrow;
 uniform sampler2D wide;
@@ -94,8 +94,9 @@ void main() {
   float open = 1.0 - texelFetch(contact, ivec2(gl_FragCoord.xy) / 2, 0).r;
   vec3 direct = sun * light_z;
   vec3 sky_part = sky_irradiance(1.0) / (sky_irradiance(1.0) + direct);
-  vec3 left = sky_part * open * open * texture(ambient, at).rgb + (1.0 - sky_part) * (1.0 - blocked);
-  result = vec4(pow(left, vec3(1.0 / 2.2)), left.g);
+  vec3 of_sky = sky_part * texture(ambient, at).rgb;
+  vec3 of_sun = (1.0 - sky_part) * (1.0 - blocked);
+  result = vec4(pow(open * open * of_sky + of_sun, vec3(1.0 / 2.2)), of_sky.g + of_sun.g);
 }`;
 
 // How much of its light the ground below a point has left. As GroundShadow::left_below.

@@ -24,7 +24,8 @@ void main() {
   vec3 light = usually_open * (sky_irradiance(normal.z) + floor_light * (0.5 - 0.5 * normal.z));
   float facing = dot(normal, to_light);
   if (facing > 0.0 && is_lit(centre)) light += facing * sun;
-  sent = uvec4(floatBitsToUint(albedo * light), 0u);
+  vec3 each = albedo * light / (1.0 - (1.0 - usually_open) * albedo);
+  sent = uvec4(floatBitsToUint(each), 0u);
 }`;
 
 // What the ball in a body's place sends.
@@ -47,12 +48,15 @@ void main() {
 }`;
 
 const gatherFunctions = `uniform sampler2D discs;
+uniform sampler2D parts;
 uniform sampler2D balls;
 uniform usampler2D sent;
 uniform usampler2D sent_by_ball;
 uniform int body_count;
 
 const float far_away = 3.0;  // radii of the body from its centre
+const float close_by = 4.0;  // radii of an element: about the 2 of gather.cpp, which asks for 64 points at once
+const float pi = 3.14159265;
 
 struct Gathered {
   float above;
@@ -66,14 +70,42 @@ struct Left {
   vec2 open_to;
 };
 
-// \`at_element\`: the distance times the cosine there.
-void add_element(inout Gathered sum, vec3 normal, vec3 away, float squared, float at_element, float area,
-                 uvec4 radiosity) {
-  float taken = area * max(dot(normal, away), 0.0) * at_element / (squared * (3.14159265 * squared + area));
+void add_taken(inout Gathered sum, float taken, vec3 away, uvec4 radiosity) {
   float above = taken * clamp(1e6 * away.z, 0.0, 1.0);
   sum.above += above;
   sum.below += taken - above;
   sum.sent += taken * uintBitsToFloat(radiosity.rgb);
+}
+
+void add_disc(inout Gathered sum, vec3 normal, vec3 away, vec3 facing, float area, uvec4 radiosity) {
+  float height = -dot(facing, away);
+  float raised = sqrt(height * height + area / pi);
+  float squared = dot(away, away) + raised * raised - height * height + 1e-9;
+  float at_receiver = max(dot(normal, away) - (raised - height) * dot(normal, facing), 0.0);
+  float taken = clamp(1e6 * height, 0.0, 1.0) * area / pi * at_receiver * raised / (squared * squared);
+  add_taken(sum, taken, away, radiosity);
+}
+
+void add_ball(inout Gathered sum, vec3 normal, vec3 away, float area, uvec4 radiosity) {
+  float squared = dot(away, away) + 1e-9;
+  float taken = area * max(dot(normal, away), 0.0) / (sqrt(squared) * (pi * squared + area));
+  add_taken(sum, taken, away, radiosity);
+}
+
+void add_element(inout Gathered sum, vec3 position, vec3 normal, int body, int i) {
+  vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
+  vec4 facing = texelFetch(discs, ivec2(3 * i + 1, body), 0);
+  uvec4 radiosity = texelFetch(sent, ivec2(i, body), 0);
+  if (distance(position, disc.xyz) > close_by * sqrt(disc.w / pi)) {
+    add_disc(sum, normal, disc.xyz - position, facing.xyz, disc.w, radiosity);
+    return;
+  }
+  int first = int(facing.w), count = int(texelFetch(discs, ivec2(3 * i + 2, body), 0).w);
+  for (int part = first; part < first + count; ++part) {
+    ivec2 at = ivec2(2 * (part % ${partsPerRow}), part / ${partsPerRow});
+    disc = texelFetch(parts, at, 0);
+    add_disc(sum, normal, disc.xyz - position, texelFetch(parts, at + ivec2(1, 0), 0).xyz, disc.w, radiosity);
+  }
 }
 
 // Of the hemisphere, sky and floor.
@@ -85,17 +117,11 @@ Gathered gather(vec3 position, vec3 normal) {
     vec4 ball = texelFetch(balls, ivec2(0, body), 0);
     vec2 more = texelFetch(balls, ivec2(1, body), 0).xy;
     vec3 away = ball.xyz - position;
-    float squared = dot(away, away) + 1e-9;
     vec2 before = vec2(sum.above, sum.below);
-    if (squared > far_away * far_away * ball.w * ball.w) {
-      add_element(sum, normal, away, squared, sqrt(squared), more.x, texelFetch(sent_by_ball, ivec2(0, body), 0));
+    if (dot(away, away) > far_away * far_away * ball.w * ball.w) {
+      add_ball(sum, normal, away, more.x, texelFetch(sent_by_ball, ivec2(0, body), 0));
     } else {
-      for (int i = 0; i < int(more.y); ++i) {
-        vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
-        away = disc.xyz - position;
-        float at_element = max(-dot(texelFetch(discs, ivec2(3 * i + 1, body), 0).xyz, away), 0.0);
-        add_element(sum, normal, away, dot(away, away) + 1e-9, at_element, disc.w, texelFetch(sent, ivec2(i, body), 0));
-      }
+      for (int i = 0; i < int(more.y); ++i) add_element(sum, position, normal, body, i);
     }
     sum.open_to *= max(1.0 - (vec2(sum.above, sum.below) - before) / shares(normal), 0.0);
   }
@@ -150,6 +176,7 @@ class BetweenBodies {
     this.elements = new Elements(recording);
     const { columns, bodies: { length: bodies } } = this.elements;
     this.discs = new FloatTable(gl, 3 * columns, bodies);
+    this.parts = new FloatTable(gl, 2 * partsPerRow, this.elements.parts.length / (8 * partsPerRow));
     this.balls = new FloatTable(gl, 2, bodies);
     this.sent = drawnBits(gl, columns, bodies);
     this.sentByBall = drawnBits(gl, 1, bodies);
@@ -185,9 +212,10 @@ class BetweenBodies {
 
   // After the map has been drawn. `positions`: of the vertices.
   takeBodies(positions, map) {
-    const { elements, discs, balls } = this;
+    const { elements, discs, parts, balls } = this;
     elements.measure(positions);
     discs.load(elements.discs);
+    parts.load(elements.parts);
     balls.load(elements.balls);
     this.sent.begin();
     this.findSent.draw({ world_to_map: map.worldToMap, to_light: map.toLight },
@@ -198,7 +226,7 @@ class BetweenBodies {
 
   // What gatherFunctions read.
   get textures() {
-    return { discs: this.discs.texture, balls: this.balls.texture, sent: this.sent.texture,
+    return { discs: this.discs.texture, parts: this.parts.texture, balls: this.balls.texture, sent: this.sent.texture,
       sent_by_ball: this.sentByBall.texture };
   }
 
