@@ -16,8 +16,9 @@ namespace {
 std::string goes_beyond(const std::string& body, double time) {
   return fmt::format(
       "body '{}' goes beyond the automatic camera's view at t = {:.2f} s: to have it in view the "
-      "camera would be too far away to show anything; give eye and target in [camera] to choose",
-      body, time);
+      "camera would be too far away to show anything; give eye and target in [camera], or follow = "
+      "\"{}\"",
+      body, time, body);
 }
 
 /// Sums in the order of frames, so that every run comes to the same.

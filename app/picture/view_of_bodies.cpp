@@ -13,9 +13,10 @@ namespace {
 using sim::Bounds;
 using sim::Vec3;
 
-/// How far from where they started, in their own size, bodies are followed. A ball that rolls or
-/// bounces stays within; one that falls for ever does not.
-constexpr double followed_distance = 3.0;
+/// How far from where they started, in their own size, bodies are followed: sideways as far as a
+/// ball rolls, where it is still a tenth of the picture wide; not as far as one falls for ever.
+constexpr double followed_sideways = 8.0;
+constexpr double followed_up_and_down = 3.0;
 
 /// What must stay free: the caption's two lines at the bottom, a little at the other sides.
 render::Margins margins_of(const scenes::PictureScene& picture) {
@@ -89,7 +90,7 @@ render::ViewFit make_fit(const scenes::Scene& scene, const Vec3& origin) {
 
 Bounds worth_showing(const Bounds& start, double largest_body) {
   const double size = std::max(start.size().norm(), largest_body);
-  const Vec3 reach = Vec3::Constant(followed_distance * size);
+  const Vec3 reach = size * Vec3(followed_sideways, followed_sideways, followed_up_and_down);
   return {start.low - reach, start.high + reach};
 }
 
