@@ -57,7 +57,8 @@ Element patch_element(const Mesh& mesh, std::span<const Vec3f> albedo,
           area_vector.norm(), over * colour.array()};
 }
 
-/// A patch of many triangles falls into these, one of few into quarters of them.
+/// Parts are the patch's triangles; of a patch with fewer than four, each triangle's quarters. They
+/// are flat, so that none has to be moved out for what touches it.
 void add_parts(const Mesh& mesh, const std::vector<std::uint32_t>& patch, const Light3& radiosity,
                std::vector<Element>& parts) {
   constexpr std::size_t few = 4;

@@ -40,7 +40,7 @@ void add_disc(const Element& element, Receivers& to) {
   const Column height = -normal.x() * dx - normal.y() * dy - normal.z() * dz;
   const Column raised = (height * height + element.area / pi).sqrt();
   const Column up = raised - height;
-  const Column squared = dx * dx + dy * dy + dz * dz + raised * raised - height * height + 1e-9f;
+  const Column squared = dx * dx + dy * dy + dz * dz + element.area / pi + 1e-9f;  // from there
   const Column facing = to.nx * normal.x() + to.ny * normal.y() + to.nz * normal.z();
   const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz - up * facing).max(0.0f);
   const Column in_front = (1e6f * height).max(0.0f).min(1.0f);

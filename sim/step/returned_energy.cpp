@@ -14,34 +14,30 @@ std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
   return static_cast<std::size_t>(impulse - memory.impulses.data());
 }
 
-/// Of an island's energy of motion and springs, in a step.
-constexpr double max_added_work = 1e-9;
-
 bool is_hit(const SweptContact& contact) { return contact.returns_energy && contact.is_near; }
 
-/// Of an island that two boxes make, or one and the ground, and that bounces and rubs.
+/// The contacts of an island, as one impact.
 class LoneImpact {
  public:
   LoneImpact(SweptMemory& memory, int island)
       : m_(memory), impulses_(memory.solver.impulses_of(island)) {}
 
-  bool is_one() const {
+  bool is_of_two_boxes() const {
     const SweptContact& first = contact(impulses_.front());
-    if (!is_box(first.first.body) ||
-        !(first.second.body == swept_ground || is_box(first.second.body)))
-      return false;
-    const auto is_of_others = [&](const SweptImpulse* impulse) {
-      const SweptContact& other = contact(impulse);
-      return other.first.body != first.first.body || other.second.body != first.second.body;
-    };
-    const auto rubs = [&](const SweptImpulse* impulse) {
+    const int one = first.first.body, other = first.second.body;
+    if (!is_box(one) || !(other == swept_ground || is_box(other))) return false;
+    return std::ranges::all_of(impulses_, [&](const SweptImpulse* impulse) {
+      return contact(impulse).first.body == one && contact(impulse).second.body == other;
+    });
+  }
+  bool bounces_and_rubs() const {
+    return std::ranges::any_of(impulses_, [&](const SweptImpulse* impulse) {
       return is_hit(contact(impulse)) && impulse->has_friction();
-    };
-    return std::ranges::none_of(impulses_, is_of_others) && std::ranges::any_of(impulses_, rubs);
+    });
   }
 
   void follow(double tolerance) {
-    double restitution = 0.0;
+    double restitution = 0.0;  // the same at all points of two bodies
     m_.impact_points.clear();
     for (SweptImpulse* impulse : impulses_) {
       const SweptContact& at_end = contact(impulse);
@@ -52,7 +48,7 @@ class LoneImpact {
       if (is_hit(at_end)) {
         point.speed += at_end.drift;
         point.approach = at_end.approach;
-        restitution = (at_end.parting + at_end.drift) / at_end.approach;
+        restitution = at_end.restitution;
       }
       m_.impact_points.push_back(point);
     }
@@ -207,6 +203,9 @@ double spring_energy_of_island(World& world, SweptMemory& memory, int island) {
   return sum;
 }
 
+/// Of an island's energy of motion and springs, what rounding may leave in a step.
+constexpr double max_added_work = 1e-9;
+
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
 /// body at rest, holds the island it takes from all motion, whose momentum the holder gets. Loads
@@ -214,12 +213,13 @@ double spring_energy_of_island(World& world, SweptMemory& memory, int island) {
 /// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
 /// against each other shrink by the same factor, so that at contacts what parts still parts.
 /// Nothing is asked for if pins, or bodies that keep their velocities, hold the island. Of one that
-/// nothing holds, whose energy its loads cannot change, none may be left.
-Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy) {
+/// nothing holds, whose energy its loads cannot change, none may be left but what rounding leaves,
+/// and the `tolerance` (m/s) to which velocities are solved for.
+Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy,
+                                 double tolerance) {
   const Holder holder = holder_of(world, memory, island);
   if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
-  const double of_motion = motion.energy();
   if (holder == Holder::none) {
     motion.leave_out_common();
   } else if (motion.has_soft_bodies()) {
@@ -227,8 +227,9 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   }
   const double taken = motion.take(energy), left = energy - taken;
   if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
-  const double all = of_motion + spring_energy_of_island(world, memory, island);
-  return {.taken = taken, .left = left > max_added_work * all ? left : 0.0};
+  const double of_solution = 0.5 * motion.mass() * tolerance * tolerance;
+  const double all = taken + motion.energy() + spring_energy_of_island(world, memory, island);
+  return {.taken = taken, .left = left > max_added_work * all + of_solution ? left : 0.0};
 }
 
 }  // namespace
@@ -237,7 +238,7 @@ void follow_impacts(SweptMemory& memory, double tolerance) {
   if (std::ranges::none_of(memory.contacts, is_hit)) return;
   for (int island = 0; island < memory.solver.island_count(); ++island) {
     LoneImpact impact(memory, island);
-    if (impact.is_one()) impact.follow(tolerance);
+    if (impact.is_of_two_boxes() && impact.bounces_and_rubs()) impact.follow(tolerance);
   }
 }
 
@@ -245,7 +246,7 @@ void limit_returned_energy(SweptMemory& memory, double tolerance) {
   ReturnedEnergy(memory, tolerance).limit();
 }
 
-Excess take_back_excess_work(World& world, SweptMemory& memory) {
+Excess take_back_excess_work(World& world, SweptMemory& memory, double tolerance) {
   Excess all;
   if (is_implicit(world.settings.integrator)) return all;
   for (std::size_t i = 0; i < memory.work_of_islands.size(); ++i) {
@@ -255,7 +256,8 @@ Excess take_back_excess_work(World& world, SweptMemory& memory) {
     const double of_vibrations = slow_vibrations(world, memory, island, work);
     all.taken += of_vibrations;
     if (of_vibrations >= work) continue;
-    const Excess of_island = take_from_relative_motion(world, memory, island, work - of_vibrations);
+    const Excess of_island =
+        take_from_relative_motion(world, memory, island, work - of_vibrations, tolerance);
     all.taken += of_island.taken;
     if (of_island.left > all.left) {
       all.left = of_island.left;

@@ -35,7 +35,8 @@ struct Excess {
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///
-/// The velocities must be those of the end, and the memory know the work of its islands.
-Excess take_back_excess_work(World& world, SweptMemory& memory);
+/// The velocities must be those of the end, solved for to `tolerance` (m/s, of a whole step), and
+/// the memory know the work of its islands.
+Excess take_back_excess_work(World& world, SweptMemory& memory, double tolerance);
 
 }  // namespace pneuma::sim

@@ -19,6 +19,7 @@ struct SweptContact {
   bool is_near = false;         // at this distance, give or take half of it
   double approach = 0.0;        // m/s, at which the sides meet
   double drift = 0.0;           // m/s, of the motion beyond the mean of the velocities at both ends
+  double restitution = 0.0;     // of what bounces at the end of the step
   double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
   bool is_of_near_boxes = false;

@@ -219,7 +219,7 @@ class SweptStep {
       m_.driven_work += driven_work(i, Moment::end);
     }
     bodies_.add_changes(world_);
-    const Excess excess = take_back_excess_work(world_, m_);
+    const Excess excess = take_back_excess_work(world_, m_, fraction_ * tolerance());
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
@@ -298,6 +298,7 @@ class SweptStep {
     } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
       contact.approach = before.approach;
       contact.drift = before.drift;
+      contact.restitution = restitution;
       contact.parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
       contact.returns_energy = true;
     } else if (search_.is_rigid(contact)) {
@@ -347,9 +348,10 @@ class SweptStep {
                                   : world_.soft[at(body)].name;
   }
 
+  /// Words, which need memory, are for steps that cannot.
   bool can_be_halved() const { return fraction_ > std::ldexp(1.0, -max_halvings); }
 
-  /// As blocked(): it names the sides of the contact that has given most.
+  /// Names the sides of the contact that has given most.
   Divergence added_energy(const Excess& excess) const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
     if (can_be_halved()) return divergence;
@@ -364,7 +366,6 @@ class SweptStep {
     return divergence;
   }
 
-  /// Without words, which need memory, where the step can still be halved.
   Divergence blocked() const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
     if (can_be_halved()) return divergence;

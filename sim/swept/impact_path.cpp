@@ -11,14 +11,24 @@ constexpr int parts = 16;
 /// Friction may turn most of the motion: then more is returned along the normal than by Newton.
 constexpr int max_returning_parts = 4 * parts;
 constexpr int max_iterations = 200;
+constexpr double tolerance_of_part = 1e-3;  // of its change of velocity
 
 double speed(const ImpactPoint& point) {
   return point.speed + point.impulse->normal().dot(point.impulse->change());
 }
 
+double max_approach(std::span<const ImpactPoint> points) {
+  double most = 0.0;
+  for (const ImpactPoint& point : points) most = std::max(most, point.approach);
+  return most;
+}
+
 }  // namespace
 
-void ImpactPath::follow(std::span<const ImpactPoint> points, double restitution, double tolerance) {
+void ImpactPath::follow(std::span<const ImpactPoint> points, double restitution,
+                        double max_tolerance) {
+  const double tolerance =
+      std::min(max_tolerance, tolerance_of_part * max_approach(points) / parts);
   begin(points);
   double taken = 0.0;
   for (int part = parts - 1; part >= 0; --part) {

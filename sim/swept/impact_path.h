@@ -27,9 +27,9 @@ struct ImpactPoint {
 
 class ImpactPath {
  public:
-  /// Replaces the impulses, also what they were started from. `tolerance`: m/s. Allocates nothing
-  /// once the number of points has peaked.
-  void follow(std::span<const ImpactPoint> points, double restitution, double tolerance);
+  /// Replaces the impulses, also what they were started from; solves for velocities to
+  /// `max_tolerance` (m/s) or better. Allocates nothing once the number of points has peaked.
+  void follow(std::span<const ImpactPoint> points, double restitution, double max_tolerance);
 
  private:
   /// Of one point.

@@ -43,8 +43,8 @@ TEST(ImpactRun, HoldsWhatTurnsOnItsWay) {
   }
 }
 
-/// A needle sticks in a soft box that presses on it harder in every step: once there is no motion
-/// left to take from what that adds, the run ends with a message.
+/// A needle sticks in a soft box that presses on it harder in every step. Where there is no motion
+/// left to take from what that adds, the run may end, but not go on with more energy.
 TEST(ImpactRun, DoesNotGoOnWithEnergyThatContactsAdd) {
   const ImpactResult result = run_impact(random_impact(20261122, 662));
   EXPECT_NE(result.outcome, ImpactOutcome::crossed);

@@ -275,6 +275,23 @@ TEST(Swept, FastImpactsOfTurningBoxesKeepMomentumAndGainNothing) {
   EXPECT_GT(hits, 30);
 }
 
+/// What rounding leaves is no energy that contacts add.
+TEST(Swept, BoxesThatTouchAtRestGoOnInWhateverFrame) {
+  for (const double speed : {0.0, 1.0}) {
+    World world = make_free_boxes({make_rigid(Vec3::Ones(), Vec3::Zero(), 2.0),
+                                   make_rigid(Vec3::Ones(), {0.2, 0.0, 1.0}, 2.0)},
+                                  0.5);
+    world.settings.contact = ContactMethod::swept;
+    world.settings.sleep_speed = 0.0;
+    for (RigidBox& box : world.rigid) {
+      box.surface.friction = 0.5;
+      box.velocity.x() = speed;
+    }
+    const auto divergence = run(world, 1.0);
+    EXPECT_FALSE(divergence) << divergence->what;
+  }
+}
+
 TEST(Swept, RestitutionIsTheRatioOfSpeedsAtEveryStep) {
   for (const double restitution : {0.0, 0.2, 0.5, 1.0}) {
     for (const int steps_per_second : {60, 240, 960}) {

@@ -80,7 +80,7 @@ void add_taken(inout Gathered sum, float taken, vec3 away, uvec4 radiosity) {
 void add_disc(inout Gathered sum, vec3 normal, vec3 away, vec3 facing, float area, uvec4 radiosity) {
   float height = -dot(facing, away);
   float raised = sqrt(height * height + area / pi);
-  float squared = dot(away, away) + raised * raised - height * height + 1e-9;
+  float squared = dot(away, away) + area / pi + 1e-9;
   float at_receiver = max(dot(normal, away) - (raised - height) * dot(normal, facing), 0.0);
   float taken = clamp(1e6 * height, 0.0, 1.0) * area / pi * at_receiver * raised / (squared * squared);
   add_taken(sum, taken, away, radiosity);
