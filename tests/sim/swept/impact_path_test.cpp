@@ -124,5 +124,60 @@ TEST(ImpactPath, ACornerThatHitsTheGroundLeavesItAsRouthAndStrongeSay) {
   EXPECT_GT(count, 30);
 }
 
+/// What is left of the energy of a cube that falls on an edge, two points of which hit the ground.
+double left_by_edge(int steps_per_second) {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  world.settings.gravity.setZero();
+  world.settings.steps_per_second = steps_per_second;
+  world.settings.ground = ContactMaterial{0.9, 0.4};
+  world.rigid = {make_rigid(Vec3::Ones(), {0.0, 0.0, 0.62}, 1.0)};
+  world.rigid[0].rho_g = 0.0;
+  world.rigid[0].surface = *world.settings.ground;
+  world.rigid[0].orientation = rotation_of_degrees({0.0, 3.0, 0.0});
+  world.rigid[0].velocity.z() = -0.3;
+  const double start = energy(world).kinetic;
+  EXPECT_FALSE(run(world, 1.2));
+  return energy(world).kinetic / start;
+}
+
+TEST(ImpactPath, OfAnEdgeConvergesWithTheStep) {
+  const double expected = left_by_edge(15360);
+  EXPECT_GT(expected, 0.5);
+  EXPECT_LT(expected, 0.7);
+  for (const int steps_per_second : {240, 960, 3840}) {
+    EXPECT_NEAR(left_by_edge(steps_per_second), expected, 2e-3) << steps_per_second;
+  }
+}
+
+/// Two boxes that meet obliquely, both turning, seen from a frame of this velocity.
+World after_oblique_impact(const Vec3& frame) {
+  World world = make_free_boxes({make_rigid({1.0, 1.2, 0.8}, {-0.7, 0.0, 0.0}, 1.0),
+                                 make_rigid({0.9, 1.1, 1.0}, {0.9, 0.3, 0.2}, 3.0)},
+                                0.7);
+  world.settings.contact = ContactMethod::swept;
+  world.settings.steps_per_second = 240;
+  for (RigidBox& box : world.rigid) {
+    box.surface.friction = 0.4;
+    box.velocity = frame;
+  }
+  world.rigid[0].velocity += Vec3(4.0, 1.0, 0.5);
+  world.rigid[0].orientation = rotation_of_degrees({20.0, 35.0, 10.0});
+  world.rigid[1].angular_velocity = {0.5, 1.0, -2.0};
+  EXPECT_FALSE(run(world, 0.25));
+  return world;
+}
+
+TEST(ImpactPath, OfTwoBoxesIsTheSameInEveryFrame) {
+  const Vec3 frame(30.0, -20.0, 10.0);
+  const World still = after_oblique_impact(Vec3::Zero()), moved = after_oblique_impact(frame);
+  EXPECT_GT((still.rigid[1].velocity).norm(), 0.5) << "they have met";
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT((moved.rigid[i].velocity - frame - still.rigid[i].velocity).norm(), 1e-8) << i;
+    EXPECT_LT((moved.rigid[i].angular_velocity - still.rigid[i].angular_velocity).norm(), 1e-8)
+        << i;
+  }
+}
+
 }  // namespace
 }  // namespace pneuma::sim
