@@ -93,7 +93,7 @@ void add_examples(CLI::App& command, std::initializer_list<std::string> lines) {
 }
 
 void add_quiet_option(CLI::App& command, bool& quiet) {
-  command.add_flag("--quiet", quiet, "No progress, only errors");
+  command.add_flag("--quiet", quiet, "No progress: only errors, and data on standard output");
 }
 
 }  // namespace pneuma::app
