@@ -138,10 +138,11 @@ double creep_on_a_torus(unsigned seed) {
 /// What the torus presses within a step must be held by the weight within the step: if that acted
 /// between steps, friction would hold nothing on the way and boxes would creep.
 TEST(Piles, CubesOnATorusDoNotCreep) {
-  std::vector<double> ways;  // of worlds in some of which a cube still rocks
+  std::vector<double> ways;  // of worlds that roundings send on other ways, in some of which a cube
+                             // still rocks: medians are 1.5e-3 to 3.2e-3, and without 2e-2
   for (unsigned seed = 1; seed <= 9; ++seed) ways.push_back(creep_on_a_torus(seed));
   std::ranges::sort(ways);
-  EXPECT_LT(ways[ways.size() / 2], 3e-3);  // without: 2e-2
+  EXPECT_LT(ways[ways.size() / 2], 6e-3);
 }
 
 /// Boxes of less than half a metre fall further in a step than their search allows for, and so are
