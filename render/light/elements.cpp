@@ -57,27 +57,16 @@ Element patch_element(const Mesh& mesh, std::span<const Vec3f> albedo,
           area_vector.norm(), over * colour.array()};
 }
 
-/// Parts are the patch's triangles; of a patch with fewer than four, each triangle's quarters. They
-/// are flat, so that none has to be moved out for what touches it.
+/// The triangles of a patch that has several. They are flat, so that none has to be moved out for
+/// what touches it.
 void add_parts(const Mesh& mesh, const std::vector<std::uint32_t>& patch, const Light3& radiosity,
                std::vector<Element>& parts) {
-  constexpr std::size_t few = 4;
-  const auto add = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-    const Vec3f area = 0.5f * (b - a).cross(c - a);
-    parts.push_back({(a + b + c) / 3.0f, area.stableNormalized(), area.norm(), radiosity});
-  };
+  if (patch.size() == 1) return;
   for (const std::uint32_t i : patch) {
     const auto& t = mesh.shape->triangles[i];
     const Vec3f &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    if (patch.size() >= few) {
-      add(a, b, c);
-      continue;
-    }
-    const Vec3f ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
-    add(a, ab, ca);
-    add(ab, b, bc);
-    add(ca, bc, c);
-    add(bc, ca, ab);
+    const Vec3f area = 0.5f * (b - a).cross(c - a);
+    parts.push_back({(a + b + c) / 3.0f, area.stableNormalized(), area.norm(), radiosity});
   }
 }
 

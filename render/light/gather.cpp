@@ -98,12 +98,12 @@ void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) 
   add_whole(receivers, [&] {
     for (std::size_t i = 0; i < body.elements.size(); ++i) {
       const Element& element = body.elements[i];
-      if (ball.distance_to(element.centre) > near * std::sqrt(element.area / pi)) {
+      const std::size_t first = body.first_part[i], end = body.first_part[i + 1];
+      const float reach = near * std::sqrt(element.area / pi);
+      if (first == end || ball.distance_to(element.centre) > reach) {
         add_disc(element, receivers);
-        continue;
-      }
-      for (std::size_t part = body.first_part[i]; part < body.first_part[i + 1]; ++part) {
-        add_disc(body.parts[part], receivers);
+      } else {
+        for (std::size_t part = first; part < end; ++part) add_disc(body.parts[part], receivers);
       }
     }
   });

@@ -3,7 +3,6 @@
 const mostElements = 64;  // of one body, and some that are left over between others
 
 const partsPerRow = 1024;
-const undividedFrom = 4;  // triangles of a patch: of fewer each falls into four parts
 
 // Triangles in groups of neighbours.
 function patches(triangles) {
@@ -34,7 +33,7 @@ function patches(triangles) {
   return result;
 }
 
-const partCount = (patch) => (patch.length < undividedFrom ? 4 : 1) * patch.length;
+const partCount = (patch) => (patch.length > 1 ? patch.length : 0);  // triangles
 
 // Tables of all bodies' elements, a row for each body, and of their parts.
 class Elements {
@@ -90,9 +89,12 @@ class Elements {
     const out = this.bulge(first, triangles, patch, positions, centre, normal);
     discs.set([...centre.map((c, k) => c + out * normal[k]), facing, ...normal, this.measured,
       red * over, green * over, blue * over, partCount(patch)], at);
+    if (partCount(patch) === 0) return;
     for (const t of patch) {
-      const corners = [0, 1, 2].map((i) => 3 * (first + triangles[3 * t + i]));
-      this.measureParts(corners, positions, patch.length < undividedFrom);
+      this.measurePart(...[0, 1, 2].map((i) => {
+        const from = 3 * (first + triangles[3 * t + i]);
+        return Array.from(positions.subarray(from, from + 3));
+      }));
     }
   }
 
@@ -108,14 +110,6 @@ class Elements {
       }
     }
     return highest;
-  }
-
-  measureParts(corners, positions, inQuarters) {
-    const [a, b, c] = corners.map((at) => Array.from(positions.subarray(at, at + 3)));
-    if (!inQuarters) return this.measurePart(a, b, c);
-    const half = (p, q) => p.map((value, k) => 0.5 * (value + q[k]));
-    const ab = half(a, b), bc = half(b, c), ca = half(c, a);
-    for (const part of [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]]) this.measurePart(...part);
   }
 
   measurePart(a, b, c) {

@@ -96,11 +96,11 @@ void add_element(inout Gathered sum, vec3 position, vec3 normal, int body, int i
   vec4 disc = texelFetch(discs, ivec2(3 * i, body), 0);
   vec4 facing = texelFetch(discs, ivec2(3 * i + 1, body), 0);
   uvec4 radiosity = texelFetch(sent, ivec2(i, body), 0);
-  if (distance(position, disc.xyz) > close_by * sqrt(disc.w / pi)) {
+  int first = int(facing.w), count = int(texelFetch(discs, ivec2(3 * i + 2, body), 0).w);
+  if (count == 0 || distance(position, disc.xyz) > close_by * sqrt(disc.w / pi)) {
     add_disc(sum, normal, disc.xyz - position, facing.xyz, disc.w, radiosity);
     return;
   }
-  int first = int(facing.w), count = int(texelFetch(discs, ivec2(3 * i + 2, body), 0).w);
   for (int part = first; part < first + count; ++part) {
     ivec2 at = ivec2(2 * (part % ${partsPerRow}), part / ${partsPerRow});
     disc = texelFetch(parts, at, 0);
