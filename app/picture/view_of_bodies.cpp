@@ -14,7 +14,7 @@ using sim::Bounds;
 using sim::Vec3;
 
 /// How far from where they started, in their own size, bodies are followed: sideways as far as a
-/// ball rolls, where it is still a tenth of the picture wide; not as far as one falls for ever.
+/// ball rolls, where it is still a twentieth of the picture wide; not as far as one falls for ever.
 constexpr double followed_sideways = 8.0;
 constexpr double followed_up_and_down = 3.0;
 
