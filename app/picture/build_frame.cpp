@@ -59,6 +59,7 @@ ShapePointer rigid_shape(const sim::RigidBox& box, const scenes::BodyScene& body
     }
   }
   shape->colours = body_colours(mesh.vertices, body.colours, body.colour_axis);
+  shape->corner_normals = corner_normals(*sim::make_soft_mesh(mesh));
   return shape;
 }
 

@@ -45,11 +45,18 @@ void check_corner_normals(const MeshShape& shape, std::size_t mesh) {
   require(normals.empty() || normals.size() == triangles,
           "mesh {} has {} triangles and normals of the corners of {}; as many are needed, or none",
           mesh, triangles, normals.size());
+  constexpr std::uint32_t none = ~0u;
+  std::vector<std::uint32_t> vertex_of(3 * normals.size(), none);
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    for (const std::uint32_t normal : normals[i]) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t normal = normals[i][corner], vertex = shape.triangles[i][corner];
       require(normal < 3 * triangles,
               "mesh {}: triangle {} has a corner with normal {}; allowed is below {}", mesh, i,
               normal, 3 * triangles);
+      std::uint32_t& of = vertex_of[normal];
+      if (of == none) of = vertex;
+      require(of == vertex, "mesh {}: normal {} is of vertices {} and {}; each is of one", mesh,
+              normal, of, vertex);
     }
   }
 }

@@ -108,10 +108,8 @@ void DrawnSurface::put_sunward_first(const Vec3f& to_light) {
   sunward_count_ = static_cast<std::size_t>(averted - triangles_.begin());
 }
 
-void DrawnSurface::add_lit_mesh(const Mesh& mesh) {
-  const bool smooth = !mesh.normals.empty();
-  const std::size_t count = smooth ? mesh.positions.size() : 3 * mesh.shape->triangles.size();
-  lit_meshes_.push_back({mesh.shape, smooth, positions_.size(), count});
+void DrawnSurface::add_lit_mesh(const Mesh& mesh, std::size_t count) {
+  lit_meshes_.push_back({mesh.shape, !mesh.normals.empty(), positions_.size(), count});
 }
 
 void DrawnSurface::append(const Refinement& refinement) {
@@ -127,7 +125,7 @@ void DrawnSurface::append(const Refinement& refinement) {
 }
 
 void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& view) {
-  add_lit_mesh(mesh);
+  add_lit_mesh(mesh, mesh.positions.size());
   positions_.insert(positions_.end(), mesh.positions.begin(), mesh.positions.end());
   normals_.insert(normals_.end(), mesh.normals.begin(), mesh.normals.end());
   const std::vector<Triangle>& triangles = mesh.shape->triangles;
@@ -165,49 +163,38 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
 }
 
-/// Of each corner of each triangle. Where corners share a normal, larger triangles bend it more.
-void DrawnSurface::find_corner_normals(const Mesh& mesh) {
-  const std::vector<Triangle>& triangles = mesh.shape->triangles;
-  const std::vector<Triangle>& numbers = mesh.shape->corner_normals;
-  const auto number = [&](std::size_t triangle, std::size_t corner) {
-    return numbers.empty() ? 3 * triangle + corner : numbers[triangle][corner];
-  };
-  corner_sums_.assign(3 * triangles.size(), Vec3f::Zero());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vec3f& a = mesh.positions[triangles[t][0]];
-    const Vec3f across =
-        (mesh.positions[triangles[t][1]] - a).cross(mesh.positions[triangles[t][2]] - a);
-    for (std::size_t i = 0; i < 3; ++i) corner_sums_[number(t, i)] += across;
+/// Where triangles share a corner's normal, the larger bend it more.
+void DrawnSurface::add_corner_normals(const Mesh& mesh, const Shape& shape) {
+  const std::size_t first = normals_.size();
+  normals_.resize(first + shape.sources.size(), Vec3f::Zero());
+  for (const Triangle& t : shape.corners) {
+    const auto position = [&](std::size_t i) { return mesh.positions[shape.sources[t[i]]]; };
+    const Vec3f a = position(0), across = (position(1) - a).cross(position(2) - a);
+    for (const std::uint32_t corner : t) normals_[first + corner] += across;
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      normals_.push_back(corner_sums_[number(t, i)].stableNormalized());
-    }
-  }
+  for (std::size_t i = first; i < normals_.size(); ++i) normals_[i].stableNormalize();
 }
 
 void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
-  add_lit_mesh(mesh);
+  const Shape& shape = shape_of(mesh.shape);
   const std::vector<Vec3f> own = own_colours(mesh);
-  const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
-  find_corner_normals(mesh);
-  Refinement apart;
+  const std::vector<Vec3f>& colours = own.empty() ? shape.colours : own;
+  add_lit_mesh(mesh, shape.sources.size());
+  add_corner_normals(mesh, shape);
+  Refinement whole;
+  whole.triangles = shape.corners;
   std::vector<std::uint32_t> first_at(mesh.positions.size(), ~0u);
-  for (const Triangle& t : mesh.shape->triangles) {
-    const auto first = static_cast<std::uint32_t>(apart.points.size());
-    apart.triangles.push_back({first, first + 1, first + 2});
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t v = t[i];
-      apart.points.push_back({{first + i, first + i, first + i}, {1.0f, 0.0f, 0.0f}});
-      positions_.push_back(mesh.positions[v]);
-      const Vec3f& position = mesh.positions[v];
-      if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
-      places_.push_back(first_at[v]);
-      vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
-                           normals_[positions_.size() - 1], material(colours[v], mesh.roughness)});
-    }
+  for (std::uint32_t i = 0; i < shape.sources.size(); ++i) {
+    const std::uint32_t v = shape.sources[i];
+    const Vec3f& position = mesh.positions[v];
+    whole.points.push_back({{i, i, i}, {1.0f, 0.0f, 0.0f}});
+    positions_.push_back(position);
+    if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
+    places_.push_back(first_at[v]);
+    vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
+                         normals_[positions_.size() - 1], material(colours[v], mesh.roughness)});
   }
-  append(apart);
+  append(whole);
 }
 
 void DrawnSurface::spread(const std::vector<IndirectLight>& light,
@@ -224,11 +211,28 @@ void DrawnSurface::spread(const std::vector<IndirectLight>& light,
   }
 }
 
+void DrawnSurface::share_corners(const MeshShape& shape, Shape& made) {
+  std::vector<std::uint32_t> lit(3 * shape.triangles.size(), ~0u);  // by the normal's number
+  for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+    Triangle& corners = made.corners.emplace_back();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const bool own = shape.corner_normals.empty();
+      std::uint32_t& vertex = lit[own ? 3 * t + i : shape.corner_normals[t][i]];
+      if (vertex == ~0u) {
+        vertex = static_cast<std::uint32_t>(made.sources.size());
+        made.sources.push_back(shape.triangles[t][i]);
+      }
+      corners[i] = vertex;
+    }
+  }
+}
+
 DrawnSurface::Shape& DrawnSurface::shape_of(const std::shared_ptr<const MeshShape>& shape) {
   const auto known = shapes_.find(shape);
   if (known != shapes_.end()) return known->second;
   Shape& made = shapes_[shape];
   for (const Colour& colour : shape->colours) made.colours.push_back(to_linear(colour));
+  share_corners(*shape, made);
   return made;
 }
 

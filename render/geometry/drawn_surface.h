@@ -17,8 +17,8 @@ struct IndirectLight {
   Eigen::Vector2f open_to = Eigen::Vector2f::Ones();  // fraction seen of the sky; of the lit ground
 };
 
-/// The vertices of a mesh as they are lit: one for each of a smooth mesh; three for each triangle
-/// of one with sharp edges.
+/// The vertices of a mesh as they are lit: one for each of a smooth mesh; of one with sharp edges,
+/// one for each normal that corners of a vertex have in common.
 struct LitMesh {
   std::shared_ptr<const MeshShape> shape;
   bool smooth = false;
@@ -53,14 +53,18 @@ class DrawnSurface {
  private:
   struct Shape {
     std::vector<Vec3f> colours;  // linear
+    // Of a mesh with sharp edges:
+    std::vector<Triangle> corners;       // lit vertices, per triangle
+    std::vector<std::uint32_t> sources;  // per lit vertex: the mesh's
   };
   using Key = std::weak_ptr<const MeshShape>;
 
+  static void share_corners(const MeshShape& shape, Shape& made);
   Shape& shape_of(const std::shared_ptr<const MeshShape>& shape);
   void add_smooth(const Mesh& mesh, const Frame& frame, const View& view);
   void add_flat(const Mesh& mesh, const Frame& frame);
-  void add_lit_mesh(const Mesh& mesh);
-  void find_corner_normals(const Mesh& mesh);
+  void add_lit_mesh(const Mesh& mesh, std::size_t count);
+  void add_corner_normals(const Mesh& mesh, const Shape& shape);
   void append(const Refinement& refinement);
   void put_sunward_first(const Vec3f& to_light);
 
@@ -69,7 +73,6 @@ class DrawnSurface {
   std::vector<LitMesh> lit_meshes_;
   std::vector<Vec3f> positions_;
   std::vector<Vec3f> normals_;
-  std::vector<Vec3f> corner_sums_;    // of a flat mesh's normals, by their numbers
   std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;

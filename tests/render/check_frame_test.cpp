@@ -27,6 +27,15 @@ MeshShape& own_shape(Frame& frame, std::size_t mesh) {
   return *shape;
 }
 
+/// Each corner's its own.
+std::vector<std::array<std::uint32_t, 3>>& give_corners_normals(MeshShape& shape) {
+  shape.corner_normals.clear();
+  for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
+    shape.corner_normals.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return shape.corner_normals;
+}
+
 struct BadCase {
   const char* name;
   const char* message;  // a part of it
@@ -52,10 +61,9 @@ const std::vector<BadCase> bad_cases = {
     {"corner_normals_missing", "mesh 1 has 12 triangles and normals of the corners of 11",
      [](Frame& f) { own_shape(f, 1).corner_normals.resize(11); }},
     {"corner_normal", "mesh 1: triangle 3 has a corner with normal 36",
-     [](Frame& f) {
-       own_shape(f, 1).corner_normals.resize(12);
-       own_shape(f, 1).corner_normals[3][2] = 36;
-     }},
+     [](Frame& f) { give_corners_normals(own_shape(f, 1))[3][2] = 36; }},
+    {"corner_normal_of_two_vertices", "mesh 1: normal 0 is of vertices ",
+     [](Frame& f) { give_corners_normals(own_shape(f, 1))[0][1] = 0; }},
     {"edge_index", "mesh 1: edge 0 names vertex 99",
      [](Frame& f) { own_shape(f, 1).edges[0][1] = 99; }},
     {"camera_in_its_target", "camera", [](Frame& f) { f.camera.eye = f.camera.target; }},

@@ -47,6 +47,29 @@ TEST(DrawnSurface, GivesAFlatMeshThreeVerticesATriangleAndASmoothOneItsOwn) {
   }
 }
 
+TEST(DrawnSurface, LightsOnceWhatCornersOfAFaceShare) {
+  Mesh box = make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0});
+  auto shape = std::make_shared<MeshShape>(*box.shape);
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    // Its two triangles: corners of the second that are also the first's have the first's normals.
+    const Triangle &one = shape->triangles[2 * face], &other = shape->triangles[2 * face + 1];
+    shape->corner_normals.push_back({6 * face, 6 * face + 1, 6 * face + 2});
+    Triangle& numbers = shape->corner_normals.emplace_back();
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto same = std::ranges::find(one, other[i]) - one.begin();
+      numbers[i] = 6 * face + (same < 3 ? static_cast<std::uint32_t>(same) : 3 + i);
+    }
+  }
+  box.shape = shape;
+  const DrawnSurface surface = built({}, {box});
+  EXPECT_EQ(surface.lit_meshes()[0].count, 24u);
+  EXPECT_EQ(surface.vertices().size(), 24u);
+  ASSERT_EQ(surface.triangles().size(), 12u);
+  for (const SurfaceVertex& vertex : surface.vertices()) {
+    EXPECT_NEAR(vertex.normal.dot(vertex.position), 0.5f, 1e-6f);
+  }
+}
+
 TEST(DrawnSurface, SharesTheNormalsOfCornersWithOneNumber) {
   const Vec3f centre = {0, 0, 2};
   Mesh ball = make_ball(centre, 1, {1, 0, 0}, 24);
