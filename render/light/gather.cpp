@@ -66,6 +66,10 @@ struct Ball {
   float radius;
 
   float distance_to(const Vec3f& point) const { return (point - centre).norm() - radius; }
+  /// Any of it is in front of the element.
+  bool is_before(const Element& element) const {
+    return element.normal.dot(centre - element.centre) + radius > 0.0f;
+  }
 };
 
 Ball around(const Receivers& receivers) {
@@ -98,6 +102,7 @@ void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) 
   add_whole(receivers, [&] {
     for (std::size_t i = 0; i < body.elements.size(); ++i) {
       const Element& element = body.elements[i];
+      if (!ball.is_before(element)) continue;
       const std::size_t first = body.first_part[i], end = body.first_part[i + 1];
       const float reach = near * std::sqrt(element.area / pi);
       if (first == end || ball.distance_to(element.centre) > reach) {
