@@ -1,6 +1,7 @@
 #include "app/bench/measure_frames.h"
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr int warm_up_frames = 3;
 
 /// One list of seconds for each part of a frame, and for the whole. `encode` is another thread's
-/// until finish(), `steps` until make() returns.
+/// until finish(), `steps` and `build` until make() returns.
 struct Readings {
   std::vector<double> total, steps, build, draw, encode;
 };
@@ -37,47 +38,49 @@ class FrameMaker {
 
   /// Draws the replay's present state while it goes on to the next.
   void make(Readings& readings) {
+    if (!next_) build(readings);
     replay_.prepare(steps_per_frame_);
     const Clock::time_point start = Clock::now();
-    const render::Frame frame = builder_.build(replay_.world(), camera_.at(replay_.world()),
-                                               replay_.stepper().contacts(), show_);
-    const Clock::time_point built = Clock::now();
-    stepping_.submit([this, &readings] {
+    const render::Frame frame = std::move(*next_);
+    making_.submit([this, &readings] {
       const Clock::time_point begin = Clock::now();
       replay_.run(steps_per_frame_);
       readings.steps.push_back(seconds_since(begin));
+      build(readings);
     });
     const auto image = std::make_shared<render::Image>();
     const Clock::time_point submitted = Clock::now();
     renderer_.draw(frame, *image);
-    const Clock::time_point drawn = Clock::now();
+    readings.draw.push_back(seconds_since(submitted));
     encoding_.submit([image, &readings] {
       const Clock::time_point begin = Clock::now();
       const std::vector<std::uint8_t> png = render::encode_png(*image);
       readings.encode.push_back(seconds_since(begin));
     });
-    stepping_.finish();
-
-    const auto seconds = [](Clock::time_point from, Clock::time_point to) {
-      return std::chrono::duration<double>(to - from).count();
-    };
-    readings.total.push_back(seconds(start, Clock::now()));
-    readings.build.push_back(seconds(start, built));
-    readings.draw.push_back(seconds(submitted, drawn));
+    making_.finish();
+    readings.total.push_back(seconds_since(start));
   }
 
   /// Waits for the frames that are still being encoded.
   void finish() { encoding_.finish(); }
 
  private:
+  void build(Readings& readings) {
+    const Clock::time_point begin = Clock::now();
+    next_ = builder_.build(replay_.world(), camera_.at(replay_.world()),
+                           replay_.stepper().contacts(), show_);
+    readings.build.push_back(seconds_since(begin));
+  }
+
   Replay& replay_;
   int steps_per_frame_;
   Show show_;
   render::Renderer renderer_;
   FrameBuilder builder_;
   RunCamera& camera_;
+  std::optional<render::Frame> next_;
   // The last members: they end before what their jobs use.
-  Background stepping_{1};
+  Background making_{1};
   Background encoding_{1};
 };
 

@@ -38,12 +38,13 @@ struct DrawnFrame {
 };
 
 /// Draws frames and hands them to a thread that encodes and writes them while the next is made: at
-/// most three frames are in memory, one being drawn, one waiting and one being written.
+/// most four frames are in memory, one being made, one drawn, one waiting and one being written.
 /// The order of files, journal and checkpoint stays what it is without that thread.
 class FrameWriter {
  public:
   explicit FrameWriter(const FrameOutput& output) : output_(output) {}
 
+  /// What is needed to draw the present state. On one thread at a time, also beside write().
   TakenFrame take(const Simulation& simulation) {
     TakenFrame frame;
     const render::Camera camera = output_.camera.at(simulation.world());
@@ -52,7 +53,7 @@ class FrameWriter {
     if (output_.pictures.overlay) {
       frame.overlay = build(simulation, camera, *output_.pictures.overlay);
     }
-    frame.seconds.draw = watch.lap();
+    frame.seconds.mesh = watch.lap();
     frame.number = simulation.frame();
     frame.state = recorder_.state(simulation, {camera, output_.camera.seen()});
     frame.checkpoint = sim::save_state(simulation.world());
@@ -64,7 +65,7 @@ class FrameWriter {
     Stopwatch watch;
     output_.renderer.draw(taken.picture, frame->picture);
     if (taken.overlay) output_.renderer.draw(*taken.overlay, frame->overlay.emplace());
-    taken.seconds.draw += watch.lap();
+    taken.seconds.draw = watch.lap();
     taken.seconds.total = since_last_frame_.lap();
     frame->of = std::move(taken);
     finishing_.submit([this, frame] { finish(*frame); });
@@ -105,62 +106,81 @@ class FrameWriter {
   Background finishing_{1};  // the last member: it ends before what its jobs use
 };
 
+struct RunNotices {
+  DividedSteps divided;
+  CrossedFrames crossed;
+  PressedBodies pressed;
+
+  void add(const Simulation& simulation, const FrameState& frame, Progress& progress) {
+    crossed.add(simulation, frame, progress);
+    pressed.add(simulation.world());
+  }
+  void summarise(Progress& progress) const {
+    divided.summarise(progress);
+    crossed.summarise(progress);
+    pressed.summarise(progress);
+  }
+};
+
 }  // namespace
 
 void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
                  Progress& progress) {
   FrameWriter writer(output);
-  DividedSteps divided;
-  CrossedFrames crossed;
-  PressedBodies pressed;
+  RunNotices notices;
   Stopwatch watch;
+  const std::int64_t first = output.log.next_frame();
   const double time_at_start = sim::time(simulation.world());
   ProgressState state;
   state.last = last;
-  Background stepping(1);
-  const auto wait_for_step = [&] {
+  std::optional<TakenFrame> next;  // of the present state, unless it is drawn already
+  const auto take_next = [&] {
+    if (simulation.frame() >= first) {
+      next = writer.take(simulation);
+    } else {
+      output.camera.see(simulation.world());
+    }
+  };
+  Background making(1);
+  const auto wait_for_next = [&] {
     try {
-      stepping.finish();
+      making.finish();
       throw_if_interrupted();
     } catch (...) {
       writer.wait();  // a frame that could not be written is the first thing to know
       throw;
     }
   };
+  take_next();
   for (;;) {
     state.frame = simulation.frame();
     state.time = sim::time(simulation.world());
     state.simulated = state.time - time_at_start;
-    std::optional<TakenFrame> frame;
-    if (state.frame >= output.log.next_frame()) {
-      frame = writer.take(simulation);
-      crossed.add(simulation, frame->state, progress);
-      pressed.add(simulation.world());
-    } else {
-      output.camera.see(simulation.world());
-    }
+    if (next) notices.add(simulation, next->state, progress);
+    std::optional<TakenFrame> frame = std::exchange(next, std::nullopt);
     const bool more = state.frame < last;
     if (more) {
-      stepping.submit([&simulation] { simulation.advance_frame(); });
       output.camera.prepare_next();
+      making.submit([&] {
+        simulation.advance_frame();
+        take_next();
+      });
     }
     if (frame) {
       writer.write(std::move(*frame));
       ++state.drawn;
     }
     state.elapsed += watch.lap();
-    state.crossed = crossed.count();
+    state.crossed = notices.crossed.count();
     progress.show(progress_line(state));
     if (!more) break;
-    wait_for_step();
-    divided.add(simulation, progress);
+    wait_for_next();
+    notices.divided.add(simulation, progress);
   }
   writer.wait();
   state.elapsed += watch.lap();
   progress.say(summary_line(state));
-  divided.summarise(progress);
-  crossed.summarise(progress);
-  pressed.summarise(progress);
+  notices.summarise(progress);
 }
 
 }  // namespace pneuma::app

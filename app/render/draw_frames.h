@@ -22,7 +22,7 @@ struct FrameOutput {
 };
 
 /// Advances the simulation to frame `last` and draws all from log.next_frame() on: while one is
-/// drawn, a second thread steps to the next and a third encodes and writes the one before. Throws
+/// drawn, a second thread makes the next and a third encodes and writes the one before. Throws
 /// DivergenceError, Interrupted and base::IoError; what is on disk then is whole.
 void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& output,
                  Progress& progress);

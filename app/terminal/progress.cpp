@@ -61,6 +61,7 @@ Progress::~Progress() { clear_line(); }
 
 void Progress::show(const std::string& text) {
   if (style_ == Style::silent) return;
+  const std::lock_guard lock(mutex_);
   const bool terminal = style_ == Style::terminal;
   const Clock::time_point now = Clock::now();
   if (now - last_shown_ < (terminal ? Clock::duration(terminal_interval) : line_interval)) return;
@@ -78,6 +79,7 @@ void Progress::show(const std::string& text) {
 
 void Progress::say(const std::string& text) {
   if (style_ == Style::silent) return;
+  const std::lock_guard lock(mutex_);
   clear_line();
   fmt::print(stderr, "{}\n", text);
 }

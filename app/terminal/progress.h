@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include "app/host/clock.h"
@@ -31,6 +32,7 @@ std::string summary_line(const ProgressState& state);
 std::string fitted_line(const std::string& text, int columns);
 
 /// A single line that is written over on a terminal; elsewhere a plain line every few seconds.
+/// Several threads may call it.
 class Progress {
  public:
   enum class Style { silent, terminal, lines };
@@ -49,6 +51,7 @@ class Progress {
   void clear_line();
 
   Style style_;
+  std::mutex mutex_;
   bool line_open_ = false;
   Clock::time_point last_shown_ = Clock::now();
 };

@@ -168,6 +168,7 @@ FrameState FrameRecorder::state(const Simulation& simulation, const FrameCamera&
 
 Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds) {
   Json times = std::move(state.stage_seconds);
+  times["mesh"] = seconds.mesh;
   times["draw"] = seconds.draw;
   times["png"] = seconds.png;
   times["write"] = seconds.write;

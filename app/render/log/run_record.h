@@ -19,6 +19,7 @@ namespace pneuma::app {
 
 /// Seconds that one frame took, outside the stages of its steps.
 struct FrameSeconds {
+  double mesh = 0.0;  // while the frame before is drawn
   double draw = 0.0;
   double png = 0.0;
   double write = 0.0;
