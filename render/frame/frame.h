@@ -40,8 +40,8 @@ struct MeshShape {
   std::vector<std::array<std::uint32_t, 2>> edges;      // drawn when `wireframe` is on
   std::vector<Colour> colours;                          // per vertex
   // Of a mesh without normals, per triangle: the numbers of its corners' normals, below three times
-  // the number of triangles. Corners of one vertex with the same number are shaded smoothly with
-  // each other. Empty: each triangle is flat.
+  // the number of triangles. Corners with the same number, which must be of one vertex, are shaded
+  // smoothly with each other. Empty: each triangle is flat.
   std::vector<std::array<std::uint32_t, 3>> corner_normals;
 };
 

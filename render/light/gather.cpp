@@ -48,19 +48,6 @@ void add_disc(const Element& element, Receivers& to) {
             to);
 }
 
-/// A ball faces every receiver: A cos(r) / (pi d^2 + A) (GPU Gems 2, 14.3).
-void add_ball(const Element& element, Receivers& to) {
-  using Column = Receivers::Column;
-  const Vec3f& at = element.centre;
-  const Column dx = at.x() - to.x;
-  const Column dy = at.y() - to.y;
-  const Column dz = at.z() - to.z;
-  const Column squared = dx * dx + dy * dy + dz * dz + 1e-9f;
-  const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz).max(0.0f);
-  add_taken(element, element.area * at_receiver / (squared.sqrt() * (pi * squared + element.area)),
-            dz, to);
-}
-
 struct Ball {
   Vec3f centre;
   float radius;
@@ -78,6 +65,24 @@ Ball around(const Receivers& receivers) {
     box.grow({receivers.x[i], receivers.y[i], receivers.z[i]});
   }
   return {box.centre(), 0.5f * (box.max - box.min).norm()};
+}
+
+/// Of receivers in a ball; what all of them are behind takes nothing.
+void add_disc(const Element& element, const Ball& ball, Receivers& to) {
+  if (ball.is_before(element)) add_disc(element, to);
+}
+
+/// A ball faces every receiver: A cos(r) / (pi d^2 + A) (GPU Gems 2, 14.3).
+void add_ball(const Element& element, Receivers& to) {
+  using Column = Receivers::Column;
+  const Vec3f& at = element.centre;
+  const Column dx = at.x() - to.x;
+  const Column dy = at.y() - to.y;
+  const Column dz = at.z() - to.z;
+  const Column squared = dx * dx + dy * dy + dz * dz + 1e-9f;
+  const Column at_receiver = (to.nx * dx + to.ny * dy + to.nz * dz).max(0.0f);
+  add_taken(element, element.area * at_receiver / (squared.sqrt() * (pi * squared + element.area)),
+            dz, to);
 }
 
 /// `add` adds the elements of a body or a group to `to`.
@@ -102,13 +107,14 @@ void add_body(const BodyElements& body, const Ball& ball, Receivers& receivers) 
   add_whole(receivers, [&] {
     for (std::size_t i = 0; i < body.elements.size(); ++i) {
       const Element& element = body.elements[i];
-      if (!ball.is_before(element)) continue;
       const std::size_t first = body.first_part[i], end = body.first_part[i + 1];
       const float reach = near * std::sqrt(element.area / pi);
       if (first == end || ball.distance_to(element.centre) > reach) {
-        add_disc(element, receivers);
+        add_disc(element, ball, receivers);
       } else {
-        for (std::size_t part = first; part < end; ++part) add_disc(body.parts[part], receivers);
+        for (std::size_t part = first; part < end; ++part) {
+          add_disc(body.parts[part], ball, receivers);
+        }
       }
     }
   });

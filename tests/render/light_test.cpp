@@ -88,6 +88,28 @@ TEST(Gather, TakesNothingOfAConvexBodyFromItself) {
   }
 }
 
+TEST(Gather, OfPointsTogetherIsThatOfEach) {
+  // Below a coarse ball, also behind the middles of its patches, which are flat.
+  const Mesh ball = make_ball({0, 0, 1.002f}, 1.0f, {0.5f, 0.5f, 0.5f}, 6);
+  const std::vector<Vec3f> albedo(ball.positions.size(), Vec3f::Constant(0.2f));
+  const std::vector<BodyElements> bodies = {
+      elements_of(ball, albedo, patches(ball.shape->triangles, 16), Vec3f::UnitZ(),
+                  [](const Vec3f&) { return true; })};
+  const auto taken = [&](float x, std::size_t count) {
+    Receivers receivers;
+    receivers.begin(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      receivers.add({x + 0.01f * static_cast<float>(i), 0.0f, 0.0f}, Vec3f::UnitZ());
+    }
+    gather(bodies, receivers);
+    return receivers.above[0];
+  };
+  for (const float x : {0.0f, 0.1f, 0.2f, 0.3f, 0.5f, 0.8f}) {
+    EXPECT_GT(taken(x, 1), 0.1f);
+    EXPECT_NEAR(taken(x, 8), taken(x, 1), 0.01f) << x;
+  }
+}
+
 /// A crowd of balls around an empty middle.
 BodyTree crowd(int balls) {
   std::mt19937 random(1);
