@@ -57,6 +57,10 @@ void move_freely(RigidBox& box, const Vec3& gravity, double step) {
     return;
   }
   rotate_freely(box, step);
+  add_gravity_and_drag(box, gravity, step);
+}
+
+void add_gravity_and_drag(RigidBox& box, const Vec3& gravity, double step) {
   const double kept = std::pow(1.0 - box.rho_g, 60.0 * step);
   box.velocity = kept * (box.velocity + step * gravity);
   box.angular_velocity *= kept;

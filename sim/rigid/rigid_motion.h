@@ -32,6 +32,8 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
 /// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the
 /// fraction rho_g of both velocities per 1/60 s (ERRATA row 35).
 void move_freely(RigidBox& box, const Vec3& gravity, double step);
+/// The end of such a step.
+void add_gravity_and_drag(RigidBox& box, const Vec3& gravity, double step);
 
 /// The same as printed: first v += a t, then p += v t; omega stays, of any box; the global damping
 /// takes rho_g of both velocities in every step, whatever its length (3.1.3, ERRATA row 68).

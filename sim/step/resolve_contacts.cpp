@@ -1,6 +1,6 @@
+#include "sim/response/ground_contact.h"
 #include "sim/response/printed_response.h"
 #include "sim/step/find_divergence.h"
-#include "sim/step/ground_contact.h"
 #include "sim/step/resolve_island.h"
 #include "sim/step/stages.h"
 

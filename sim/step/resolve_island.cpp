@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "sim/mesh/vec4d.h"
-#include "sim/step/ground_contact.h"
+#include "sim/response/ground_contact.h"
 
 namespace pneuma::sim {
 namespace {

@@ -149,10 +149,13 @@ void SweptBodies::set_end(const World& world) {
     if (is_followed_[i] != 0 && is_still_[i] == 0) surfaces_[i].end = world.soft[i].positions;
   }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
-    if (is_still_[at(soft_count_ + i)] != 0) continue;
-    const RigidBox& box = world.rigid[at(i)];
-    place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].end);
+    if (is_still_[at(soft_count_ + i)] == 0) set_end(world, soft_count_ + i);
   }
+}
+
+void SweptBodies::set_end(const World& world, int body) {
+  const RigidBox& moved = world.rigid[at(box(body))];
+  place_corners(box(body), moved.position, moved.orientation, surfaces_[at(body)].end);
 }
 
 void SweptBodies::begin_at_start(const World& world, const MotionStart& start) {
@@ -262,6 +265,13 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
       if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);
     }
   }
+}
+
+bool SweptBodies::may_meet_others(const Bounds& way, const BodyPair& bodies) const {
+  for (int i = 0; i < count(); ++i) {
+    if (i != bodies.first && i != bodies.second && overlap(ways_[at(i)], way)) return true;
+  }
+  return false;
 }
 
 bool SweptBodies::is_within_allowance(int body) const {

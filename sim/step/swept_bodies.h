@@ -45,6 +45,8 @@ class SweptBodies {
   /// another body's way may come near its own.
   void set_start(const World& world, const MotionStart& start);
   void set_end(const World& world);
+  /// Of one box.
+  void set_end(const World& world, int body);
 
   /// Forgets the changes of velocity. Impulses will act on the bodies as they are at the start of
   /// the step, or as they are now, at its end.
@@ -54,6 +56,9 @@ class SweptBodies {
   /// Fills `pairs` with the bodies whose ways come near each other, in ascending order. Their ways
   /// may then end elsewhere by the allowance of each body without another search.
   void find_near_bodies(const World& world, const MotionStart& start, std::vector<BodyPair>& pairs);
+  /// Whether another body's way comes near one of these bodies, which it would go besides its own.
+  bool may_meet_others(const Bounds& way, const BodyPair& bodies) const;
+  void add_to_way(int body, const Bounds& way) { ways_[at(body)].include(way); }
   void may_meet(const BodyPair& bodies) {
     is_lone_[at(bodies.first)] = is_lone_[at(bodies.second)] = 0;
   }

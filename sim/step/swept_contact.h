@@ -23,7 +23,8 @@ struct SweptContact {
   double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
   bool is_of_near_boxes = false;
-  int previous = -1;  // the contact that the same features made before this one
+  bool has_met = false;  // of boxes that meet nothing else: within the step (free_impacts.h)
+  int previous = -1;     // the contact that the same features made before this one
 };
 
 /// Features of two bodies, or of one and the ground, that may meet in the step; or a point of the

@@ -27,7 +27,6 @@ double SweptSearch::distance_wanted(int first, int second) const {
   return second == swept_ground ? 0.0 : bodies_.skin(first) + bodies_.skin(second);
 }
 
-/// Up to which features are in contact.
 double SweptSearch::near_distance(int first, int second) const {
   if (second == swept_ground) return (near - 1.0) * bodies_.skin(first);
   return near * distance_wanted(first, second);

@@ -53,6 +53,24 @@ struct Meeting {
   double fraction = 0.0;  // of the step
 };
 
+/// A point in which boxes that met nothing else have met within the step (free_impacts.h).
+struct MetFreely {
+  int first = 0;
+  int second = 0;
+  Vec3 point = Vec3::Zero();    // m
+  Vec3 normal = Vec3::Zero();   // unit, from the second to the first
+  Vec3 impulse = Vec3::Zero();  // N s, on the first
+};
+
+/// What a box that moves freely has contacts with at the start of the step.
+struct Partner {
+  int contacts = 0;
+  std::size_t first_contact = 0;
+  int body = swept_ground;   // of the last of them
+  bool is_only_one = false;  // of all of them, and not near yet
+  bool is_done = false;
+};
+
 struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
@@ -87,6 +105,9 @@ struct SweptMemory {
   std::vector<ImpactPoint> impact_points;
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
+  std::vector<MetFreely> met_freely;
+  std::vector<Partner> partners;        // of each body
+  std::vector<SweptImpulse> of_impact;  // that is solved for
   NearGroups near_groups;
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
@@ -141,10 +162,11 @@ class SweptSearch {
   ContactMaterial material(const SweptContact& contact) const;
   /// Boxes, and boxes and the ground: what rests on each other stays there.
   bool is_rigid(const SweptContact& contact) const;
+  /// m, up to which features of two bodies are in contact.
+  double near_distance(int first, int second) const;
 
  private:
   double distance_wanted(int first, int second) const;
-  double near_distance(int first, int second) const;
   const ContactMaterial& material(int body) const;
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;

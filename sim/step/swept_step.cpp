@@ -7,9 +7,10 @@
 
 #include "sim/base/text.h"
 #include "sim/inspect/inspect.h"
+#include "sim/response/ground_contact.h"
 #include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
-#include "sim/step/ground_contact.h"
+#include "sim/step/free_impacts.h"
 #include "sim/step/returned_energy.h"
 #include "sim/step/shift_boxes.h"
 #include "sim/step/stage_runner.h"
@@ -23,6 +24,9 @@ namespace {
 constexpr int max_rounds = 4;
 /// Of the thinnest skin, per step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
+/// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
+/// than it is solved for, so that they do not cross.
+constexpr double least_of_wanted = 0.02;
 /// 1/s: boxes in contact close what they are further apart than they should be at this rate.
 constexpr double closing_rate = 0.3;
 
@@ -185,7 +189,8 @@ class SweptStep {
     if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
       // Shifts do the rest. What presses boxes together must not take them back.
       const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
-      const double room = is_held ? -missing_distance(contact) : contact.distance;
+      const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
+      const double room = is_held ? -missing_distance(contact) : contact.distance - least;
       return closer - std::max(0.0, room);
     }
     return closer + made_up_per_step * std::max(0.0, missing_distance(contact));
@@ -202,6 +207,7 @@ class SweptStep {
   std::optional<Divergence> finish() {
     count_work_of_start();
     m_.work += keep_angular_momentum(world_, m_);
+    meet_freely(world_, m_, search_, start(), tolerance());
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
@@ -209,7 +215,9 @@ class SweptStep {
     m_.end_velocities.clear();
     m_.given_at_start.clear();
     bodies_.begin_at_end(world_);
-    for (const SweptCandidate& candidate : m_.candidates) touch(candidate);
+    for (const SweptCandidate& candidate : m_.candidates) {
+      if (!has_met(candidate)) touch(candidate);
+    }
     warm_start_.apply(Moment::end, fraction_);
     solve_since(0);
     follow_impacts(m_, tolerance());
@@ -254,6 +262,10 @@ class SweptStep {
     Vec3 friction = Vec3::Zero();
     Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
   };
+
+  bool has_met(const SweptCandidate& candidate) const {
+    return candidate.contact >= 0 && m_.first_contacts[at(candidate.contact)].has_met;
+  }
 
   Given given_at_start(const SweptCandidate& candidate) const {
     Given given;
@@ -308,13 +320,21 @@ class SweptStep {
 
   /// The contacts that pressed, for those who ask the stepper.
   void report() {
+    const auto box = [&](int body) {
+      return body == swept_ground ? ContactSide{}
+                                  : ContactSide{SideKind::rigid, bodies_.box(body), {}};
+    };
     const auto side = [&](const SurfacePoint& point) {
-      if (point.body == swept_ground) return ContactSide{};
-      if (bodies_.is_rigid(point.body)) {
-        return ContactSide{SideKind::rigid, bodies_.box(point.body), {}};
-      }
+      if (point.body == swept_ground || bodies_.is_rigid(point.body)) return box(point.body);
       return ContactSide{SideKind::soft, point.body, point.feature};
     };
+    for (const MetFreely& met : m_.met_freely) {
+      w_.contacts.push_back({.first = box(met.first),
+                             .second = box(met.second),
+                             .point = met.point,
+                             .normal = met.normal,
+                             .impulse = met.impulse});
+    }
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
       const Vec3 impulse = m_.given_at_start[i] + m_.impulses[i].given();

@@ -1,4 +1,4 @@
-#include "sim/step/ground_contact.h"
+#include "sim/response/ground_contact.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-// Vertices of soft bodies on the ground. Private to sim/step.
+// Vertices of soft bodies on the ground.
 #pragma once
 
 #include <span>

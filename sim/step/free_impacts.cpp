@@ -1,0 +1,189 @@
+#include "sim/step/free_impacts.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sim/rigid/rigid_motion.h"
+#include "sim/swept/free_impact.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of a skin: points that are no further from being hit are hit as well.
+constexpr double hit_together = 0.5;
+/// rad, after an impact: a box that turns further could hit the ground and leave it again. Its
+/// corners' arcs are off their chords by that squared over 8.
+constexpr double allowed_turn = 0.5;
+
+class FreeImpacts {
+ public:
+  FreeImpacts(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
+              double tolerance)
+      : world_(world), m_(memory), search_(search), start_(start), tolerance_(tolerance) {}
+
+  void meet() {
+    if (std::ranges::none_of(m_.contacts, [&](const auto& c) { return may_hit(c); })) return;
+    find_partners();
+    for (const SweptContact& contact : m_.contacts) {
+      if (may_hit(contact) && is_first_of_lone_pair(contact)) meet(contact);
+    }
+  }
+
+ private:
+  bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
+  bool moves_freely(int body) const { return is_box(body) && !is_fixed(world_, body); }
+  bool stands(int body) const {
+    return body == swept_ground || (is_box(body) && is_fixed(world_, body) && !moves(world_, body));
+  }
+
+  /// A box that something stops on its way.
+  bool may_hit(const SweptContact& contact) const {
+    const int first = contact.first.body, second = contact.second.body;
+    return !contact.is_near && contact.approach > 0.0 &&
+           (moves_freely(first) ? moves_freely(second) || stands(second)
+                                : stands(first) && moves_freely(second));
+  }
+
+  /// The bodies that each box which moves freely has contacts with, if it is one and all may hit.
+  void find_partners() {
+    m_.partners.assign(at(m_.bodies.count()), {});
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const int first = m_.contacts[i].first.body, second = m_.contacts[i].second.body;
+      if (moves_freely(first)) add_contact(i, second, m_.partners[at(first)]);
+      if (moves_freely(second)) add_contact(i, first, m_.partners[at(second)]);
+    }
+  }
+  void add_contact(std::size_t number, int body, Partner& partner) const {
+    const bool hits = may_hit(m_.contacts[number]);
+    if (partner.contacts == 0) partner.first_contact = number;
+    partner.is_only_one =
+        hits && (partner.contacts == 0 || (partner.is_only_one && partner.body == body));
+    partner.body = body;
+    ++partner.contacts;
+  }
+  bool meets_only(int body, int other) const {
+    if (!moves_freely(body)) return true;
+    const Partner& partner = m_.partners[at(body)];
+    return partner.is_only_one && partner.body == other &&
+           !m_.carried_boxes.is_carried(m_.bodies.box(body));
+  }
+  bool is_first_of_lone_pair(const SweptContact& contact) {
+    const int first = contact.first.body, second = contact.second.body;
+    if (!meets_only(first, second) || !meets_only(second, first)) return false;
+    if (!m_.bodies.shift(contact.first).isZero(0.0) || !m_.bodies.shift(contact.second).isZero(0.0))
+      return false;
+    Partner& seen = m_.partners[at(moves_freely(first) ? first : second)];
+    return !std::exchange(seen.is_done, true);
+  }
+
+  void meet(const SweptContact& contact) {
+    std::array bodies = {contact.first.body, contact.second.body};
+    if (!moves_freely(bodies[0])) std::swap(bodies[0], bodies[1]);
+    const std::array sides = {side(bodies[0]), side(bodies[1])};
+    FreeImpact impact(sides, contact.wanted, hit_together * m_.bodies.skin(bodies[0]),
+                      time_step(world_.settings));
+    switch (impact.find_time()) {
+      case FreeImpact::Result::none:
+        return;
+      case FreeImpact::Result::hit:
+        if (!bounce(impact, search_.material(contact))) return;
+        break;
+      case FreeImpact::Result::pass:
+        m_.impact_points.clear();
+        break;
+    }
+    impact.finish(world_.settings.gravity, m_.impact_points);
+    if (!leaves_all_apart(impact, bodies)) return;
+    book(impact, bodies);
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (sides[i].moves()) move(impact, bodies, i);
+    }
+  }
+
+  /// Solves for the impulses. False if the sides do not bounce in all points. Without friction each
+  /// of several points bounces by itself.
+  bool bounce(FreeImpact& impact, const ContactMaterial& material) {
+    const Vec3& gravity = world_.settings.gravity;
+    if (!impact.find_points(gravity, material, m_.of_impact, m_.impact_points)) return false;
+    if (material.friction == 0.0 && m_.impact_points.size() > 1) return false;
+    m_.impact_path.follow(m_.impact_points, material.restitution, tolerance_);
+    return true;
+  }
+
+  void book(const FreeImpact& impact, const std::array<int, 2>& bodies) {
+    m_.work += impact.work();
+    const Partner& partner = m_.partners[at(bodies[0])];
+    std::size_t i = partner.first_contact;
+    for (int left = partner.contacts; left > 0; ++i) {
+      SweptContact& contact = m_.contacts[i];
+      if (contact.first.body != bodies[0] && contact.second.body != bodies[0]) continue;
+      --left;
+      contact.has_met = true;
+      m_.work -= m_.work_of_start[i];
+      m_.work_of_start[i] = 0.0;
+    }
+    for (const ImpactPoint& point : m_.impact_points) {
+      m_.met_freely.push_back(
+          {bodies[0], bodies[1], point.at, point.impulse->normal(), point.impulse->given()});
+    }
+  }
+
+  /// Whether what follows the impact meets nothing in the rest of the step.
+  bool leaves_all_apart(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ImpactSide& side = impact.sides()[i];
+      if (!side.moves()) continue;
+      const double turn = impact.time_left() * impact.at_end(i).angular_velocity.norm();
+      if (turn > allowed_turn) return false;
+      const bool on_ground = bodies[1] == swept_ground;
+      if (world_.settings.ground && !on_ground && side.bounds(impact.at_end(i)).low.z() < 0.0)
+        return false;
+      if (m_.bodies.may_meet_others(way(bodies, impact, i), {bodies[0], bodies[1]})) return false;
+    }
+    return !impact.meets_again(search_.near_distance(bodies[0], bodies[1]));
+  }
+
+  /// In the whole step, with the skin and what corners on arcs leave.
+  Bounds way(const std::array<int, 2>& bodies, const FreeImpact& impact, std::size_t side) const {
+    const ImpactSide& of = impact.sides()[side];
+    Bounds result = of.bounds(of.after(0.0));
+    result.include(of.bounds(impact.at_impact(side)));
+    result.include(of.bounds(impact.at_end(side)));
+    const double arc = 0.5 * of.box().size.norm() * allowed_turn * allowed_turn / 8.0;
+    const Vec3 margin = Vec3::Constant(m_.bodies.skin(bodies[side]) + arc);
+    return {result.low - margin, result.high + margin};
+  }
+
+  void move(const FreeImpact& impact, const std::array<int, 2>& bodies, std::size_t side) {
+    const int body = bodies[side];
+    RigidBox& box = world_.rigid[at(m_.bodies.box(body))];
+    m_.bodies.add_to_way(body, way(bodies, impact, side));
+    set_state(box, impact.at_end(side));
+    add_gravity_and_drag(box, world_.settings.gravity, time_step(world_.settings));
+    m_.bodies.set_end(world_, body);
+  }
+
+  ImpactSide side(int body) const {
+    if (body == swept_ground) return {};
+    const int box = m_.bodies.box(body);
+    return {world_.rigid[at(box)], start_.rigid[at(box)], moves_freely(body)};
+  }
+
+  World& world_;
+  SweptMemory& m_;
+  SweptSearch& search_;
+  const MotionStart& start_;
+  double tolerance_;  // m/s
+};
+
+}  // namespace
+
+void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
+                 double tolerance) {
+  memory.met_freely.clear();
+  if (world.rigid.empty()) return;
+  FreeImpacts(world, memory, search, start, tolerance).meet();
+}
+
+}  // namespace pneuma::sim

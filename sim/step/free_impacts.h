@@ -1,0 +1,22 @@
+// Impacts of boxes that meet nothing else, at the moment at which they happen. Private to sim/step.
+//
+// The impulses of swept_step act at the start and at the end of a step, where boxes lie otherwise
+// than in between: one that turns is hit with an arm that is off by what it turns in the step. So
+// the step is cut for a box that hits the ground, or another box, and meets nothing else: they move
+// freely until then, get the impulse of the impact (impact_path.h) at the place where it happens,
+// and move on freely. As in free motion, momentum and angular momentum are kept to rounding.
+#pragma once
+
+#include "sim/step/swept_search.h"
+
+namespace pneuma::sim {
+
+/// Once the impulses of the start are known and nothing crosses: takes back those of such impacts,
+/// and of boxes that only pass each other; gives the boxes what the impacts give, books their work,
+/// lists them in `memory.met_freely` and says of the contacts that they have met. Where that would
+/// bring a box too near anything it leaves all as it is. Solves for velocities to `tolerance`
+/// (m/s).
+void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
+                 double tolerance);
+
+}  // namespace pneuma::sim

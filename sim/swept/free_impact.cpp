@@ -1,0 +1,210 @@
+#include "sim/swept/free_impact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/collision/box_contact.h"
+#include "sim/collision/separating_axis.h"
+#include "sim/rigid/inertia.h"
+#include "sim/rigid/rigid_motion.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of what points are hit together within: the separation at the time of impact.
+constexpr double time_tolerance = 0.1;
+constexpr int max_tries = 100;
+/// Of the shortest side: further the sides do not move from one look for an overlap to the next.
+constexpr double look_every = 0.25;
+constexpr double max_looks = 32;
+constexpr double any_distance = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+ImpactSide::ImpactSide(const RigidBox& box, const RigidState& start, bool moves)
+    : box_(&box), start_(start), moves_(moves), spin_(spin(box, start)) {}
+
+RigidState ImpactSide::after(double duration) const {
+  return moves_ ? moved(start_, spin_, duration) : start_;
+}
+
+RigidState ImpactSide::after(const RigidState& from, const BoxChange& change,
+                             double duration) const {
+  RigidState state = from;
+  state.velocity += to_vec3(change.velocity);
+  state.angular_velocity += to_vec3(change.angular_velocity);
+  return moved(state, spin(*box_, state), duration);
+}
+
+RigidState ImpactSide::moved(const RigidState& from, const Vec3& angular_momentum,
+                             double duration) const {
+  RigidState state = from;
+  state.position += duration * from.velocity;
+  state.orientation = turned_freely(*box_, from.orientation, angular_momentum, duration);
+  const Mat3 axes = state.orientation.toRotationMatrix();
+  const Vec3 inverse = body_inertia(*box_).cwiseInverse();
+  state.angular_velocity = axes * inverse.asDiagonal() * axes.transpose() * angular_momentum;
+  return state;
+}
+
+double ImpactSide::fastest_turn() const {
+  return moves_ ? spin_.norm() / body_inertia(*box_).minCoeff() : 0.0;
+}
+
+OrientedBox ImpactSide::placed(const RigidState& state) const {
+  return {state.position, state.orientation.toRotationMatrix(), 0.5 * box_->size};
+}
+
+Bounds ImpactSide::bounds(const RigidState& state) const {
+  const Vec3 half = 0.5 * (state.orientation.toRotationMatrix().cwiseAbs() * box_->size);
+  return {state.position - half, state.position + half};
+}
+
+/// m, of the sides in free motion: of boxes along the axis that separates them most.
+double FreeImpact::separation(double time) const {
+  const RigidState first = sides_[0].after(time);
+  if (sides_[1].is_ground()) return sides_[0].bounds(first).low.z();
+  const OrientedBox second = sides_[1].placed(sides_[1].after(time));
+  return -find_min_overlap(sides_[0].placed(first), second, any_distance)->overlap;
+}
+
+/// m/s, by which the separation changes, at most: an axis between boxes turns with either of them.
+double FreeImpact::fastest() const {
+  const auto& [first, second] = sides_;
+  Vec3 velocity = first.start().velocity;
+  double turn = first.fastest_turn(), arm = first.half_diagonal();
+  if (second.is_ground()) return std::abs(velocity.z()) + turn * arm;
+  if (second.moves()) velocity -= second.start().velocity;
+  turn += second.fastest_turn();
+  arm += second.half_diagonal() + step_ * velocity.norm() +
+         (first.start().position - second.start().position).norm();
+  return velocity.norm() + turn * arm;
+}
+
+/// By conservative advancement: to where the sides cannot meet before (Mirtich 1996).
+FreeImpact::Result FreeImpact::find_time() {
+  const double tolerance = time_tolerance * together_, speed = fastest();
+  double apart = separation(0.0) - wanted_;
+  if (apart < 0.0) return Result::none;
+  for (int i = 0; i < max_tries && apart > tolerance && time_ < step_; ++i) {
+    time_ = std::min(step_, time_ + apart / speed);
+    apart = separation(time_) - wanted_;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!sides_[i].is_ground()) states_[i] = sides_[i].after(time_);
+  }
+  if (apart <= tolerance) return Result::hit;
+  return time_ < step_ ? Result::none : Result::pass;
+}
+
+/// Calls `visit(point, normal)` for the points in which the sides are no further apart than
+/// `reach` (m).
+template <class Visit>
+void FreeImpact::for_each_near(const std::array<RigidState, 2>& states, double reach,
+                               const Visit& visit) const {
+  const OrientedBox first = sides_[0].placed(states[0]);
+  if (sides_[1].is_ground()) {
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 corner = first.corner(i);
+      if (corner.z() <= reach) visit(corner, Vec3::UnitZ());
+    }
+    return;
+  }
+  const auto contact = find_box_contact_within(reach, first, sides_[1].placed(states[1]));
+  if (!contact) return;
+  for (const BoxContactPoint& point : contact->points()) {
+    if (-point.depth <= reach) visit(point.point, contact->normal);
+  }
+}
+
+bool FreeImpact::find_points(const Vec3& gravity, const ContactMaterial& material,
+                             std::vector<SweptImpulse>& impulses,
+                             std::vector<ImpactPoint>& points) {
+  impulses.clear();
+  points.clear();
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!sides_[i].moves()) continue;
+    changes_[i] = make_box_change(sides_[i].box(), states_[i].position, states_[i].orientation);
+  }
+  // The velocities of a step are those of its middle. Gravity draws both sides that move.
+  const double since_middle = sides_[1].moves() ? 0.0 : time_ - 0.5 * step_;
+  bool all_bounce = true;
+  for_each_near(states_, wanted_ + together_, [&](const Vec3& at, const Vec3& normal) {
+    const Vec3 velocity = velocity_at(at, states_) + since_middle * gravity;
+    const double approach = -normal.dot(velocity);
+    all_bounce = all_bounce && material.restitution * approach >= min_bounce_speed;
+    impulses.emplace_back(side(0, at), side(1, at), normal, material.friction);
+    points.push_back({.velocity = velocity, .speed = -approach, .approach = approach, .at = at});
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = &impulses[i];
+  return all_bounce && !points.empty();
+}
+
+SweptSide FreeImpact::side(std::size_t i, const Vec3& point) {
+  return sides_[i].moves() ? SweptSide(changes_[i], point) : SweptSide();
+}
+
+/// m/s, of the first side against the second.
+Vec3 FreeImpact::velocity_at(const Vec3& point, const std::array<RigidState, 2>& states) const {
+  const auto of = [&](std::size_t side) -> Vec3 {
+    if (!sides_[side].moves()) return Vec3::Zero();
+    const RigidState& state = states[side];
+    return state.velocity + state.angular_velocity.cross(point - state.position);
+  };
+  return of(0) - of(1);
+}
+
+/// The impulses change the motion from the impact on, where a step's would from its start: its
+/// velocities are those of its middle, and of half a step gravity does no work on the difference.
+void FreeImpact::finish(const Vec3& gravity, std::span<const ImpactPoint> points) {
+  const double without_gravity = sides_[1].moves() ? 0.0 : 0.5 * step_;
+  for (const ImpactPoint& point : points) {
+    const Vec3 given = point.impulse->given();
+    work_ += point.impulse->work(point.velocity) + without_gravity * gravity.dot(given);
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends_[i] =
+        sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], time_left()) : states_[i];
+  }
+}
+
+/// m, by which the sides move against each other in the time left, at most.
+double FreeImpact::motion_left() const {
+  const auto& [first, second] = sides_;
+  Vec3 velocity = ends_[0].velocity;
+  if (second.moves()) velocity -= ends_[1].velocity;
+  double turned = first.half_diagonal() * ends_[0].angular_velocity.norm();
+  if (second.moves()) turned += second.half_diagonal() * ends_[1].angular_velocity.norm();
+  return time_left() * (velocity.norm() + turned);
+}
+
+/// `duration`: s, since the impact.
+bool FreeImpact::overlap_after(double duration) const {
+  const auto placed = [&](std::size_t i) {
+    return sides_[i].placed(sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], duration)
+                                              : states_[i]);
+  };
+  return find_box_contact(placed(0), placed(1)).has_value();
+}
+
+bool FreeImpact::meets_again(double near) const {
+  if (sides_[1].is_ground()) {
+    if (sides_[0].bounds(ends_[0]).low.z() < 0.0) return true;
+  } else {
+    const double thinnest =
+        std::min(sides_[0].box().size.minCoeff(), sides_[1].box().size.minCoeff());
+    const double looks = std::ceil(motion_left() / (look_every * thinnest));
+    if (looks > max_looks) return true;
+    for (int i = 1; i <= looks; ++i) {
+      if (overlap_after(time_left() * i / looks)) return true;
+    }
+  }
+  bool approaches = false;
+  for_each_near(ends_, near, [&](const Vec3& at, const Vec3& normal) {
+    approaches = approaches || normal.dot(velocity_at(at, ends_)) < 0.0;
+  });
+  return approaches;
+}
+
+}  // namespace pneuma::sim
