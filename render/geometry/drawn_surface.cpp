@@ -176,7 +176,8 @@ void DrawnSurface::add_corner_normals(const Mesh& mesh, const Shape& shape) {
 }
 
 void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
-  const Shape& shape = shape_of(mesh.shape);
+  Shape& shape = shape_of(mesh.shape);
+  if (shape.corners.empty()) share_corners(*mesh.shape, shape);
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape.colours : own;
   add_lit_mesh(mesh, shape.sources.size());
@@ -232,7 +233,6 @@ DrawnSurface::Shape& DrawnSurface::shape_of(const std::shared_ptr<const MeshShap
   if (known != shapes_.end()) return known->second;
   Shape& made = shapes_[shape];
   for (const Colour& colour : shape->colours) made.colours.push_back(to_linear(colour));
-  share_corners(*shape, made);
   return made;
 }
 

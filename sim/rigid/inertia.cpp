@@ -12,9 +12,13 @@ Mat3 world_inertia(const RigidBox& box) {
   return rotation * body_inertia(box).asDiagonal() * rotation.transpose();
 }
 
-Mat3 world_inverse_inertia(const RigidBox& box) {
-  const Mat3 rotation = box.orientation.toRotationMatrix();
+Mat3 world_inverse_inertia(const RigidBox& box, const Eigen::Quaterniond& orientation) {
+  const Mat3 rotation = orientation.toRotationMatrix();
   return rotation * body_inertia(box).cwiseInverse().asDiagonal() * rotation.transpose();
+}
+
+Mat3 world_inverse_inertia(const RigidBox& box) {
+  return world_inverse_inertia(box, box.orientation);
 }
 
 Vec3 spin(const RigidBox& box) {

@@ -12,7 +12,9 @@ Vec3 body_inertia(const RigidBox& box);
 /// R diag(I) R^T: the inertia in world axes, kg m^2.
 Mat3 world_inertia(const RigidBox& box);
 
-/// R diag(1/I) R^T: the inverse inertia in world axes (5.3), 1/(kg m^2).
+/// R diag(1/I) R^T: the inverse inertia in world axes (5.3), 1/(kg m^2); of a box that is turned
+/// so.
+Mat3 world_inverse_inertia(const RigidBox& box, const Eigen::Quaterniond& orientation);
 Mat3 world_inverse_inertia(const RigidBox& box);
 
 /// Angular momentum R diag(I) R^T omega about the box's own centre, kg m^2/s.

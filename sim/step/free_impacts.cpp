@@ -25,16 +25,16 @@ class FreeImpacts {
   void meet() {
     if (std::ranges::none_of(m_.contacts, [&](const auto& c) { return may_hit(c); })) return;
     find_partners();
-    for (const SweptContact& contact : m_.contacts) {
-      if (may_hit(contact) && is_first_of_lone_pair(contact)) meet(contact);
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      if (may_hit(m_.contacts[i]) && is_first_of_lone_pair(i)) meet(m_.contacts[i]);
     }
   }
 
  private:
-  bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
-  bool moves_freely(int body) const { return is_box(body) && !is_fixed(world_, body); }
+  bool moves_freely(int body) const { return m_.bodies.is_box(body) && !is_fixed(world_, body); }
   bool stands(int body) const {
-    return body == swept_ground || (is_box(body) && is_fixed(world_, body) && !moves(world_, body));
+    if (body == swept_ground) return true;
+    return m_.bodies.is_box(body) && is_fixed(world_, body) && !moves(world_, body);
   }
 
   /// A box that something stops on its way.
@@ -68,13 +68,13 @@ class FreeImpacts {
     return partner.is_only_one && partner.body == other &&
            !m_.carried_boxes.is_carried(m_.bodies.box(body));
   }
-  bool is_first_of_lone_pair(const SweptContact& contact) {
+  bool is_first_of_lone_pair(std::size_t number) const {
+    const SweptContact& contact = m_.contacts[number];
     const int first = contact.first.body, second = contact.second.body;
     if (!meets_only(first, second) || !meets_only(second, first)) return false;
     if (!m_.bodies.shift(contact.first).isZero(0.0) || !m_.bodies.shift(contact.second).isZero(0.0))
       return false;
-    Partner& seen = m_.partners[at(moves_freely(first) ? first : second)];
-    return !std::exchange(seen.is_done, true);
+    return m_.partners[at(moves_freely(first) ? first : second)].first_contact == number;
   }
 
   void meet(const SweptContact& contact) {
@@ -131,14 +131,13 @@ class FreeImpacts {
 
   /// Whether what follows the impact meets nothing in the rest of the step.
   bool leaves_all_apart(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
+    const bool reaches_ground = world_.settings.ground && bodies[1] != swept_ground;
     for (std::size_t i = 0; i < 2; ++i) {
       const ImpactSide& side = impact.sides()[i];
       if (!side.moves()) continue;
       const double turn = impact.time_left() * impact.at_end(i).angular_velocity.norm();
       if (turn > allowed_turn) return false;
-      const bool on_ground = bodies[1] == swept_ground;
-      if (world_.settings.ground && !on_ground && side.bounds(impact.at_end(i)).low.z() < 0.0)
-        return false;
+      if (reaches_ground && side.bounds(impact.at_end(i)).low.z() < 0.0) return false;
       if (m_.bodies.may_meet_others(way(bodies, impact, i), {bodies[0], bodies[1]})) return false;
     }
     return !impact.meets_again(search_.near_distance(bodies[0], bodies[1]));

@@ -25,7 +25,7 @@ class LoneImpact {
   bool is_of_two_boxes() const {
     const SweptContact& first = contact(impulses_.front());
     const int one = first.first.body, other = first.second.body;
-    if (!is_box(one) || !(other == swept_ground || is_box(other))) return false;
+    if (!m_.bodies.is_box(one) || !(other == swept_ground || m_.bodies.is_box(other))) return false;
     return std::ranges::all_of(impulses_, [&](const SweptImpulse* impulse) {
       return contact(impulse).first.body == one && contact(impulse).second.body == other;
     });
@@ -59,7 +59,6 @@ class LoneImpact {
   const SweptContact& contact(const SweptImpulse* impulse) const {
     return m_.contacts[contact_of(m_, impulse)];
   }
-  bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
 
   SweptMemory& m_;
   std::span<SweptImpulse* const> impulses_;

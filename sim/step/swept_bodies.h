@@ -32,6 +32,7 @@ class SweptBodies {
 
   int count() const { return static_cast<int>(surfaces_.size()); }
   bool is_rigid(int body) const { return body >= soft_count_; }
+  bool is_box(int body) const { return body != swept_ground && is_rigid(body); }
   /// Index into World::rigid.
   int box(int body) const { return body - soft_count_; }
   /// The body that a box is, or -1 the ground.

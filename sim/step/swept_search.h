@@ -68,7 +68,6 @@ struct Partner {
   std::size_t first_contact = 0;
   int body = swept_ground;   // of the last of them
   bool is_only_one = false;  // of all of them, and not near yet
-  bool is_done = false;
 };
 
 struct SweptMemory {

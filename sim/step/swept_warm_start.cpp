@@ -61,7 +61,7 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
     const SurfacePoint& first = contacts[i].first;
     const SurfacePoint& second = contacts[i].second;
     const bool on_ground = second.body == swept_ground;
-    if (!is_box(first.body) || !(on_ground || is_box(second.body))) continue;
+    if (!m_.bodies.is_box(first.body) || !(on_ground || m_.bodies.is_box(second.body))) continue;
     if (impulses[i].normal_impulse() == 0.0) continue;
     // What stopped a box on its way is not needed again.
     if (moment == Moment::start && !contacts[i].is_near) continue;

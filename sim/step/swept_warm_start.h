@@ -27,7 +27,6 @@ class SweptWarmStart {
   SweptImpulse* find(const WarmStartImpulse& kept, Moment moment);
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
                 Moment moment, double fraction);
-  bool is_box(int body) const { return body != swept_ground && m_.bodies.is_rigid(body); }
   RigidState state(int box, Moment moment) const;
 
   World& world_;

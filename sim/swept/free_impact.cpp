@@ -56,11 +56,6 @@ OrientedBox ImpactSide::placed(const RigidState& state) const {
   return {state.position, state.orientation.toRotationMatrix(), 0.5 * box_->size};
 }
 
-Bounds ImpactSide::bounds(const RigidState& state) const {
-  const Vec3 half = 0.5 * (state.orientation.toRotationMatrix().cwiseAbs() * box_->size);
-  return {state.position - half, state.position + half};
-}
-
 /// m, of the sides in free motion: of boxes along the axis that separates them most.
 double FreeImpact::separation(double time) const {
   const RigidState first = sides_[0].after(time);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sim/collision/oriented_box.h"
-#include "sim/mesh/measure.h"
 #include "sim/rigid/rigid_state.h"
 #include "sim/swept/impact_path.h"
 #include "sim/world/contact_material.h"
@@ -32,8 +31,7 @@ class ImpactSide {
   RigidState after(const RigidState& from, const BoxChange& change, double duration) const;
 
   OrientedBox placed(const RigidState& state) const;
-  /// m.
-  Bounds bounds(const RigidState& state) const;
+  Bounds bounds(const RigidState& state) const { return sim::bounds(placed(state)); }
   double half_diagonal() const { return 0.5 * box_->size.norm(); }
   const RigidState& start() const { return start_; }
   /// rad/s, at most.

@@ -81,11 +81,9 @@ class TwoBoxes {
 
 BoxChange make_box_change(const RigidBox& box, const Vec3& position,
                           const Eigen::Quaterniond& orientation) {
-  const Mat3 axes = orientation.toRotationMatrix();
-  const Mat3 inverse = axes * body_inertia(box).cwiseInverse().asDiagonal() * axes.transpose();
   return {.centre = to_vec4d(position),
           .inverse_mass = 1.0 / box.mass,
-          .inverse_inertia = mat3x4(inverse)};
+          .inverse_inertia = mat3x4(world_inverse_inertia(box, orientation))};
 }
 
 SweptSide::SweptSide(VertexArray& changes, std::span<const int> vertices,
