@@ -16,9 +16,13 @@ void add_choices_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
 void add_collision_study(CLI::App& study_command, Action& action,
                          std::span<const std::string> command_line);
+void add_contact_study(CLI::App& study_command, Action& action,
+                       std::span<const std::string> command_line);
 void add_growth_study(CLI::App& study_command, Action& action,
                       std::span<const std::string> command_line);
 void add_extreme_study(CLI::App& study_command, Action& action,
+                       std::span<const std::string> command_line);
+void add_horizon_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
 void add_impact_study(CLI::App& study_command, Action& action,
                       std::span<const std::string> command_line);

@@ -122,7 +122,7 @@ double WorldAcceleration::operator()(const VertexArray& positions, const VertexA
   MinVolume min_volume;
   min_volume.meet(1.0);
   if (!boxes_.empty()) place_boxes(positions, velocities);
-  const VertexArray& x = boxes_.empty() ? positions : corners_;
+  const VertexArray& x = vertices(positions);
   const VertexArray& v = boxes_.empty() ? velocities : corner_velocities_;
   if (!covers(x)) search(x);
   find_active(surfaces_, x, pairs_, active_);

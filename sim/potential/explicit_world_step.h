@@ -34,6 +34,12 @@ class WorldAcceleration {
   void end_boxes(VertexArray& positions, VertexArray& velocities,
                  std::vector<RigidState>& boxes) const;
 
+  /// m, of all vertices in the last evaluation, which was at these positions: the corners of free
+  /// boxes in the places of their coordinates.
+  const VertexArray& vertices(const VertexArray& positions) const {
+    return boxes_.empty() ? positions : corners_;
+  }
+
   /// m, around every vertex, from the next search on.
   void set_margin(double margin) { margin_ = margin; }
   /// All pairs that may meet on straight ways of all vertices, those of boxes included.

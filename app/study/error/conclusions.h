@@ -13,9 +13,6 @@
 
 namespace pneuma::app {
 
-/// The error of a run that conclusions are drawn from: of position, max. over time.
-inline double error_of(const ErrorRun& run) { return run.errors.greatest.position; }
-
 /// How the error of one of our integrators falls with the step.
 struct ObservedOrder {
   std::string method;

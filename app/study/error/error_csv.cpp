@@ -14,8 +14,8 @@ std::string positive(double value) { return value > 0.0 ? csv_cell(value) : std:
 
 void add_errors(std::vector<std::string>& cells, const ErrorRun& run) {
   for (const StateErrors* errors : {&run.errors.end, &run.errors.greatest}) {
-    for (const double error :
-         {errors->position, errors->volume, errors->centre, errors->energy, errors->momentum}) {
+    for (const double error : {errors->position, errors->volume, errors->centre, errors->energy,
+                               errors->momentum, errors->angular_momentum}) {
       cells.push_back(run.status == Status::stable ? csv_cell(error) : std::string());
     }
   }
@@ -36,10 +36,27 @@ void add_choice(std::vector<std::string>& cells, const std::optional<ErrorRun>& 
 }  // namespace
 
 std::string runs_csv(const ErrorStudy& study) {
-  Csv csv({"scene", "method", "steps_per_second", "step_s", "tolerance", "outcome", "failure",
-           "run_time_s_per_simulated_s", "evaluations_per_simulated_s", "position_end",
-           "volume_end", "centre_end", "energy_end", "momentum_end", "position_max", "volume_max",
-           "centre_max", "energy_max", "momentum_max"});
+  Csv csv({"scene",
+           "method",
+           "steps_per_second",
+           "step_s",
+           "tolerance",
+           "outcome",
+           "failure",
+           "run_time_s_per_simulated_s",
+           "evaluations_per_simulated_s",
+           "position_end",
+           "volume_end",
+           "centre_end",
+           "energy_end",
+           "momentum_end",
+           "angular_momentum_end",
+           "position_max",
+           "volume_max",
+           "centre_max",
+           "energy_max",
+           "momentum_max",
+           "angular_momentum_max"});
   for (const ErrorRun& run : study.runs) {
     std::vector<std::string> cells = {csv_cell(study.name),
                                       csv_cell(run.method),

@@ -10,11 +10,9 @@ using nlohmann::json;
 using Status = ErrorRun::Status;
 
 json errors_json(const StateErrors& errors) {
-  return {{"position", errors.position},
-          {"volume", errors.volume},
-          {"centre", errors.centre},
-          {"energy", errors.energy},
-          {"momentum", errors.momentum}};
+  return {{"position", errors.position}, {"volume", errors.volume},
+          {"centre", errors.centre},     {"energy", errors.energy},
+          {"momentum", errors.momentum}, {"angular_momentum", errors.angular_momentum}};
 }
 
 json number_or_null(double value) { return value > 0.0 ? json(value) : json(nullptr); }

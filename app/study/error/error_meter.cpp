@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "sim/collision/oriented_box.h"
@@ -21,17 +22,12 @@ sim::OrientedBox oriented(const sim::RigidBox& box) {
 
 StateErrors greater(const StateErrors& a, const StateErrors& b) {
   return {std::max(a.position, b.position), std::max(a.volume, b.volume),
-          std::max(a.centre, b.centre), std::max(a.energy, b.energy),
-          std::max(a.momentum, b.momentum)};
+          std::max(a.centre, b.centre),     std::max(a.energy, b.energy),
+          std::max(a.momentum, b.momentum), std::max(a.angular_momentum, b.angular_momentum)};
 }
 
-double mass(const sim::World& world) {
-  double sum = 0.0;
-  for (const sim::SoftBody& body : world.soft) {
-    sum += body.material.vertex_mass * body.mesh->topology.vertex_count();
-  }
-  for (const sim::RigidBox& box : world.rigid) sum += box.mass;
-  return sum;
+double mass(const sim::SoftBody& body) {
+  return body.material.vertex_mass * body.mesh->topology.vertex_count();
 }
 
 }  // namespace
@@ -41,11 +37,14 @@ double rest_radius(const sim::SoftBody& body) { return sim::radius(body.mesh->re
 ErrorMeter::ErrorMeter(sim::World world, const Trajectory& reference) : world_(std::move(world)) {
   for (const sim::SoftBody& body : world_.soft) radii_.push_back(rest_radius(body));
   for (const sim::RigidBox& box : world_.rigid) radii_.push_back(0.5 * box.size.norm());
+  for (const sim::SoftBody& body : world_.soft) masses_.push_back(mass(body));
+  for (const sim::RigidBox& box : world_.rigid) masses_.push_back(box.mass);
   for (const Sample& sample : reference) {
     reference_.push_back(observe(sample));
     energy_scale_ = std::max(energy_scale_, reference_.back().kinetic);
   }
-  momentum_scale_ = std::sqrt(2.0 * mass(world_) * energy_scale_);
+  const double mass = std::accumulate(masses_.begin(), masses_.end(), 0.0);
+  momentum_scale_ = std::sqrt(2.0 * mass * energy_scale_);
 }
 
 ErrorMeter::Observed ErrorMeter::observe(const Sample& sample) {
@@ -63,8 +62,19 @@ ErrorMeter::Observed ErrorMeter::observe(const Sample& sample) {
   const sim::Energy energy = sim::energy(world_);
   result.energy = energy.total();
   result.kinetic = energy.kinetic;
-  result.momentum = sim::momentum(world_).linear;
+  result.momentum = sim::momentum(world_);
   return result;
+}
+
+/// m, of all bodies together.
+sim::Vec3 ErrorMeter::centre_of_mass(const Observed& observed) const {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0.0;
+  for (std::size_t b = 0; b < masses_.size(); ++b) {
+    sum += masses_[b] * observed.centres[b];
+    mass += masses_[b];
+  }
+  return sum / mass;
 }
 
 double ErrorMeter::position_error(const Sample& sample, const Sample& reference) const {
@@ -102,7 +112,12 @@ StateErrors ErrorMeter::errors(std::size_t i, const Sample& sample) {
                              relative((found.centres[b] - expected.centres[b]).norm(), radii_[b]));
   }
   errors.energy = relative(found.energy - expected.energy, energy_scale_);
-  errors.momentum = relative((found.momentum - expected.momentum).norm(), momentum_scale_);
+  const Vec3 linear = found.momentum.linear - expected.momentum.linear;
+  const Vec3 angular =
+      found.momentum.angular - expected.momentum.angular - centre_of_mass(expected).cross(linear);
+  errors.momentum = relative(linear.norm(), momentum_scale_);
+  errors.angular_momentum =
+      relative(angular.norm(), momentum_scale_ * *std::ranges::max_element(radii_));
   return errors;
 }
 

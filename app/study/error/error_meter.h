@@ -17,6 +17,8 @@ struct StateErrors {
   double energy = 0.0;    // of the total, divided by the reference's max. kinetic energy
   double momentum = 0.0;  // of the total, divided by the momentum that the whole mass would have
                           // with that kinetic energy
+  double angular_momentum = 0.0;  // of the total, about the reference's centre of mass, divided by
+                                  // that momentum times the greatest rest radius
 };
 
 struct RunErrors {
@@ -47,13 +49,15 @@ class ErrorMeter {
     std::vector<sim::Vec3> centres;  // m, per soft body, then per box
     double energy = 0.0;             // J
     double kinetic = 0.0;            // J
-    sim::Vec3 momentum;              // kg m/s
+    sim::Momentum momentum;
   };
   Observed observe(const Sample& sample);
+  sim::Vec3 centre_of_mass(const Observed& observed) const;
   double position_error(const Sample& sample, const Sample& reference) const;
 
   sim::World world_;
-  std::vector<double> radii_;  // m, per soft body, then per box
+  std::vector<double> radii_;   // m, per soft body, then per box
+  std::vector<double> masses_;  // kg, likewise
   std::vector<Observed> reference_;
   double energy_scale_ = 0.0;    // J
   double momentum_scale_ = 0.0;  // kg m/s

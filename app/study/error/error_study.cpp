@@ -47,6 +47,8 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
   std::vector<Method> methods;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
     if (!can_integrate(integrator, flight.world)) continue;
+    const sim::Settings& settings = flight.world.settings;
+    if (sim::is_as_printed(settings) && integrator != settings.integrator) continue;
     Method& method = methods.emplace_back();
     for (const int rate : options.steps_per_second) {
       sim::World world = flight.world;
@@ -81,7 +83,7 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
 
 bool is_finite(const StateErrors& errors) {
   return std::isfinite(errors.position + errors.volume + errors.centre + errors.energy +
-                       errors.momentum);
+                       errors.momentum + errors.angular_momentum);
 }
 
 /// The run once, with its samples; the time is that of the stepping only.
@@ -219,6 +221,25 @@ double measure_evaluation(const sim::World& world) {
   return sum;
 }
 
+double radius_of_first_body(const sim::World& world) {
+  return world.soft.empty() ? 0.5 * world.rigid.front().size.norm()
+                            : rest_radius(world.soft.front());
+}
+
+std::vector<ErrorRun> measure_runs(const Flight& flight, ErrorMeter& meter,
+                                   const ErrorOptions& options,
+                                   const std::function<void(const std::string&)>& say) {
+  std::vector<Method> methods = all_methods(flight, options);
+  for (Method& method : methods) measure_errors(method, meter, options, say);
+  say("run times");
+  measure_times(methods, meter.size(), options);
+  std::vector<ErrorRun> runs;
+  for (Method& method : methods) {
+    for (Candidate& candidate : method) runs.push_back(std::move(candidate.run));
+  }
+  return runs;
+}
+
 ErrorStudy study_errors(const scenes::Scene& scene, const ErrorOptions& options,
                         const std::function<void(const std::string&)>& say) {
   ErrorStudy study;
@@ -226,22 +247,14 @@ ErrorStudy study_errors(const scenes::Scene& scene, const ErrorOptions& options,
   study.title = scene.title;
   say("what touches");
   study.flight = prepare_flight(scene, options.flight);
-  const sim::World& world = study.flight.world;
-  study.rest_radius =
-      world.soft.empty() ? 0.5 * world.rigid.front().size.norm() : rest_radius(world.soft.front());
+  study.rest_radius = radius_of_first_body(study.flight.world);
   for (const sim::SoftBody& body : study.flight.world.soft) study.vertices += body.positions.size();
   say("the reference");
   study.reference = make_reference(study.flight, options.steps_per_second.back());
   study.evaluation_time = measure_evaluation(study.flight.world);
 
   ErrorMeter meter(study.flight.world, study.reference.trajectory);
-  std::vector<Method> methods = all_methods(study.flight, options);
-  for (Method& method : methods) measure_errors(method, meter, options, say);
-  say("run times");
-  measure_times(methods, meter.size(), options);
-  for (Method& method : methods) {
-    for (Candidate& candidate : method) study.runs.push_back(std::move(candidate.run));
-  }
+  study.runs = measure_runs(study.flight, meter, options, say);
   return study;
 }
 

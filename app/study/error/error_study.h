@@ -51,6 +51,9 @@ struct ErrorRun {
   double step() const { return 1.0 / steps_per_second; }
 };
 
+/// The error of a run that conclusions are drawn from: of position, max. over time.
+inline double error_of(const ErrorRun& run) { return run.errors.greatest.position; }
+
 /// "stable", ...
 std::string_view to_string(ErrorRun::Status status);
 
@@ -67,6 +70,15 @@ struct ErrorStudy {
 
 /// Time of one evaluation of the forces on all soft bodies of a world, s, the min. of many.
 double measure_evaluation(const sim::World& world);
+
+/// m.
+double radius_of_first_body(const sim::World& world);
+
+/// Of every integrator, then of SUNDIALS where it knows the flight's equation; by the paper's
+/// method of its own integrator. Against the meter's reference.
+std::vector<ErrorRun> measure_runs(const Flight& flight, ErrorMeter& meter,
+                                   const ErrorOptions& options,
+                                   const std::function<void(const std::string&)>& say);
 
 /// Throws UsageError and DivergenceError (see flight.h, reference.h), scenes::SceneError and
 /// Interrupted. `say` is told what is being done.

@@ -99,6 +99,7 @@ std::string other_errors_table(const ErrorStudy& study) {
                {"centre", Align::right, greatest},
                {"energy", Align::right, greatest},
                {"momentum", Align::right, greatest},
+               {"angular\nmomentum", Align::right, greatest},
                {"position", Align::right, end},
                {"energy", Align::right, end}});
   const auto cell = [](double error) { return fmt::format("{:.1e}", error); };
@@ -111,8 +112,8 @@ std::string other_errors_table(const ErrorStudy& study) {
     if (std::exchange(last, name) == name) continue;
     const StateErrors& worst = run.errors.greatest;
     table.add_row({name, cell(worst.position), cell(worst.volume), cell(worst.centre),
-                   cell(worst.energy), cell(worst.momentum), cell(run.errors.end.position),
-                   cell(run.errors.end.energy)});
+                   cell(worst.energy), cell(worst.momentum), cell(worst.angular_momentum),
+                   cell(run.errors.end.position), cell(run.errors.end.energy)});
   }
   return last.empty() ? "" : table.text();
 }

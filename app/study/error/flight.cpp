@@ -73,24 +73,22 @@ void check(const scenes::Scene& scene, const sim::World& world) {
   }
 }
 
-/// Whether anything touches in the time. A run that diverges says nothing, and then what the scene
-/// has stays.
-bool touches(sim::World world, double seconds) {
+}  // namespace
+
+std::optional<double> first_contact(sim::World world, double seconds) {
   world.settings.integrator = sim::Integrator::rk4;
   world.settings.steps_per_second =
       std::max(world.settings.steps_per_second, looking_steps_per_second);
   sim::Stepper stepper(world);
   const bool by_potential = world.settings.contact == sim::ContactMethod::potential;
-  if (!by_potential && !stepper.plan().runs(sim::Stage::find_contacts)) return false;
+  if (!by_potential && !stepper.plan().runs(sim::Stage::find_contacts)) return std::nullopt;
   const auto steps = std::llround(seconds * world.settings.steps_per_second);
   for (std::int64_t i = 0; i < steps; ++i) {
     throw_if_interrupted();
-    if (stepper.step(world) || !stepper.contacts().empty()) return true;
+    if (stepper.step(world) || !stepper.contacts().empty()) return sim::time(world);
   }
-  return false;
+  return std::nullopt;
 }
-
-}  // namespace
 
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) {
   Flight flight;
@@ -107,8 +105,8 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
   }
   check(scene, flight.world);
   // Boxes alone turn by their own equation, which only the contact potential's solutions have.
-  const bool has_contacts =
-      !options.free_flight && (flight.world.soft.empty() || touches(flight.world, flight.seconds));
+  const bool has_contacts = !options.free_flight && (flight.world.soft.empty() ||
+                                                     first_contact(flight.world, flight.seconds));
   // Its search for contacts is no part of a free flight.
   if (!has_contacts && flight.world.settings.contact == sim::ContactMethod::potential) {
     flight.world.settings.contact = sim::ContactMethod::swept;

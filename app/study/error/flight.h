@@ -1,6 +1,7 @@
 // What of a scene an error study runs: which bodies, and whether anything touches.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "scenes/loader/scene.h"
@@ -22,6 +23,10 @@ struct Flight {
   double seconds = 0.0;     // a whole number of samples
   std::string description;  // "free flight (nothing touches in this time)"
 };
+
+/// s, when something first touches, if it does so in the time: by short steps of rk4. A run that
+/// diverges before is said to touch then.
+std::optional<double> first_contact(sim::World world, double seconds);
 
 /// Asked for or not, a world in which nothing touches in the time is in free flight. Throws
 /// UsageError for a body that is not there, when nothing is left that could have an error, for a

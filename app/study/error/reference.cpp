@@ -9,7 +9,6 @@
 #include "app/host/errors.h"
 #include "app/host/interrupt.h"
 #include "app/study/error/error_meter.h"
-#include "app/study/error/solver.h"
 
 namespace pneuma::app {
 namespace {
@@ -25,16 +24,6 @@ constexpr double contact_agreement = 1e-3;
 constexpr double potential_agreement = 1e-5;
 constexpr double potential_tolerance = 1e-11;
 constexpr double potential_check_tolerance = 1e-10;
-
-/// As many samples as it gets.
-Trajectory follow(Solver& solver, std::size_t samples) {
-  Trajectory trajectory;
-  while (trajectory.size() < samples && solver.advance(trajectory.size())) {
-    throw_if_interrupted();
-    trajectory.push_back(solver.sample());
-  }
-  return trajectory;
-}
 
 /// Two runs that should be the same, the better one first.
 struct Runs {
@@ -62,8 +51,8 @@ bool is_by_potential(const Flight& flight) {
 }
 
 Runs potential_runs(const Flight& flight) {
-  return {make_peer_solver(flight.world, SundialsMethod::cvode_adams, potential_tolerance),
-          make_peer_solver(flight.world, SundialsMethod::cvode_adams, potential_check_tolerance),
+  return {make_contact_reference_solver(flight.world, potential_tolerance),
+          make_contact_reference_solver(flight.world, potential_check_tolerance),
           potential_agreement};
 }
 
@@ -110,6 +99,15 @@ std::string nothing_known(const Runs& runs) {
 }
 
 }  // namespace
+
+Trajectory follow(Solver& solver, std::size_t samples) {
+  Trajectory trajectory;
+  while (trajectory.size() < samples && solver.advance(trajectory.size())) {
+    throw_if_interrupted();
+    trajectory.push_back(solver.sample());
+  }
+  return trajectory;
+}
 
 Reference make_reference(const Flight& flight, int finest_steps_per_second) {
   const auto samples = static_cast<std::size_t>(std::lround(flight.seconds * samples_per_second));

@@ -5,6 +5,7 @@
 
 #include "app/study/error/flight.h"
 #include "app/study/error/samples.h"
+#include "app/study/error/solver.h"
 
 namespace pneuma::app {
 
@@ -15,6 +16,9 @@ struct Reference {
   std::string method;        // "CVODE's Adams method at tolerance 1e-12 ..."
   std::string limit;         // why it is known no longer than that; empty when it is all the time
 };
+
+/// As many samples as it gets, at most so many. Throws Interrupted.
+Trajectory follow(Solver& solver, std::size_t samples);
 
 /// In free flight: CVODE at tolerance 1e-12 on the equation written down again, as far as a run at
 /// 1e-13 agrees with it within 1e-9. With contacts, whose motion is not smooth: our own rk4 at

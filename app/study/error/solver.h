@@ -42,6 +42,10 @@ std::unique_ptr<Solver> make_stepper_solver(sim::World world, bool contacts);
 std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod method,
                                          double tolerance);
 
+/// CVODE's Adams method on the right-hand side of a world whose contacts are a potential. Its steps
+/// cross nothing: a state beyond a crossing has no meaning to it, and it tries a shorter step.
+std::unique_ptr<Solver> make_contact_reference_solver(const sim::World& world, double tolerance);
+
 /// CVODE's Adams method on the equation written down again.
 std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double tolerance);
 

@@ -129,7 +129,11 @@ struct Sundials::Memory {
   void set_up_arkode(int order);
   static int evaluate(sunrealtype time, N_Vector state, N_Vector derivative, void* memory);
 
+  bool advance_step_by_step(double time);
+
   RightHandSide right_hand_side;
+  StepDone step_done;
+  double reached = 0.0;        // s, by the last step, if each is told of
   std::vector<double> values;  // where `state` keeps its numbers
   SUNContext context = nullptr;
   N_Vector state = nullptr;
@@ -200,14 +204,25 @@ Sundials::~Sundials() = default;
 Sundials::Sundials(Sundials&&) noexcept = default;
 Sundials& Sundials::operator=(Sundials&&) noexcept = default;
 
+void Sundials::set_step_done(StepDone step_done) { memory_->step_done = std::move(step_done); }
+
+bool Sundials::Memory::advance_step_by_step(double time) {
+  while (reached < time) {
+    if (CVode(solver, time, state, &reached, CV_ONE_STEP) < 0) return false;
+    step_done(values.data());
+  }
+  return CVodeGetDky(solver, time, 0, state) >= 0;
+}
+
 bool Sundials::advance_to(double time) {
   sunrealtype reached = 0.0;
-  const Memory& m = *memory_;
+  Memory& m = *memory_;
   if (m.is_arkode) {
     // Its interpolation is of an order below that of the method.
     require(stop_arkode_at(m.solver, time), "SetStopTime");
     return evolve_arkode(m.solver, time, m.state, &reached, ARK_NORMAL) >= 0;
   }
+  if (m.step_done) return m.advance_step_by_step(time);
   return CVode(m.solver, time, m.state, &reached, CV_NORMAL) >= 0;
 }
 

@@ -48,6 +48,10 @@ class Sundials {
   Sundials(Sundials&&) noexcept;
   Sundials& operator=(Sundials&&) noexcept;
 
+  /// CVODE calls it with each state that it accepts, at steps of its own choice.
+  using StepDone = std::function<void(const double* state)>;
+  void set_step_done(StepDone step_done);
+
   /// To `time` (s), beyond all times before, with steps of the method's own choice; CVODE
   /// interpolates between them, ARKODE ends one there. False when it gave up.
   [[nodiscard]] bool advance_to(double time);

@@ -64,13 +64,20 @@ class FastEquation {
   std::size_t values_ = 0;                    // of all positions
 };
 
+/// What a state means that lies beyond a crossing, seen from where the last step ended.
+enum class Beyond {
+  as_any_other,  // as solvers have it that know nothing of contacts
+  nothing,
+};
+
 /// The same of a world in which contact is a potential. What is static stays where it is. Numbers
 /// are those of the soft bodies and then nine of each free box (sim/potential/box_coordinates.h),
 /// positions before velocities.
 class ContactEquation {
  public:
-  explicit ContactEquation(const sim::World& world)
+  ContactEquation(const sim::World& world, Beyond beyond)
       : world_(world),
+        beyond_(beyond),
         surfaces_(world_),
         equation_(world_, surfaces_, sim::BoxCoordinates::Form::quaternion),
         positions_(surfaces_.vertex_count()),
@@ -111,12 +118,15 @@ class ContactEquation {
 
   bool operator()(const double* state, double* derivative) {
     std::copy(state + values(), state + 2 * values(), derivative);
-    read(state, positions_);
-    read(state + values(), velocities_);
-    if (!(equation_(positions_, velocities_, acceleration_) > 0.0)) return false;
-    if (!std::isfinite(acceleration_.rows().sum())) return false;
+    if (!evaluate(state)) return false;
     write(acceleration_, derivative + values());
     return true;
+  }
+
+  /// A step has ended. One that ends beyond a crossing all the same is the last one.
+  void end_step(const double* state) {
+    has_crossed_ |= !evaluate(state);
+    last_ = equation_.vertices(positions_);
   }
 
   /// The bodies of a world of the same bodies.
@@ -143,6 +153,23 @@ class ContactEquation {
   };
   static constexpr int columns_of_box = 3;
 
+  bool evaluate(const double* state) {
+    read(state, positions_);
+    read(state + values(), velocities_);
+    if (has_crossed_ || !(equation_(positions_, velocities_, acceleration_) > 0.0)) return false;
+    if (!std::isfinite(acceleration_.rows().sum())) return false;
+    return beyond_ == Beyond::as_any_other || is_before_crossing();
+  }
+
+  /// Whether nothing crosses on straight ways from where the last step ended to the last
+  /// evaluation.
+  bool is_before_crossing() {
+    const sim::VertexArray& vertices = equation_.vertices(positions_);
+    if (last_.size() == 0) return true;
+    const auto& pairs = equation_.pairs_between(last_, vertices);
+    return !sim::limit_ways(surfaces_, pairs, last_, vertices, 0.0).is_limited;
+  }
+
   std::ptrdiff_t values() const { return std::ptrdiff_t{3} * count_; }
 
   void read(const double* from, sim::VertexArray& to) const {
@@ -159,9 +186,12 @@ class ContactEquation {
   }
 
   sim::World world_;
+  Beyond beyond_;
   sim::ContactSurfaces surfaces_;
   sim::WorldAcceleration equation_;
   sim::VertexArray positions_, velocities_, acceleration_;
+  sim::VertexArray last_;  // m, of all vertices, where the last step ended
+  bool has_crossed_ = false;
   std::vector<Part> parts_;
   std::vector<sim::RigidState> boxes_;  // of the free ones
   std::vector<int> free_;               // which these are
@@ -233,24 +263,30 @@ void read_soft(std::span<const double> state, sim::World& world) {
   read_flat_state(state, world.soft);
 }
 
+// std::function wants to be able to copy.
+std::unique_ptr<Solver> make_contact_solver(const sim::World& world, SundialsMethod method,
+                                            double tolerance, Beyond beyond) {
+  const auto equation = std::make_shared<ContactEquation>(world, beyond);
+  const auto evaluate = [equation](const double* state, double* derivative) {
+    return (*equation)(state, derivative);
+  };
+  const auto read = [equation](std::span<const double> state, sim::World& into) {
+    equation->set(state.data(), into);
+  };
+  Sundials solver(method, evaluate, equation->start(),
+                  {0.0, absolute_tolerances(world, tolerance, frequency)});
+  if (beyond == Beyond::nothing) {
+    solver.set_step_done([equation](const double* state) { equation->end_step(state); });
+  }
+  return std::make_unique<SundialsSolver>(world, std::move(solver), read);
+}
+
 }  // namespace
 
 std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod method,
                                          double tolerance) {
-  // std::function wants to be able to copy.
   if (world.settings.contact == sim::ContactMethod::potential) {
-    const auto equation = std::make_shared<ContactEquation>(world);
-    const auto evaluate = [equation](const double* state, double* derivative) {
-      return (*equation)(state, derivative);
-    };
-    const auto read = [equation](std::span<const double> state, sim::World& into) {
-      equation->set(state.data(), into);
-    };
-    return std::make_unique<SundialsSolver>(
-        world,
-        Sundials(method, evaluate, equation->start(),
-                 {0.0, absolute_tolerances(world, tolerance, frequency)}),
-        read);
+    return make_contact_solver(world, method, tolerance, Beyond::as_any_other);
   }
   const auto equation = std::make_shared<FastEquation>(world.soft, world.settings.gravity);
   const auto evaluate = [equation](const double* state, double* derivative) {
@@ -261,6 +297,10 @@ std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod
       Sundials(method, evaluate, flat_state(world.soft),
                {0.0, absolute_tolerances(world, tolerance, frequency)}),
       read_soft);
+}
+
+std::unique_ptr<Solver> make_contact_reference_solver(const sim::World& world, double tolerance) {
+  return make_contact_solver(world, SundialsMethod::cvode_adams, tolerance, Beyond::nothing);
 }
 
 std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double tolerance) {

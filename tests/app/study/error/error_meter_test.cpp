@@ -52,8 +52,27 @@ TEST(ErrorMeter, MeasuresAShift) {
   EXPECT_NEAR(found.centre, 0.5 / 3.0, rounding);
   EXPECT_NEAR(found.volume, 0.0, rounding);
   EXPECT_NEAR(found.momentum, 0.0, rounding);
+  EXPECT_NEAR(found.angular_momentum, 0.5 / 3.0, rounding);  // (0, 0.3, 0.4) m across its way
   // m g 0.4 m over m/2 (2 m/s)^2.
   EXPECT_NEAR(found.energy, 10.0 * 0.4 / 2.0, rounding);
+}
+
+TEST(ErrorMeter, MeasuresASpinAboutTheCentre) {
+  sim::World world = moving_sphere();
+  for (int v = 0; v < 58; ++v) world.soft[0].positions[v] += Vec3(40.0, 0.0, 0.0);
+  sim::World spinning = world;
+  sim::SoftBody& body = spinning.soft[0];
+  const Vec3 spin(0.0, 0.0, 1.5), centre = sim::mean(body.positions);
+  Vec3 angular = Vec3::Zero();
+  for (int v = 0; v < 58; ++v) {
+    const Vec3 arm = body.positions[v] - centre, faster = spin.cross(arm);
+    body.velocities[v] += faster;
+    angular += arm.cross(faster);
+  }
+  const StateErrors found = errors(world, spinning);
+  EXPECT_NEAR(found.momentum, 0.0, rounding);
+  // Of equal vertices at 2 m/s, whose mass goes out.
+  EXPECT_NEAR(found.angular_momentum, angular.norm() / (58.0 * 2.0 * 3.0), 1e-10);
 }
 
 TEST(ErrorMeter, TakesTheRootMeanSquareOverVertices) {
