@@ -154,33 +154,28 @@ const std::vector<ContactPair>& WorldAcceleration::pairs_between(const VertexArr
 }
 
 /// 1/kg, of a force between the sides of a contact along its normal.
-double WorldAcceleration::mobility_of_boxes(const ActiveContact& contact,
-                                            const WorldState& state) const {
+double WorldAcceleration::mobility_of_boxes(const ActiveContact& contact) const {
   double mobility = 0.0;
-  for (std::size_t b = 0; b < boxes_.size(); ++b) {
-    const Box& box = boxes_[b];
+  for (const Box& box : boxes_) {
     if (box.surface != contact.first && box.surface != contact.second) continue;
     Vec6 force = Vec6::Zero();
     for (int i = 0; i < contact.count; ++i) {
       const int vertex = contact.vertices[at(i)];
       if (!box.frame.has(vertex)) continue;
-      const Vec3 arm = state.positions[vertex] - state.boxes[b].position;
+      const Vec3 arm = corners_[vertex] - box.state.position;
       const Vec3 part = contact.point.weights[at(i)] * contact.point.normal();
       force.head<3>() += part;
       force.tail<3>() += arm.cross(part);
     }
-    mobility += box.coordinates.mobility(state.boxes[b], force);
+    mobility += box.coordinates.mobility(box.state, force);
   }
   return mobility;
 }
 
-double WorldAcceleration::contact_stiffness(const WorldState& state, double step) const {
-  const VertexArray& positions = state.positions;
-  if (!covers(positions)) search(positions);
-  find_active(surfaces_, positions, pairs_, active_);
+double WorldAcceleration::contact_stiffness(double step) const {
   double most = 0.0;
   for (const ActiveContact& contact : active_) {
-    double mobility = boxes_.empty() ? 0.0 : mobility_of_boxes(contact, state);  // 1/kg
+    double mobility = boxes_.empty() ? 0.0 : mobility_of_boxes(contact);  // 1/kg
     for (int i = 0; i < contact.count; ++i) {
       const double weight = contact.point.weights[at(i)];
       mobility += weight * weight * inverse_mass_[at(contact.vertices[at(i)])];
@@ -189,6 +184,44 @@ double WorldAcceleration::contact_stiffness(const WorldState& state, double step
   }
   return most;
 }
+
+/// The equation as the stages of a step evaluate it, and what they meet: a stage that lies beyond a
+/// crossing, or so deep in a barrier that the step cannot follow it, makes the whole step worthless
+/// even if it ends well.
+class WatchedStages {
+ public:
+  WatchedStages(const ContactSurfaces& surfaces, const WorldAcceleration& acceleration,
+                const VertexArray& start, double step, ExplicitWorldReport& report)
+      : surfaces_(surfaces),
+        acceleration_(acceleration),
+        start_(start),
+        step_(step),
+        report_(report) {}
+
+  double operator()(const VertexArray& positions, const VertexArray& velocities,
+                    VertexArray& result) const {
+    const double volume = acceleration_(positions, velocities, result);
+    report_.is_too_stiff |= acceleration_.contact_stiffness(step_) > max_contact_stiffness;
+    const VertexArray& reached = acceleration_.vertices(positions);
+    if (std::isfinite(reached.rows().sum())) limit_way(reached, 0.0);
+    return volume;
+  }
+
+  /// Of the straight ways from the start of the step.
+  void limit_way(const VertexArray& reached, double kept) const {
+    if (report_.limit.is_limited) return;
+    const std::vector<ContactPair>& pairs = acceleration_.pairs_between(start_, reached);
+    report_.limit = limit_ways(surfaces_, pairs, start_, reached, kept);
+    if (report_.limit.pair >= 0) report_.limiting_pair = pairs[at(report_.limit.pair)];
+  }
+
+ private:
+  const ContactSurfaces& surfaces_;
+  const WorldAcceleration& acceleration_;
+  const VertexArray& start_;
+  double step_;
+  ExplicitWorldReport& report_;
+};
 
 ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
     : surfaces_(surfaces),
@@ -204,15 +237,12 @@ ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState
   const double speed = std::sqrt(start.velocities.rows().colwise().squaredNorm().maxCoeff());
   acceleration_.set_margin(std::max(reaches_around * reach, ways_around * h * speed));
   ExplicitWorldReport report;
-  if (acceleration_.contact_stiffness(start, h) > max_contact_stiffness) {
-    report.is_too_stiff = true;
-    return report;
-  }
   start_.positions.rows() = start.positions.rows();
   start_.velocities.rows() = start.velocities.rows();
   acceleration_.start_boxes(start.boxes, start_.positions, start_.velocities);
-  report.min_volume = explicit_step(world.settings.integrator, acceleration_, h, start_,
-                                    end.positions, end.velocities, scratch_);
+  const WatchedStages stages(surfaces_, acceleration_, start.positions, h, report);
+  report.min_volume = explicit_step(world.settings.integrator, stages, h, start_, end.positions,
+                                    end.velocities, scratch_);
   acceleration_.end_boxes(end.positions, end.velocities, end.boxes);
   for (int v = 0; v < end.positions.size(); ++v) {
     if (surfaces_.is_mobile(v)) continue;
@@ -222,11 +252,7 @@ ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState
   if (!std::isfinite(end.positions.rows().sum())) return report;
   report.fast_box = find_fast_box(start.boxes, end.boxes, h);
   if (report.fast_box >= 0) return report;
-  const std::vector<ContactPair>& pairs =
-      acceleration_.pairs_between(start.positions, end.positions);
-  report.limit =
-      limit_ways(surfaces_, pairs, start.positions, end.positions, kept_by_explicit_step);
-  if (report.limit.pair >= 0) report.limiting_pair = pairs[at(report.limit.pair)];
+  stages.limit_way(end.positions, kept_by_explicit_step);
   return report;
 }
 

@@ -45,8 +45,8 @@ class WorldAcceleration {
   /// All pairs that may meet on straight ways of all vertices, those of boxes included.
   const std::vector<ContactPair>& pairs_between(const VertexArray& from,
                                                 const VertexArray& to) const;
-  /// The greatest of h^2 K / m over the contacts of a state, K their stiffness.
-  double contact_stiffness(const WorldState& state, double step) const;
+  /// The greatest of h^2 K / m over the contacts of the last evaluation, K their stiffness.
+  double contact_stiffness(double step) const;
 
  private:
   struct Body {
@@ -66,7 +66,7 @@ class WorldAcceleration {
   bool covers(const VertexArray& positions) const;
   void search(const VertexArray& positions) const;
   void place_boxes(const VertexArray& positions, const VertexArray& velocities) const;
-  double mobility_of_boxes(const ActiveContact& contact, const WorldState& state) const;
+  double mobility_of_boxes(const ActiveContact& contact) const;
 
   const ContactSurfaces& surfaces_;
   std::vector<AccelerationScratch> scratch_;
@@ -85,9 +85,9 @@ class WorldAcceleration {
 
 struct ExplicitWorldReport {
   double min_volume = 1.0;  // m^3, as explicit_step reports it
-  WayLimit limit;           // a pair that came too near, or met, on straight ways
+  WayLimit limit;  // a pair that came too near, or met, on straight ways to the end or to a stage
   ContactPair limiting_pair;
-  bool is_too_stiff = false;  // a contact, for the step
+  bool is_too_stiff = false;  // a contact of a stage, for the step
   int fast_box = -1;          // of the free ones, one that turns too far in the step
 };
 

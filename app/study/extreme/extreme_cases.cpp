@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace pneuma::app {
@@ -214,6 +216,7 @@ std::vector<ExtremeCase> extreme_cases() {
   add_motions(cases);
   add_starts(cases);
   add_crowds(cases);
+  std::ranges::move(impact_cases(), std::back_inserter(cases));
   return cases;
 }
 

@@ -21,9 +21,16 @@ enum class ExtremeStart {
   one_point,   // all vertices of a body in one place
 };
 
+/// What no look at a run may find.
+enum class Crossing {
+  looked_for_nowhere,
+  of_two_bodies,
+  of_any_surface,  // with another's or itself
+};
+
 struct ExtremeCase {
-  std::string name;
-  std::string scene;  // TOML
+  std::string name = {};
+  std::string scene = {};  // TOML
   double seconds = 10.0;
   // What an explicit integrator may come to: one outcome, or two where its step decides.
   std::vector<Outcome> explicit_outcomes = {Outcome::valid};
@@ -36,8 +43,11 @@ struct ExtremeCase {
   // Energy above the start that is no fault, of the span of energy in the run: rounding, and what
   // contacts make that set a vertex back onto the ground by what it sank in one step (3.1.4).
   double energy_tolerance = 1e-3;
+  Crossing may_not_cross = Crossing::looked_for_nowhere;
 };
 
 std::vector<ExtremeCase> extreme_cases();
+/// Those of contact among them.
+std::vector<ExtremeCase> impact_cases();
 
 }  // namespace pneuma::app

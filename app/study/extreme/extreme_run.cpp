@@ -12,6 +12,7 @@
 #include "app/world/simulation.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/enum_name.h"
+#include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
@@ -74,7 +75,8 @@ double fastest(const sim::World& world) {
 /// Looks at a world now and then while it runs.
 class Watch {
  public:
-  Watch(const sim::World& world, ExtremeResult& result) : result_(result) {
+  Watch(const sim::World& world, Crossing may_not_cross, ExtremeResult& result)
+      : may_not_cross_(may_not_cross), result_(result) {
     start_energy_ = least_energy_ = greatest_energy_ = sim::energy(world).total();
     for (const sim::SoftBody& body : world.soft) start_volumes_.push_back(volume_of(body));
   }
@@ -92,6 +94,7 @@ class Watch {
       if (!(volume > 0.0)) return fail("a volume is not above zero");
       result_.least_volume_share = std::min(result_.least_volume_share, volume / start_volumes_[i]);
     }
+    if (may_not_cross_ != Crossing::looked_for_nowhere) look_for_crossings(world);
     if (penetration_counts) {
       result_.penetration = std::max(result_.penetration, sim::max_penetration(world));
     }
@@ -109,11 +112,20 @@ class Watch {
   }
 
  private:
+  void look_for_crossings(const sim::World& world) {
+    const sim::Crossings found = sim::crossings(world);
+    if (found.between_bodies > 0) return fail("bodies pass through each other");
+    if (may_not_cross_ == Crossing::of_any_surface && found.within_bodies > 0) {
+      return fail("a body passes through itself");
+    }
+  }
+
   void fail(const std::string& why) {
     result_.valid = false;
     if (result_.message.empty()) result_.message = why;
   }
 
+  Crossing may_not_cross_;
   ExtremeResult& result_;
   double start_energy_ = 0.0, least_energy_ = 0.0, greatest_energy_ = 0.0;
   std::vector<double> start_volumes_;
@@ -127,7 +139,7 @@ void run(const ExtremeCase& extreme, const scenes::Scene& scene, sim::World& wor
   const auto steps =
       static_cast<std::int64_t>(std::llround(extreme.seconds * world.settings.steps_per_second));
   sim::Stepper stepper(world);
-  Watch watch(world, result);
+  Watch watch(world, extreme.may_not_cross, result);
   while (world.steps < steps) {
     throw_if_interrupted();
     if (const auto divergence = stepper.step(world)) {
