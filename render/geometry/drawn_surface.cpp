@@ -81,6 +81,13 @@ Eigen::Vector4f material(const Vec3f& colour, float roughness) {
   return {colour.x(), colour.y(), colour.z(), roughness};
 }
 
+/// m before the eye.
+float middle_depth(const Mesh& mesh, const View& view) {
+  Vec3f sum = Vec3f::Zero();
+  for (const Vec3f& position : mesh.positions) sum += position;
+  return depth(view, sum / static_cast<float>(mesh.positions.size()));
+}
+
 }  // namespace
 
 void DrawnSurface::build(const Frame& frame, const View& view) {
@@ -92,20 +99,31 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   vertices_.clear();
   triangles_.clear();
   places_.clear();
+  meshes_.clear();
   for (const Mesh& mesh : frame.meshes) {
+    const std::size_t first = triangles_.size();
     mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
+    meshes_.push_back({middle_depth(mesh, view), first, triangles_.size()});
   }
-  put_sunward_first(view.to_light);
+  order_triangles(view);
 }
 
-void DrawnSurface::put_sunward_first(const Vec3f& to_light) {
+void DrawnSurface::order_triangles(const View& view) {
   const auto is_sunward = [&](const Triangle& triangle) {
     return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
-      return vertices_[vertex].normal.dot(to_light) > 0.0f;
+      return vertices_[vertex].normal.dot(view.to_light) > 0.0f;
     });
   };
-  const auto averted = std::partition(triangles_.begin(), triangles_.end(), is_sunward);
-  sunward_count_ = static_cast<std::size_t>(averted - triangles_.begin());
+  std::ranges::stable_sort(meshes_, {}, &MeshTriangles::depth);
+  sunward_.clear();
+  averted_.clear();
+  for (const MeshTriangles& mesh : meshes_) {
+    for (std::size_t i = mesh.first; i < mesh.end; ++i) {
+      (is_sunward(triangles_[i]) ? sunward_ : averted_).push_back(triangles_[i]);
+    }
+  }
+  sunward_count_ = sunward_.size();
+  std::ranges::copy(averted_, std::ranges::copy(sunward_, triangles_.begin()).out);
 }
 
 void DrawnSurface::add_lit_mesh(const Mesh& mesh, std::size_t count) {

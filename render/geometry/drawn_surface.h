@@ -38,7 +38,8 @@ class DrawnSurface {
   const std::vector<Vec3f>& normals() const { return normals_; }
 
   const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
-  /// First those that the sun may reach, then those that are turned away from it.
+  /// First those that the sun may reach, then those that are turned away from it; of both, first
+  /// those of the nearest mesh, which hide others before these are shaded.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::size_t sunward_count() const { return sunward_count_; }
   /// Per drawn vertex the first of its mesh at the same point: itself where the mesh is smooth.
@@ -57,6 +58,11 @@ class DrawnSurface {
     std::vector<Triangle> corners;       // lit vertices, per triangle
     std::vector<std::uint32_t> sources;  // per lit vertex: the mesh's
   };
+  struct MeshTriangles {
+    float depth;  // m before the eye, of the mesh's middle
+    std::size_t first;
+    std::size_t end;
+  };
   using Key = std::weak_ptr<const MeshShape>;
 
   static void share_corners(const MeshShape& shape, Shape& made);
@@ -66,7 +72,7 @@ class DrawnSurface {
   void add_lit_mesh(const Mesh& mesh, std::size_t count);
   void add_corner_normals(const Mesh& mesh, const Shape& shape);
   void append(const Refinement& refinement);
-  void put_sunward_first(const Vec3f& to_light);
+  void order_triangles(const View& view);
 
   // Ordered by owner: a new shape at a dead one's address is another one.
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
@@ -77,6 +83,8 @@ class DrawnSurface {
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;
   std::size_t sunward_count_ = 0;
+  std::vector<MeshTriangles> meshes_;
+  std::vector<Triangle> sunward_, averted_;
   std::vector<std::uint32_t> places_;
 };
 
