@@ -144,12 +144,16 @@ void Renderer::draw(const Frame& frame, Image& image) {
 
   r.target.begin();
   r.scenery.draw(view, frame.ground, r.ground_plane);
-  if (ground_shadow) r.ground_plane.darken(view, r.ground_shadow);
+  const bool hides = ground_hides(frame, view);
+  // Surfaces in one layer with the ground come first: it is not darkened where they hide it.
+  const bool surfaces_first = r.options.samples == 1 && !hides;
+  if (ground_shadow && !surfaces_first) r.ground_plane.darken(view, r.ground_shadow, false);
 
   r.layer.begin(frame, view, r.surface.vertices());
-  if (ground_hides(frame, view)) r.ground_plane.hide_below(view);
+  if (hides) r.ground_plane.hide_below(view);
   const ShadowMap* shadow = shadows ? &r.shadow_map : nullptr;
   r.surfaces.draw(view, r.surface_buffers, shadow, frame.wireframe);
+  if (ground_shadow && surfaces_first) r.ground_plane.darken(view, r.ground_shadow, true);
   // Several samples smooth outlines by themselves.
   if (r.options.samples == 1) r.outlines.draw(view, r.surface, r.drawn, shadow);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);

@@ -65,6 +65,9 @@ void main() {
   from_centre = (position - centre) / radius;
   in_map = (world_to_map * world).xy;
   gl_Position = view_projection * world;
+#ifdef FARTHEST
+  gl_Position.z = gl_Position.w;
+#endif
 }
 )";
 
@@ -144,7 +147,7 @@ GroundPlane::GroundPlane()
       colour_centre_(colour_.uniform("centre")),
       colour_radius_(colour_.uniform("radius")),
       colour_line_width_(colour_.uniform("line_width")),
-      shadow_("shadow on the ground", "", shadow_vertex_source,
+      shadow_("shadow on the ground", "#define FARTHEST\n", shadow_vertex_source,
               std::string(ground_nearness) + shadow_fragment_source),
       shadow_view_projection_(shadow_.uniform("view_projection")),
       shadow_world_to_map_(shadow_.uniform("world_to_map")),
@@ -182,11 +185,17 @@ void GroundPlane::draw(const View& view, const Ground& ground) {
   draw_triangles(whole_ground(view));
 }
 
-void GroundPlane::darken(const View& view, const GroundShadow& shadow) {
+void GroundPlane::darken(const View& view, const GroundShadow& shadow, bool surfaces_drawn) {
   if (view.eye.z() <= 0.0f) return;
   glEnable(GL_BLEND);
   glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-  glDisable(GL_DEPTH_TEST);
+  if (surfaces_drawn) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
   shadow_.use();
   set_uniform(shadow_view_projection_, view.view_projection);
   set_uniform(shadow_world_to_map_, shadow.world_to_picture());

@@ -15,8 +15,9 @@ class GroundPlane {
   /// Its colour without shadows, over all that is there.
   void draw(const View& view, const Ground& ground);
 
-  /// Darkens what draw() has drawn where light is blocked.
-  void darken(const View& view, const GroundShadow& shadow);
+  /// Darkens what draw() has drawn where light is blocked: where no surface is, if these are
+  /// drawn already, with their depths.
+  void darken(const View& view, const GroundShadow& shadow, bool surfaces_drawn);
 
   /// Its depth alone, so that what lies below is not drawn.
   void hide_below(const View& view);

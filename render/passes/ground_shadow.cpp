@@ -341,17 +341,24 @@ void GroundShadow::find_dark_cells() {
 
 bool GroundShadow::is_dark(int column, int row) const {
   constexpr int side = size / cells;
-  constexpr std::array<std::uint8_t, 4> light = {255, 255, 255, 255};
   // What is read between texels also comes from the nearest one outside, and what is read beyond
   // the border from there.
   const auto begin = [](int cell) { return std::clamp(cell * side - 1, 0, size - 1); };
   const auto end = [](int cell) { return std::clamp((cell + 1) * side + 1, 1, size); };
+  std::uint8_t least = 255;
   for (int y = begin(row); y < end(row); ++y) {
     for (int x = begin(column); x < end(column); ++x) {
-      if (bytes_[static_cast<std::size_t>(y * size + x)] != light) return true;
+      const auto& left = bytes_[static_cast<std::size_t>(y * size + x)];
+      least = std::min({least, left[0], left[1], left[2]});
     }
   }
-  return false;
+  // The cell's point nearest to the picture: its far side where it lies before it.
+  const auto near_side = [](int cell) {
+    return static_cast<float>(cell < 0 ? cell + 1 : cell) / static_cast<float>(cells);
+  };
+  // Less than half a step of eight bits is none.
+  return fraction_beyond({near_side(column), near_side(row)}) * static_cast<float>(255 - least) >=
+         0.5f;
 }
 
 void GroundShadow::bind(GLuint unit) const {
