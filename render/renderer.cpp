@@ -39,16 +39,16 @@ const RenderOptions& check_options(const RenderOptions& options) {
   return options;
 }
 
-/// Whether the ground hides anything that would be seen without it. What stands on it is never
-/// behind it, or sinks in by far less than a pixel; but lines and discs are wider than what they
-/// stand for.
-bool ground_hides(const Frame& frame, const View& view) {
+/// Whether the ground hides anything that would be seen without it, of surfaces drawn in a box.
+/// What stands on the ground is drawn above it, or sinks in by far less than a pixel; but lines and
+/// discs are wider than what they stand for.
+bool ground_hides(const Frame& frame, const View& view, const Box& drawn) {
   if (!frame.ground) return false;
   if (frame.wireframe || !frame.points.empty() || !frame.lines.empty()) return true;
-  if (view.casters.empty()) return false;
+  if (drawn.empty()) return false;
   const float pixel =
       2.0f * view.nearest / (view.projection(1, 1) * static_cast<float>(view.height));
-  return view.casters.min.z() < -0.1f * pixel;
+  return drawn.min.z() < -0.1f * pixel;
 }
 
 }  // namespace
@@ -133,7 +133,12 @@ void Renderer::draw(const Frame& frame, Image& image) {
   glDisable(GL_SCISSOR_TEST);  // which a frame that failed half way may have left
   View view = make_view(frame, r.options.width, r.options.height);
   r.surface.build(frame, view);
-  for (const SurfaceVertex& vertex : r.surface.vertices()) view.casters.grow(vertex.position);
+  Box drawn;
+  for (const SurfaceVertex& vertex : r.surface.vertices()) drawn.grow(vertex.position);
+  if (!drawn.empty()) {
+    view.casters.grow(drawn.min);
+    view.casters.grow(drawn.max);
+  }
   r.surface_buffers.upload(r.surface);
 
   const bool shadows = frame.light.shadows && !view.casters.empty();
@@ -144,7 +149,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
 
   r.target.begin();
   r.scenery.draw(view, frame.ground, r.ground_plane);
-  const bool hides = ground_hides(frame, view);
+  const bool hides = ground_hides(frame, view, drawn);
   // Surfaces in one layer with the ground come first: it is not darkened where they hide it.
   const bool surfaces_first = r.options.samples == 1 && !hides;
   if (ground_shadow && !surfaces_first) r.ground_plane.darken(view, r.ground_shadow, false);
