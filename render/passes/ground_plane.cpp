@@ -1,5 +1,7 @@
 #include "render/passes/ground_plane.h"
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -123,16 +125,43 @@ Vertices whole_ground(const View& view) {
   return vertices;
 }
 
+/// Columns and rows, up to those before `right` and `high`.
+struct CellRange {
+  int left = 0, low = 0, right = 0, high = 0;
+
+  std::size_t count() const {
+    return static_cast<std::size_t>(right - left) * static_cast<std::size_t>(high - low);
+  }
+};
+
+/// Around all of these, which are in rows from low to high.
+CellRange range_of(const std::vector<std::array<int, 2>>& cells) {
+  if (cells.empty()) return {};
+  CellRange range = {cells[0][0], cells.front()[1], cells[0][0] + 1, cells.back()[1] + 1};
+  for (const auto& [column, row] : cells) {
+    range.left = std::min(range.left, column);
+    range.right = std::max(range.right, column + 1);
+  }
+  return range;
+}
+
 Vertices dark_ground(const GroundShadow& shadow) {
   const auto corner = [&](int column, int row) {
     constexpr float cells = GroundShadow::cells;
     return shadow.on_ground(static_cast<float>(column) / cells, static_cast<float>(row) / cells);
   };
   Vertices vertices;
-  for (const auto& [column, row] : shadow.dark_cells()) {
-    add_quadrangle(vertices, corner(column, row), corner(column + 1, row), corner(column, row + 1),
-                   corner(column + 1, row + 1));
+  const auto add = [&](int left, int low, int right, int high) {
+    add_quadrangle(vertices, corner(left, low), corner(right, low), corner(left, high),
+                   corner(right, high));
+  };
+  // Two large triangles take less than many small ones with few light cells among them.
+  const CellRange range = range_of(shadow.dark_cells());
+  if (4 * shadow.dark_cells().size() > 3 * range.count()) {
+    add(range.left, range.low, range.right, range.high);
+    return vertices;
   }
+  for (const auto& [column, row] : shadow.dark_cells()) add(column, row, column + 1, row + 1);
   return vertices;
 }
 
