@@ -7,6 +7,7 @@
 #include "render/context/context.h"
 #include "render/frame/check_frame.h"
 #include "render/geometry/drawn_surface.h"
+#include "render/light/box_contacts.h"
 #include "render/light/indirect.h"
 #include "render/passes/discs.h"
 #include "render/passes/ground_plane.h"
@@ -71,7 +72,7 @@ struct Renderer::Resources {
 
   void draw_shadows(const Frame& frame, const View& view, bool on_ground);
   /// After draw_shadows, if there are any.
-  void light_surface(bool between_bodies, bool on_ground);
+  void light_surface(const Frame& frame, const View& view, bool between_bodies, bool on_ground);
 
   RenderOptions options;
   Context context;  // before all that lives in it
@@ -81,6 +82,7 @@ struct Renderer::Resources {
   DrawnSurface surface;
   SurfaceBuffers surface_buffers;
   IndirectLighting indirect;
+  BoxContacts box_contacts;
   std::vector<IndirectLight> lit;    // per lit vertex
   std::vector<IndirectLight> drawn;  // per drawn vertex
   ShadowMap shadow_map;
@@ -106,7 +108,8 @@ void Renderer::Resources::draw_shadows(const Frame& frame, const View& view, boo
   }
 }
 
-void Renderer::Resources::light_surface(bool between_bodies, bool on_ground) {
+void Renderer::Resources::light_surface(const Frame& frame, const View& view, bool between_bodies,
+                                        bool on_ground) {
   if (between_bodies) {
     indirect.light(surface,
                    on_ground ? FloorLeft([this](const Vec3f& position, const Vec3f& normal) {
@@ -114,6 +117,7 @@ void Renderer::Resources::light_surface(bool between_bodies, bool on_ground) {
                    })
                              : FloorLeft(),
                    lit);
+    box_contacts.find(frame.meshes, surface, view.eye, lit);
   } else {
     lit.assign(surface.positions().size(), IndirectLight{});
   }
@@ -145,7 +149,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
   // Light along the ground or from below throws no shadow on it.
   const bool ground_shadow = shadows && frame.ground && view.to_light.z() > 0.05f;
   if (shadows) r.draw_shadows(frame, view, ground_shadow);
-  r.light_surface(shadows && frame.light.between_bodies, ground_shadow);
+  r.light_surface(frame, view, shadows && frame.light.between_bodies, ground_shadow);
 
   r.target.begin();
   r.scenery.draw(view, frame.ground, r.ground_plane);

@@ -221,7 +221,7 @@ void DrawnSurface::spread(const std::vector<IndirectLight>& light,
   drawn.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto& [corners, weights] = points_[i];
-    IndirectLight sum = {Vec3f::Zero(), Eigen::Vector2f::Zero()};
+    IndirectLight sum = {Vec3f::Zero(), Eigen::Vector2f::Zero(), light[corners[0]].near_boxes};
     for (std::size_t c = 0; c < 3; ++c) {
       sum.bounced += weights[c] * light[corners[c]].bounced;
       sum.open_to += weights[c] * light[corners[c]].open_to;

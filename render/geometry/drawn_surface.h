@@ -1,6 +1,7 @@
 // The meshes of a frame as one list of triangles, rounded where they may be.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <vector>
@@ -13,8 +14,13 @@ namespace pneuma::render {
 
 /// What the light does to a place on a surface beside the sun's.
 struct IndirectLight {
+  /// As of a box that is too far away to take any.
+  static inline const Eigen::Vector4f no_box = {4.0f, 4.0f, 4.0f, 1.0f};
+
   Vec3f bounced = Vec3f::Zero();                      // from other bodies, over pi
   Eigen::Vector2f open_to = Eigen::Vector2f::Ones();  // fraction seen of the sky; of the lit ground
+  // The place in the axes of boxes that it nearly touches, and their half sides: box_contacts.h.
+  std::array<Eigen::Vector4f, 2> near_boxes = {no_box, no_box};
 };
 
 /// The vertices of a mesh as they are lit: one for each of a smooth mesh; of one with sharp edges,

@@ -174,7 +174,8 @@ IndirectLight left_at(const Receivers& receivers, std::size_t number) {
       receivers.sky[i] * (1.0f - sky_left) + receivers.floor[i] * (1.0f - floor_left);
   const float sent = all > 0.0f ? taken / all : 0.0f;
   return {sent * Vec3f(receivers.red[i], receivers.green[i], receivers.blue[i]),
-          {sky_left, floor_left}};
+          {sky_left, floor_left},
+          {IndirectLight::no_box, IndirectLight::no_box}};
 }
 
 }  // namespace pneuma::render

@@ -15,18 +15,24 @@ layout(location = 1) in vec3 from_normal;
 layout(location = 2) in vec4 from_material;
 layout(location = 3) in vec3 from_bounced;
 layout(location = 4) in vec2 from_open;
-layout(location = 5) in vec3 to;
-layout(location = 6) in vec3 to_normal;
-layout(location = 7) in vec4 to_material;
-layout(location = 8) in vec3 to_bounced;
-layout(location = 9) in vec2 to_open;
-layout(location = 10) in vec3 facet_normal;
+layout(location = 5) in vec4 from_first_box;
+layout(location = 6) in vec4 from_second_box;
+layout(location = 7) in vec3 to;
+layout(location = 8) in vec3 to_normal;
+layout(location = 9) in vec4 to_material;
+layout(location = 10) in vec3 to_bounced;
+layout(location = 11) in vec2 to_open;
+layout(location = 12) in vec4 to_first_box;
+layout(location = 13) in vec4 to_second_box;
+layout(location = 14) in vec3 facet_normal;
 uniform mat4 view_projection;
 uniform vec2 picture_size;
 out vec3 world;
 out vec4 surface;
 out vec3 indirect;
 out vec2 openness;
+out vec4 near_first;
+out vec4 near_second;
 out vec3 outward;
 flat out vec3 facet;
 noperspective out float covered;
@@ -41,6 +47,8 @@ void main() {
   surface = at_to ? to_material : from_material;
   indirect = at_to ? to_bounced : from_bounced;
   openness = at_to ? to_open : from_open;
+  near_first = at_to ? to_first_box : from_first_box;
+  near_second = at_to ? to_second_box : from_second_box;
   outward = at_to ? to_normal : from_normal;
   facet = facet_normal;
 #ifdef SHADOWED
@@ -70,10 +78,10 @@ Vec3f facet_normal(const DrawnSurface& surface, const Triangle& triangle) {
 }  // namespace
 
 Outlines::Variant::Variant(bool shadowed)
-    : program(
-          "outlines",
-          std::string("#define SMOOTH\n#define OUTLINE\n") + (shadowed ? "#define SHADOWED\n" : ""),
-          vertex_source, look_source() + surface_shaders().fragment),
+    : program("outlines",
+              std::string("#define SMOOTH\n#define NEAR_BOXES\n#define OUTLINE\n") +
+                  (shadowed ? "#define SHADOWED\n" : ""),
+              vertex_source, look_source() + surface_shaders().fragment),
       uniforms(program, shadowed),
       picture_size(program.uniform("picture_size")) {}
 
@@ -85,6 +93,9 @@ std::vector<InstanceAttribute> Outlines::attributes() {
     result.push_back({4, end + offsetof(SurfaceVertex, material)});
     result.push_back({3, end + offsetof(End, light) + offsetof(IndirectLight, bounced)});
     result.push_back({2, end + offsetof(End, light) + offsetof(IndirectLight, open_to)});
+    const std::size_t boxes = end + offsetof(End, light) + offsetof(IndirectLight, near_boxes);
+    result.push_back({4, boxes});
+    result.push_back({4, boxes + sizeof(Eigen::Vector4f)});
   }
   result.push_back({3, offsetof(Instance, facet)});
   return result;

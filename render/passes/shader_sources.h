@@ -11,8 +11,9 @@ struct ShaderSources {
 };
 
 /// Each needs the text of look_source() before its fragment shader.
-ShaderSources surface_shaders();  // variants by SMOOTH, SHADOWED and, of light only, OUTLINE
-ShaderSources ground_shaders();   // also needs nearness_source()
+ShaderSources
+surface_shaders();  // variants by SMOOTH, NEAR_BOXES, SHADOWED and, of light only, OUTLINE
+ShaderSources ground_shaders();  // also needs nearness_source()
 
 /// The ground's shadow from a picture of it; needs nearness_source().
 ShaderSources ground_shadow_shaders();

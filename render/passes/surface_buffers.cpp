@@ -23,6 +23,9 @@ SurfaceBuffers::SurfaceBuffers() {
   glBindBuffer(GL_ARRAY_BUFFER, light_.name());
   set_attribute(3, 3, sizeof(IndirectLight), offsetof(IndirectLight, bounced));
   set_attribute(4, 2, sizeof(IndirectLight), offsetof(IndirectLight, open_to));
+  set_attribute(5, 4, sizeof(IndirectLight), offsetof(IndirectLight, near_boxes));
+  set_attribute(6, 4, sizeof(IndirectLight),
+                offsetof(IndirectLight, near_boxes) + sizeof(Eigen::Vector4f));
 }
 
 void SurfaceBuffers::upload(const DrawnSurface& surface) {

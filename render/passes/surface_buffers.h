@@ -9,7 +9,8 @@
 namespace pneuma::render {
 
 /// All meshes are one draw call, which on llvmpipe costs as much as some hundred triangles.
-/// Attributes: 0 position, 1 normal, 2 material, 3 bounced light, 4 openness.
+/// Attributes: 0 position, 1 normal, 2 material, 3 bounced light, 4 openness,
+/// 5 and 6 boxes near by.
 class SurfaceBuffers {
  public:
   SurfaceBuffers();

@@ -1,6 +1,7 @@
 #include "render/passes/surfaces.h"
 
 #include <algorithm>
+#include <string>
 
 #include "render/passes/look.h"
 #include "render/passes/shader_sources.h"
@@ -14,6 +15,12 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 material;  // linear colour, roughness
 layout(location = 3) in vec3 bounced;   // light from other bodies
 layout(location = 4) in vec2 open_to;   // how much is seen of the sky, and of the lit ground
+#ifdef NEAR_BOXES
+layout(location = 5) in vec4 first_box;
+layout(location = 6) in vec4 second_box;
+out vec4 near_first;
+out vec4 near_second;
+#endif
 uniform mat4 view_projection;
 out vec3 world;
 out vec4 surface;
@@ -32,6 +39,10 @@ void main() {
   surface = material;
   indirect = bounced;
   openness = open_to;
+#ifdef NEAR_BOXES
+  near_first = first_box;
+  near_second = second_box;
+#endif
 #ifdef SMOOTH
   outward = normal;
 #endif
@@ -56,6 +67,18 @@ in vec3 outward;
 #ifdef OUTLINE
 flat in vec3 facet;
 noperspective in float covered;
+#endif
+#ifdef NEAR_BOXES
+in vec4 near_first;
+in vec4 near_second;
+
+// See light/box_contacts.h. `at`: a raised point in the box's axes, and half its side, in reaches.
+float left_by_box(vec4 at) {
+  vec3 away = abs(at.xyz) - at.w;
+  float outside = length(max(away, 0.0));
+  float inside = min(max(away.x, max(away.y, away.z)), 0.0);
+  return clamp(0.5 + 0.5 * (outside + inside), 0.0, 1.0);
+}
 #endif
 #ifdef SHADOWED
 in vec3 in_map;
@@ -94,11 +117,21 @@ void main() {
   lit *= lit_share();
 #endif
   float roughness = surface.a;
-  vec3 diffuse = sun * lit + sky_irradiance(n.z) * openness.x + indirect +
-                 floor_light * (0.5 - 0.5 * n.z) * openness.y;
+#ifdef NEAR_BOXES
+  float left_by_first = left_by_box(near_first);
+  float left_by_second = left_by_box(near_second);
+  float left = left_by_first * left_by_second;
+  // Between faces that nearly touch, the gap is too narrow for the shadow map.
+  lit *= min(2.0 * min(left_by_first, left_by_second), 1.0);
+#else
+  const float left = 1.0;
+#endif
+  vec2 open = openness * left;
+  vec3 diffuse = sun * lit + sky_irradiance(n.z) * open.x + indirect * left +
+                 floor_light * (0.5 - 0.5 * n.z) * open.y;
   // What is mirrored of sky and ground; a rough surface blurs the horizon between them.
   float up = 2.0 * nv * n.z - to_eye.z;
-  vec3 mirrored = mix(floor_light * openness.y, sky_light(max(up, 0.0)) * openness.x,
+  vec3 mirrored = mix(floor_light * open.y, sky_light(max(up, 0.0)) * open.x,
                       smoothstep(-roughness, roughness, up));
   // Interpolated normals of a coarse surface turn away from the eye long before it does itself; by
   // less than the tenth they differ on fine ones, whose facets would show.
@@ -137,7 +170,9 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
 }
 
 Surfaces::Variant::Variant(bool shadowed)
-    : program("surfaces", shadowed ? "#define SMOOTH\n#define SHADOWED\n" : "#define SMOOTH\n",
+    : program("surfaces",
+              std::string("#define SMOOTH\n#define NEAR_BOXES\n") +
+                  (shadowed ? "#define SHADOWED\n" : ""),
               vertex_source, look_source() + fragment_source),
       uniforms(program, shadowed) {}
 

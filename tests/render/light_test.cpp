@@ -1,11 +1,13 @@
 // Light from sky, ground and bodies against closed forms and quadrature.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "render/context/context.h"
+#include "render/light/box_contacts.h"
 #include "render/light/contact_shade.h"
 #include "render/light/environment.h"
 #include "render/light/gather.h"
@@ -390,6 +392,52 @@ TEST(BetweenBodies, TheGroundIsDarkestWhereABoxStands) {
   EXPECT_GT(at_side, 6);
   EXPECT_GT(at_side, darkness(0.0f, 0.5f) + 4);
   EXPECT_GT(at_side, darkness(0.6f, 0.07f) + 4);
+}
+
+Mesh tumbled(Mesh mesh, const Vec3f& to) {
+  const Eigen::AngleAxisf turn(0.7f, Vec3f(1, 2, 3).normalized());
+  for (Vec3f& position : mesh.positions) position = turn * position + to;
+  return mesh;
+}
+
+TEST(OrientedBox, IsFoundInItsMeshAlone) {
+  const Vec3f size(1.0f, 2.0f, 3.5f);
+  const Mesh upright = make_box(Vec3f::Zero(), size, {0.5f, 0.5f, 0.5f});
+  const Mesh mesh = tumbled(upright, {4, 5, 6});
+  const std::optional<OrientedBox> box = box_of(mesh);
+  ASSERT_TRUE(box);
+  EXPECT_LT((box->centre - Vec3f(4, 5, 6)).norm(), 1e-5f);
+  EXPECT_NEAR(box->half.prod(), size.prod() / 8.0f, 1e-4f);
+  Mesh sheared = mesh;
+  for (Vec3f& position : sheared.positions) position.x() += 0.01f * position.z();
+  EXPECT_FALSE(box_of(sheared));
+  EXPECT_FALSE(box_of(make_ball(Vec3f::Zero(), 1.0f, {0.5f, 0.5f, 0.5f}, 4)));
+}
+
+TEST(OrientedBox, HasTheDistanceOfItsNearestPoint) {
+  const Vec3f half(0.5f, 1.0f, 1.75f);
+  const OrientedBox box = {Vec3f(1, 0, 0), Eigen::Matrix3f::Identity(), half};
+  EXPECT_FLOAT_EQ(box.distance_to({1, 0, 0}), -0.5f);
+  EXPECT_FLOAT_EQ(box.distance_to({1.7f, 0.4f, -1.0f}), 0.2f);
+  EXPECT_FLOAT_EQ(box.distance_to({1.8f, 1.4f, 0}), 0.5f);
+}
+
+/// A slab lit by the sky alone, with a cube on it; and how bright its top is so far from the cube.
+int brightness_beside_cube(float away) {
+  Frame frame;
+  frame.ground.reset();
+  frame.light.direction = {0.0f, 0.0f, 1.0f};
+  frame.camera = {{0.0f, -16.0f, 8.0f}, Vec3f::Zero(), 40.0f};
+  frame.meshes = {make_box({0, 0, -1}, {12, 12, 2}, {0.6f, 0.6f, 0.6f}),
+                  make_box({0, 0, 1.01f}, {2, 2, 2}, {0.6f, 0.6f, 0.6f})};
+  const Image image = draw_once(frame, {.width = 640, .height = 480});
+  return pixel_of(image, frame.camera, {0.0f, -1.0f - away, 0.0f})[1];
+}
+
+TEST(BoxContacts, CreasesAreDarkAndTheRestIsAsItWas) {
+  const int far = brightness_beside_cube(2.5f);
+  EXPECT_LT(brightness_beside_cube(0.05f), 0.8f * static_cast<float>(far));
+  EXPECT_NEAR(brightness_beside_cube(0.5f), far, 4);
 }
 
 }  // namespace
