@@ -100,9 +100,9 @@ struct Renderer::Resources {
 void Renderer::Resources::draw_shadows(const Frame& frame, const View& view, bool on_ground) {
   shadow_map.draw(view, frame.light, surface_buffers);
   shadow_map.read(shadow_depths);
-  indirect.take_bodies(frame.light.between_bodies ? frame.meshes : std::vector<Mesh>(),
-                       view.to_light,
-                       [this](const Vec3f& point) { return shadow_depths.lit(point); });
+  indirect.take_bodies(
+      frame.light.between_bodies ? frame.meshes : std::vector<Mesh>(), view.to_light,
+      [this](const Vec3f& point) { return shadow_depths.lit(point); }, on_ground);
   if (on_ground) {
     ground_shadow.draw(shadow_map, shadow_depths, view.to_light, indirect.bodies(), surface);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "render/light/ground_light.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -117,15 +119,20 @@ std::vector<std::vector<std::uint32_t>> patches(const std::vector<Triangle>& tri
 
 BodyElements elements_of(const Mesh& mesh, std::span<const Vec3f> albedo,
                          const std::vector<std::vector<std::uint32_t>>& patches,
-                         const Vec3f& to_light, const IsLit& is_lit) {
-  constexpr float usually_open = 0.75f;
+                         const Vec3f& to_light, const IsLit& is_lit, bool on_ground) {
+  constexpr float usually_open = 0.85f;
+  constexpr float left_in_shadow = 0.3f;  // of the ground's light, also next to bodies
   static const Environment environment;
   static const auto irradiance = sky_irradiance(environment);
   BodyElements body;
   for (const std::vector<std::uint32_t>& patch : patches) {
     Element element = patch_element(mesh, albedo, patch);
     const float facing = element.normal.dot(to_light);
-    Light3 light = usually_open * open_light(irradiance, environment.floor, element.normal.z());
+    const float floor_left = on_ground && !is_lit(seen_on_ground(element.centre, element.normal))
+                                 ? left_in_shadow
+                                 : 1.0f;
+    Light3 light =
+        usually_open * open_light(irradiance, floor_left * environment.floor, element.normal.z());
     if (facing > 0.0f && is_lit(element.centre)) light += facing * environment.sun;
     element.radiosity *= light / (1.0f - (1.0f - usually_open) * element.radiosity);
     body.elements.push_back(element);

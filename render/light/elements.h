@@ -43,11 +43,12 @@ using IsLit = std::function<bool(const Vec3f& point)>;
 
 inline constexpr std::size_t most_elements = 64;  // of one body
 
-/// Of a mesh with these patches. An element gets the sun where it is lit, and three quarters of sky
-/// and floor, about what bodies that lie together leave each other; the rest of what it sees is
-/// like itself.
+/// Of a mesh with these patches. An element gets the sun where it is lit, and most of sky and
+/// floor, about what bodies that lie together leave each other; the rest of what it sees is like
+/// itself. The floor is dark where the sun does not reach the ground that the element sees, if
+/// there is ground.
 BodyElements elements_of(const Mesh& mesh, std::span<const Vec3f> albedo,
                          const std::vector<std::vector<std::uint32_t>>& patches,
-                         const Vec3f& to_light, const IsLit& is_lit);
+                         const Vec3f& to_light, const IsLit& is_lit, bool on_ground);
 
 }  // namespace pneuma::render

@@ -15,7 +15,7 @@ GroundLight::GroundLight(const Vec3f& to_light) {
 
 Eigen::Array4f GroundLight::ambient(const IndirectLight& left) const {
   Eigen::Array4f of_open_sky;
-  of_open_sky << left.open_to.x() + 0.03f + left.bounced.array() / of_sky, 1.0f;
+  of_open_sky << 1.03f * left.open_to.x() + left.bounced.array() / of_sky, 1.0f;
   return sky * of_open_sky.min(1.0f);
 }
 
@@ -26,6 +26,12 @@ SeenGround seen_ground(float nz) {
   const float cos_middle = std::max(sine * across - cosine * nz, 0.1f);
   const float sin_middle = across * cosine + nz * sine;
   return {sin_middle / cos_middle, 1.0f / cos_middle};
+}
+
+Vec3f seen_on_ground(const Vec3f& position, const Vec3f& normal) {
+  const float ahead = seen_ground(normal.z()).ahead * std::max(position.z(), 0.0f);
+  const float away = ahead / std::max(normal.head<2>().norm(), 1e-6f);
+  return {position.x() + away * normal.x(), position.y() + away * normal.y(), 0.0f};
 }
 
 }  // namespace pneuma::render

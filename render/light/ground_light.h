@@ -15,8 +15,8 @@ struct GroundLight {
 
   explicit GroundLight(const Vec3f& to_light);
 
-  /// What comes of sky and bodies. Three hundredths of the sky are not seen to be missing, and no
-  /// ground is drawn brighter than the open one.
+  /// What comes of sky and bodies. Three hundredths of the sky are not seen to be missing of an
+  /// open one, and no ground is drawn brighter than the open one.
   Eigen::Array4f ambient(const IndirectLight& left) const;
 };
 
@@ -33,5 +33,8 @@ struct SeenGround {
 /// ground between a - 90 and 90 degrees. The part up to the angle m sends 1 + sin(m - a) out of
 /// 1 + cos(a); half of it comes from up to m = a - asin((1 - cos(a)) / 2).
 SeenGround seen_ground(float nz);
+
+/// That middle, of a surface at a point; of one below the ground its foot.
+Vec3f seen_on_ground(const Vec3f& position, const Vec3f& normal);
 
 }  // namespace pneuma::render

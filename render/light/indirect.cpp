@@ -5,15 +5,15 @@
 namespace pneuma::render {
 
 void IndirectLighting::take_bodies(const std::vector<Mesh>& meshes, const Vec3f& to_light,
-                                   const IsLit& is_lit) {
+                                   const IsLit& is_lit, bool on_ground) {
   std::erase_if(shapes_, [](const auto& entry) { return entry.first.expired(); });
   bodies_.clear();
   for (const Mesh& mesh : meshes) {
     const Shape& shape = shape_of(mesh.shape);
     std::vector<Vec3f> own;
     for (const Colour& colour : mesh.colours) own.push_back(to_linear(colour));
-    bodies_.add(
-        elements_of(mesh, own.empty() ? shape.albedo : own, shape.patches, to_light, is_lit));
+    bodies_.add(elements_of(mesh, own.empty() ? shape.albedo : own, shape.patches, to_light, is_lit,
+                            on_ground));
   }
   bodies_.build();
 }

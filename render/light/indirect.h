@@ -19,7 +19,8 @@ using FloorLeft = std::function<float(const Vec3f& position, const Vec3f& normal
 class IndirectLighting {
  public:
   /// Makes the elements of a frame's bodies.
-  void take_bodies(const std::vector<Mesh>& meshes, const Vec3f& to_light, const IsLit& is_lit);
+  void take_bodies(const std::vector<Mesh>& meshes, const Vec3f& to_light, const IsLit& is_lit,
+                   bool on_ground);
   const BodyTree& bodies() const { return bodies_; }
 
   /// One light for each lit vertex of the same frame. `floor_left` is empty without a ground.

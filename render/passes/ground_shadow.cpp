@@ -229,7 +229,7 @@ void GroundShadow::measure_ambient(const BodyTree& bodies) {
 
 void GroundShadow::measure_contact(const DrawnSurface& surface) {
   constexpr float reach = 7.0f;  // texels
-  constexpr float step = 1.3f;   // so that the blur reaches about as far
+  constexpr float step = 0.7f;   // so that the blur reaches about as far
   const GroundPicture picture = {world_to_picture_, contact_size, reach * texel_};
   if (measure_nearness(surface.vertices(), surface.triangles(), picture, contact_)) {
     blur(contact_, step, contact_size);

@@ -59,8 +59,9 @@ Mesh fine_ball(const Vec3f& centre) { return make_ball(centre, 1.0f, {0.5f, 0.5f
 BodyElements ball_elements(const Vec3f& centre) {
   const Mesh mesh = fine_ball(centre);
   const std::vector<Vec3f> albedo(mesh.positions.size(), Vec3f::Constant(0.2f));
-  return elements_of(mesh, albedo, patches(mesh.shape->triangles, most_elements), Vec3f::UnitZ(),
-                     [](const Vec3f&) { return true; });
+  return elements_of(
+      mesh, albedo, patches(mesh.shape->triangles, most_elements), Vec3f::UnitZ(),
+      [](const Vec3f&) { return true; }, false);
 }
 
 TEST(Gather, TakesOfTheSkyWhatABallCovers) {
@@ -94,9 +95,9 @@ TEST(Gather, OfPointsTogetherIsThatOfEach) {
   // Below a coarse ball, also behind the middles of its patches, which are flat.
   const Mesh ball = make_ball({0, 0, 1.002f}, 1.0f, {0.5f, 0.5f, 0.5f}, 6);
   const std::vector<Vec3f> albedo(ball.positions.size(), Vec3f::Constant(0.2f));
-  const std::vector<BodyElements> bodies = {
-      elements_of(ball, albedo, patches(ball.shape->triangles, 16), Vec3f::UnitZ(),
-                  [](const Vec3f&) { return true; })};
+  const std::vector<BodyElements> bodies = {elements_of(
+      ball, albedo, patches(ball.shape->triangles, 16), Vec3f::UnitZ(),
+      [](const Vec3f&) { return true; }, false)};
   const auto taken = [&](float x, std::size_t count) {
     Receivers receivers;
     receivers.begin(count);
@@ -198,7 +199,7 @@ TEST(GroundLight, TakesColourFromABodyThatTakesSkyFromIt) {
   const GroundLight light(Vec3f::UnitZ());
   const Eigen::Array4f dark = light.ambient({Vec3f::Zero(), {0.5f, 1.0f}});
   const Eigen::Array4f red = light.ambient({Vec3f(0.1f, 0, 0), {0.5f, 1.0f}});
-  EXPECT_FLOAT_EQ(dark[1], 0.53f * light.sky[1]);
+  EXPECT_FLOAT_EQ(dark[1], 0.515f * light.sky[1]);
   EXPECT_FLOAT_EQ(red[0], dark[0] + 0.1f / light.of_sky[0] * light.sky[0]);
   EXPECT_FLOAT_EQ(red[1], dark[1]);
   const Eigen::Array4f bright = light.ambient({Vec3f::Constant(9.0f), {1.0f, 1.0f}});
@@ -392,6 +393,36 @@ TEST(BetweenBodies, TheGroundIsDarkestWhereABoxStands) {
   EXPECT_GT(at_side, 6);
   EXPECT_GT(at_side, darkness(0.0f, 0.5f) + 4);
   EXPECT_GT(at_side, darkness(0.6f, 0.07f) + 4);
+}
+
+TEST(Elements, SendLessOverGroundInShadow) {
+  const Mesh box = make_box({0, 0, 2}, {1, 1, 1}, {0.5f, 0.5f, 0.5f});
+  const std::vector<Vec3f> albedo(box.positions.size(), Vec3f::Constant(0.2f));
+  // The sun shines on the box and nowhere on the ground.
+  const auto sent = [&](bool on_ground) {
+    return elements_of(
+               box, albedo, patches(box.shape->triangles, most_elements), Vec3f::UnitZ(),
+               [](const Vec3f& point) { return point.z() > 0.5f; }, on_ground)
+        .elements;
+  };
+  const std::vector<Element> open = sent(false), dark = sent(true);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const float left = (dark[i].radiosity / open[i].radiosity).maxCoeff();
+    const float z = open[i].normal.z();
+    if (z > 0.5f) {
+      EXPECT_FLOAT_EQ(left, 1.0f);
+    } else if (z > -0.5f) {
+      EXPECT_LT(left, 0.8f);
+    } else {
+      EXPECT_NEAR(left, 0.3f, 0.01f);
+    }
+  }
+}
+
+TEST(GroundLight, OfClosedGroundIsNone) {
+  const GroundLight light(Vec3f(0.0f, 0.6f, 0.8f));
+  EXPECT_EQ(light.ambient({Vec3f::Zero(), {0.0f, 1.0f}})[0], 0.0f);
+  EXPECT_EQ(light.ambient({Vec3f::Zero(), {0.98f, 1.0f}})[0], light.sky[0]);
 }
 
 Mesh tumbled(Mesh mesh, const Vec3f& to) {

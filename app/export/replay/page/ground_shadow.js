@@ -58,7 +58,7 @@ out vec4 ambient;
 void main() {
   vec2 place = origin + at.x * along_u + at.y * along_v;
   Left left = left_at(vec3(place, 0.0), vec3(0.0, 0.0, 1.0));
-  ambient = vec4(min(left.open_to.x + 0.03 + left.bounced / sky_irradiance(1.0), 1.0), 1.0);
+  ambient = vec4(min(1.03 * left.open_to.x + left.bounced / sky_irradiance(1.0), 1.0), 1.0);
 }`;
 
 // How near the lowest surface above each texel is: 1 where it touches. Blended by the maximum.
@@ -100,21 +100,31 @@ void main() {
 }`;
 
 // How much of its light the ground below a point has left. As GroundShadow::left_below.
-const leftBelowFunction = `uniform sampler2D ground_left;
+// As seen_ground() and, for a surface at a height, seen_on_ground() of render/light/ground_light.cpp.
+const seenGroundFunctions = `
+vec2 seen_ground(float nz) {
+  float sine = 0.5 * (1.0 + nz);
+  float cosine = sqrt(max(1.0 - sine * sine, 0.0));
+  float across = sqrt(max(1.0 - nz * nz, 0.0));
+  float cos_middle = max(sine * across - cosine * nz, 0.1);
+  return vec2((across * cosine + nz * sine) / cos_middle, 1.0 / cos_middle);
+}
+
+vec2 seen_on_ground(vec2 position, float height, vec3 normal) {
+  return position + height * seen_ground(normal.z).x / max(length(normal.xy), 1e-6) * normal.xy;
+}
+`;
+
+const leftBelowFunction = `${seenGroundFunctions}uniform sampler2D ground_left;
 uniform mat4 world_to_picture;
 uniform float texel;  // m; 0 without a shadow on the ground
 float left_below(vec3 position, vec3 normal) {
   if (texel == 0.0) return 1.0;
   float height = max(position.z, 5.0 * texel);
-  float sine = 0.5 * (1.0 + normal.z);
-  float cosine = sqrt(max(1.0 - sine * sine, 0.0));
-  float across = sqrt(max(1.0 - normal.z * normal.z, 0.0));
-  float cos_middle = max(sine * across - cosine * normal.z, 0.1);
-  float ahead = (across * cosine + normal.z * sine) / cos_middle;
-  vec2 foot = position.xy + height * ahead / max(length(normal.xy), 1e-6) * normal.xy;
+  vec2 foot = seen_on_ground(position.xy, height, normal);
   vec2 at = (world_to_picture * vec4(foot, 0.0, 1.0)).xy;
   float near = max(1.0 - length(at - clamp(at, 0.0, 1.0)) / ${groundFading}, 0.0);
-  float level = clamp(log2(max(2.0 * height / (cos_middle * texel), 1.0)), 0.0, ${groundLevels - 2}.0);
+  float level = clamp(log2(max(2.0 * height * seen_ground(normal.z).y / texel, 1.0)), 0.0, ${groundLevels - 2}.0);
   return mix(1.0, textureLod(ground_left, at, level).a, near * near);
 }
 `;
@@ -197,7 +207,7 @@ class GroundShadow {
     this.nearness.use({ world_to_picture: this.worldToPicture, reach: 7 * this.texel });
     drawSurface();
     gl.blendEquation(gl.FUNC_ADD);
-    this.blurInto(this.contact, this.contact, this.contactBetween, 1.3);
+    this.blurInto(this.contact, this.contact, this.contactBetween, 0.7);
   }
 
   measureAmbient(between) {

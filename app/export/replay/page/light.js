@@ -2,10 +2,11 @@
 // but that shaders add it up.
 
 // What each element sends, over pi.
-const sentFragment = `uniform sampler2D discs;
+const sentFragment = `${seenGroundFunctions}uniform sampler2D discs;
 uniform sampler2D depths;
 uniform mat4 world_to_map;
 uniform vec3 to_light;
+uniform float on_ground;  // 1 with a shadow on the ground
 out uvec4 sent;
 
 bool is_lit(vec3 point) {
@@ -16,12 +17,15 @@ bool is_lit(vec3 point) {
 }
 
 void main() {
-  const float usually_open = 0.75;
+  const float usually_open = 0.85;
+  const float left_in_shadow = 0.3;
   ivec2 element = ivec2(gl_FragCoord.xy);
   vec3 centre = texelFetch(discs, ivec2(3 * element.x, element.y), 0).xyz;
   vec3 normal = texelFetch(discs, ivec2(3 * element.x + 1, element.y), 0).xyz;
   vec3 albedo = texelFetch(discs, ivec2(3 * element.x + 2, element.y), 0).xyz;
-  vec3 light = usually_open * (sky_irradiance(normal.z) + floor_light * (0.5 - 0.5 * normal.z));
+  vec2 foot = seen_on_ground(centre.xy, max(centre.z, 0.0), normal);
+  float floor_left = is_lit(vec3(foot, 0.0)) ? 1.0 : mix(1.0, left_in_shadow, on_ground);
+  vec3 light = usually_open * (sky_irradiance(normal.z) + floor_left * floor_light * (0.5 - 0.5 * normal.z));
   float facing = dot(normal, to_light);
   if (facing > 0.0 && is_lit(centre)) light += facing * sun;
   vec3 each = albedo * light / (1.0 - (1.0 - usually_open) * albedo);
@@ -210,15 +214,15 @@ class BetweenBodies {
     gl.bindBuffer(gl.ARRAY_BUFFER, null);
   }
 
-  // After the map has been drawn. `positions`: of the vertices.
-  takeBodies(positions, map) {
+  // After the map has been drawn. `positions`: of the vertices. `onGround`: whether a shadow falls on it.
+  takeBodies(positions, map, onGround) {
     const { elements, discs, parts, balls } = this;
     elements.measure(positions);
     discs.load(elements.discs);
     parts.load(elements.parts);
     balls.load(elements.balls);
     this.sent.begin();
-    this.findSent.draw({ world_to_map: map.worldToMap, to_light: map.toLight },
+    this.findSent.draw({ world_to_map: map.worldToMap, to_light: map.toLight, on_ground: onGround ? 1 : 0 },
       { discs: discs.texture, depths: map.depth });
     this.sentByBall.begin();
     this.findSentByBall.draw({}, { discs: discs.texture, balls: balls.texture, sent: this.sent.texture });

@@ -86,7 +86,7 @@ class Picture {
     gl.bufferData(gl.ARRAY_BUFFER, surface.normals, gl.STREAM_DRAW);
     if (!map) return;
     map.draw(() => this.drawTriangles(), this.casters);
-    between?.takeBodies(positions, map);
+    between?.takeBodies(positions, map, Boolean(groundShadow));
     groundShadow?.draw(map, between, () => this.drawAll());
     between?.lightSurface(groundShadow);
   }
