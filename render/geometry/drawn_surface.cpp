@@ -106,6 +106,19 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
     meshes_.push_back({middle_depth(mesh, view), first, triangles_.size()});
   }
   order_triangles(view);
+  find_seen(view.eye);
+}
+
+void DrawnSurface::find_seen(const Vec3f& eye) {
+  seen_.assign(positions_.size(), 0);
+  for (const Triangle& t : triangles_) {
+    const Vec3f& a = vertices_[t[0]].position;
+    const Vec3f normal = (vertices_[t[1]].position - a).cross(vertices_[t[2]].position - a);
+    if (normal.dot(eye - a) <= 0.0f) continue;
+    for (const std::uint32_t vertex : t) {
+      for (const std::uint32_t corner : points_[vertex].corners) seen_[corner] = 1;
+    }
+  }
 }
 
 void DrawnSurface::order_triangles(const View& view) {

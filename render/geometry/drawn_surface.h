@@ -42,6 +42,8 @@ class DrawnSurface {
   /// Of all lit meshes.
   const std::vector<Vec3f>& positions() const { return positions_; }
   const std::vector<Vec3f>& normals() const { return normals_; }
+  /// Whether a triangle that faces the eye has light of it.
+  const std::vector<char>& seen() const { return seen_; }
 
   const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
   /// First those that the sun may reach, then those that are turned away from it; of both, first
@@ -79,12 +81,14 @@ class DrawnSurface {
   void add_corner_normals(const Mesh& mesh, const Shape& shape);
   void append(const Refinement& refinement);
   void order_triangles(const View& view);
+  void find_seen(const Vec3f& eye);
 
   // Ordered by owner: a new shape at a dead one's address is another one.
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
   std::vector<LitMesh> lit_meshes_;
   std::vector<Vec3f> positions_;
   std::vector<Vec3f> normals_;
+  std::vector<char> seen_;
   std::vector<SurfacePoint> points_;  // of lit vertices, per drawn vertex
   std::vector<SurfaceVertex> vertices_;
   std::vector<Triangle> triangles_;

@@ -20,29 +20,35 @@ void IndirectLighting::take_bodies(const std::vector<Mesh>& meshes, const Vec3f&
 
 void IndirectLighting::light(const DrawnSurface& surface, const FloorLeft& floor_left,
                              std::vector<IndirectLight>& light) {
-  light.resize(surface.positions().size());
+  light.assign(surface.positions().size(), IndirectLight{});
   for (const LitMesh& mesh : surface.lit_meshes()) {
-    for (std::size_t done = 0; done < mesh.count; done += Receivers::most) {
-      light_block(surface, mesh.first + done, std::min(Receivers::most, mesh.count - done),
-                  floor_left, light);
+    const std::size_t end = mesh.first + mesh.count;
+    for (std::size_t first = mesh.first; first < end; first += Receivers::most) {
+      seen_.clear();
+      for (std::size_t i = first; i < std::min(first + Receivers::most, end); ++i) {
+        if (surface.seen()[i]) seen_.push_back(i);
+      }
+      if (!seen_.empty()) light_block(surface, seen_, floor_left, light);
     }
   }
 }
 
-void IndirectLighting::light_block(const DrawnSurface& surface, std::size_t first,
-                                   std::size_t count, const FloorLeft& floor_left,
-                                   std::vector<IndirectLight>& light) {
+void IndirectLighting::light_block(const DrawnSurface& surface,
+                                   std::span<const std::size_t> vertices,
+                                   const FloorLeft& floor_left, std::vector<IndirectLight>& light) {
+  constexpr std::size_t lanes = 8;  // which are not done one by one
+  const std::size_t count = (vertices.size() + lanes - 1) / lanes * lanes;
   receivers_.begin(count);
-  for (std::size_t i = first; i < first + count; ++i) {
-    receivers_.add(surface.positions()[i], surface.normals()[i]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t vertex = vertices[std::min(i, vertices.size() - 1)];
+    receivers_.add(surface.positions()[vertex], surface.normals()[vertex]);
   }
   gather(bodies_, receivers_);
-  for (std::size_t i = 0; i < count; ++i) {
-    IndirectLight& left = light[first + i];
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec3f& position = surface.positions()[vertices[i]];
+    IndirectLight& left = light[vertices[i]];
     left = left_at(receivers_, i);
-    if (floor_left) {
-      left.open_to.y() *= floor_left(surface.positions()[first + i], surface.normals()[first + i]);
-    }
+    if (floor_left) left.open_to.y() *= floor_left(position, surface.normals()[vertices[i]]);
   }
 }
 

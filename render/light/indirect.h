@@ -23,7 +23,8 @@ class IndirectLighting {
                    bool on_ground);
   const BodyTree& bodies() const { return bodies_; }
 
-  /// One light for each lit vertex of the same frame. `floor_left` is empty without a ground.
+  /// One light for each lit vertex of the same frame, of those that are not seen an open one.
+  /// `floor_left` is empty without a ground.
   void light(const DrawnSurface& surface, const FloorLeft& floor_left,
              std::vector<IndirectLight>& light);
 
@@ -35,12 +36,13 @@ class IndirectLighting {
   using Key = std::weak_ptr<const MeshShape>;
 
   const Shape& shape_of(const std::shared_ptr<const MeshShape>& shape);
-  void light_block(const DrawnSurface& surface, std::size_t first, std::size_t count,
+  void light_block(const DrawnSurface& surface, std::span<const std::size_t> vertices,
                    const FloorLeft& floor_left, std::vector<IndirectLight>& light);
 
   std::map<Key, Shape, std::owner_less<Key>> shapes_;
   BodyTree bodies_;
   Receivers receivers_;
+  std::vector<std::size_t> seen_;  // vertices of a block
 };
 
 }  // namespace pneuma::render

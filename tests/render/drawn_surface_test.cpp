@@ -119,6 +119,35 @@ TEST(DrawnSurface, PutsWhatTheSunMayReachFirst) {
   EXPECT_LT(first_averted, surface.triangles().size());
 }
 
+TEST(DrawnSurface, PutsTheNearestMeshFirst) {
+  const Mesh far = make_box({0, 8, 0}, {1, 1, 1}, {1, 0, 0});
+  const Mesh near = make_box({0, -4, 0}, {1, 1, 1}, {1, 0, 0});
+  Frame frame = empty_frame();
+  frame.camera = {{0, -20, 0}, Vec3f::Zero(), 40.0f};
+  frame.meshes = {far, near};
+  DrawnSurface surface;
+  surface.build(frame, make_view(frame, 320, 240));
+  const auto depth_of = [&](std::size_t triangle) {
+    return surface.vertices()[surface.triangles()[triangle][0]].position.y();
+  };
+  EXPECT_LT(depth_of(0), 0.0f);
+  EXPECT_GT(depth_of(surface.sunward_count() - 1), 0.0f);
+  EXPECT_LT(depth_of(surface.sunward_count()), 0.0f);
+  EXPECT_GT(depth_of(surface.triangles().size() - 1), 0.0f);
+}
+
+TEST(DrawnSurface, SeesTheFacesOfABoxThatAreTurnedToTheEye) {
+  Frame frame = empty_frame();
+  frame.camera = {{9, -20, 7}, Vec3f::Zero(), 40.0f};
+  frame.meshes = {make_box({0, 0, 0}, {1, 1, 1}, {1, 0, 0})};
+  DrawnSurface surface;
+  surface.build(frame, make_view(frame, 320, 240));
+  for (std::size_t i = 0; i < surface.positions().size(); ++i) {
+    const Vec3f to_eye = frame.camera.eye - surface.positions()[i];
+    EXPECT_EQ(surface.seen()[i] != 0, surface.normals()[i].dot(to_eye) > 0.0f) << i;
+  }
+}
+
 TEST(DrawnSurface, ANewShapeInADeadOnesPlaceIsAnotherOne) {
   const auto box_frame = [](const Colour& colour) {
     Frame frame = empty_frame();
