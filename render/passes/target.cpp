@@ -1,8 +1,23 @@
 #include "render/passes/target.h"
 
+#include <algorithm>
+
 #include "render/context/context.h"
 
 namespace pneuma::render {
+namespace {
+
+constexpr int band = 16;  // rows that are read at once, few enough to stay in a core's cache
+
+void drop_alpha(const std::uint8_t* from, std::uint8_t* to, std::size_t pixels) {
+  for (std::size_t i = 0; i < pixels; ++i, from += 4, to += 3) {
+    to[0] = from[0];
+    to[1] = from[1];
+    to[2] = from[2];
+  }
+}
+
+}  // namespace
 
 void check_framebuffer() {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
@@ -12,9 +27,7 @@ void check_framebuffer() {
 }
 
 Target::Target(int width, int height)
-    : width_(width),
-      height_(height),
-      rgba_(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    : width_(width), height_(height), rgba_(4 * static_cast<std::size_t>(width) * band) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindRenderbuffer(GL_RENDERBUFFER, colour_.name());
   glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
@@ -36,21 +49,21 @@ void Target::begin() {
 }
 
 void Target::read(Image& image) {
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  // Four bytes a pixel are copied as they stand; GL takes longer to drop the fourth than the loop.
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+  const auto width = static_cast<std::size_t>(width_);
   image.width = width_;
   image.height = height_;
-  image.pixels.resize(3 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  // GL's rows go from bottom to top.
-  std::uint8_t* to = image.pixels.data();
-  for (int row = height_ - 1; row >= 0; --row) {
-    const std::uint8_t* from =
-        rgba_.data() + 4 * static_cast<std::size_t>(row) * static_cast<std::size_t>(width_);
-    for (int x = 0; x < width_; ++x, from += 4, to += 3) {
-      to[0] = from[0];
-      to[1] = from[1];
-      to[2] = from[2];
+  image.pixels.resize(3 * width * static_cast<std::size_t>(height_));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  for (int first = 0; first < height_; first += band) {
+    const int rows = std::min(band, height_ - first);
+    // Four bytes a pixel are copied as they stand; GL takes longer to drop the fourth than the
+    // loop.
+    glReadPixels(0, first, width_, rows, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
+    // GL's rows go from bottom to top.
+    for (int row = 0; row < rows; ++row) {
+      const auto below = static_cast<std::size_t>(height_ - 1 - first - row);
+      drop_alpha(rgba_.data() + 4 * width * static_cast<std::size_t>(row),
+                 image.pixels.data() + 3 * width * below, width);
     }
   }
 }

@@ -32,7 +32,7 @@ class Target {
   Framebuffer framebuffer_;
   Renderbuffer colour_;
   Renderbuffer depth_;
-  std::vector<std::uint8_t> rgba_;
+  std::vector<std::uint8_t> rgba_;  // of some rows
 };
 
 /// Throws GlError unless the bound framebuffer can be drawn to.
