@@ -142,7 +142,10 @@ void wake_moving(World& world) {
 bool is_at_rest(const World& world) {
   if (world.rest.empty()) return false;
   for (int i = 0; i < body_count(world); ++i) {
-    if (!is_fixed(world, i) || moves(world, i)) return false;
+    if (!is_fixed(world, i)) return false;
+  }
+  for (int i = 0; i < body_count(world); ++i) {
+    if (moves(world, i)) return false;
   }
   return true;
 }
