@@ -41,6 +41,13 @@ double greatest_distance(const VertexArray& one, const VertexArray& other) {
   return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
 }
 
+/// Whether it is an obstacle all of whose vertices stay, or follow its motion.
+bool keeps_shape(const SoftBody& body) {
+  if (!body.pins || !body.pins->are_all) return false;
+  const auto follows = [](std::uint8_t vertex) { return vertex != 0; };
+  return !body.pins->are_moved || std::ranges::all_of(body.pins->follows, follows);
+}
+
 /// What the vertices of a soft body do from the start of a step to its end.
 struct SoftWay {
   WayBox box;
@@ -79,7 +86,10 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
     const bool is_obstacle = body.pins && body.pins->are_all;
     changes_.emplace_back(is_obstacle ? 0 : body.positions.size());
-    is_obstacle_.push_back(is_still(body) ? 1 : 0);
+    never_moves_.push_back(is_still(body) ? 1 : 0);
+    obstacles_.push_back(
+        keeps_shape(body) ? std::make_unique<ObstacleShape>(body.mesh->topology, body.pins->start)
+                          : nullptr);
     has_pins_ = has_pins_ || body.pins;
   }
   for (const RigidBox& box : world.rigid) {
@@ -94,7 +104,8 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
   }
   number_nodes(world);
-  is_obstacle_.resize(surfaces_.size());
+  never_moves_.resize(surfaces_.size());
+  obstacles_.resize(surfaces_.size());
   is_still_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
@@ -138,7 +149,7 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
 
 void SweptBodies::find_what_is_still(const World& world) {
   for (int i = 0; i < count(); ++i) {
-    const bool is_still = is_obstacle_[at(i)] != 0 || is_asleep(world, i);
+    const bool is_still = never_moves_[at(i)] != 0 || is_asleep(world, i);
     is_still_[at(i)] = is_still ? 1 : 0;
     if (!is_still) is_fitted_[at(i)] = 0;
   }
@@ -227,6 +238,7 @@ void SweptBodies::fit_still(const World& world, int body) {
   surface.end = surface.start;
   is_fitted_[at(body)] = 1;
   refit_anew(body, 0.0);
+  if (never_moves_[at(body)] != 0) obstacles_[at(body)]->keep_place(surface);
 }
 
 Bounds SweptBodies::root_bounds(int body) const {

@@ -12,7 +12,7 @@
 #include "sim/collision/sweep_and_prune.h"
 #include "sim/response/carried_boxes.h"
 #include "sim/step/stage_memory.h"
-#include "sim/swept/moving_surface.h"
+#include "sim/swept/obstacle_search.h"
 #include "sim/swept/swept_impulse.h"
 
 namespace pneuma::sim {
@@ -38,6 +38,8 @@ class SweptBodies {
   /// The body that a box is, or -1 the ground.
   int of_box(int box) const { return box < 0 ? swept_ground : box + soft_count_; }
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
+  /// Of a soft body that is an obstacle and keeps its shape; otherwise null.
+  const ObstacleShape* obstacle(int body) const { return obstacles_[at(body)].get(); }
   /// m, half of what bodies of this kind keep between their surfaces.
   double skin(int body) const { return skins_[at(body)]; }
   double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
@@ -145,10 +147,11 @@ class SweptBodies {
 
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
-  std::vector<int> first_nodes_;           // of each body, and the end
-  std::vector<std::uint8_t> is_lone_;      // per body
-  std::vector<std::uint8_t> is_obstacle_;  // per body: it never moves
-  std::vector<std::uint8_t> is_still_;     // per body: an obstacle, or asleep
+  std::vector<int> first_nodes_;                           // of each body, and the end
+  std::vector<std::uint8_t> is_lone_;                      // per body
+  std::vector<std::unique_ptr<ObstacleShape>> obstacles_;  // per body, or null
+  std::vector<std::uint8_t> never_moves_;                  // per body
+  std::vector<std::uint8_t> is_still_;     // per body: as it never moves, or is asleep
   std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step

@@ -36,21 +36,38 @@ void SweptSearch::start() {
   m_.contacts.clear();
   m_.impulses.clear();
   for (SweptCandidate& candidate : m_.candidates) add_if_it_meets(candidate);
+  has_started_ = true;
 }
 
 void SweptSearch::find_candidates() {
+  has_started_ = false;
+  search();
+}
+
+void SweptSearch::search() {
   m_.candidates.clear();
+  are_beside_obstacles_ = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
     if (!may_touch(pair)) continue;
     const std::size_t before = m_.candidates.size();
-    if (!offer_near_boxes(pair)) offer_near_features(pair);
+    if (is_beside_obstacle(pair)) {
+      offer_beside_obstacle(pair);
+      bodies_.may_meet(pair);
+    } else if (!offer_near_boxes(pair)) {
+      offer_near_features(pair);
+    }
     if (m_.candidates.size() == before) continue;
     bodies_.may_meet(pair);
-    if (is_asleep(world_, pair.first)) m_.touched_asleep.push_back(pair.first);
-    if (is_asleep(world_, pair.second)) m_.touched_asleep.push_back(pair.second);
+    wake_if_touched(pair);
   }
   if (world_.settings.ground) find_near_ground();
+}
+
+void SweptSearch::wake_if_touched(const BodyPair& bodies) {
+  for (const int body : {bodies.first, bodies.second}) {
+    if (is_asleep(world_, body)) m_.touched_asleep.push_back(body);
+  }
 }
 
 /// Of two bodies that no impulse moves one must sleep and the other come near it.
@@ -99,8 +116,13 @@ void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
 
 void SweptSearch::follow_ends() {
   bodies_.set_end(world_);
-  if (bodies_.search_is_valid()) return;
-  find_candidates();
+  if (!bodies_.search_is_valid()) {
+    search();
+  } else if (has_started_ && are_beside_obstacles_) {
+    search_beside_obstacles();
+  } else {
+    return;
+  }
   recall_contacts();
 }
 

@@ -1,5 +1,4 @@
-// Swept contacts: found among all features whose
-// ways come near each other. Private to sim/step.
+// Swept contacts: found among all features whose ways come near each other. Private to sim/step.
 #pragma once
 
 #include <optional>
@@ -86,6 +85,8 @@ struct SweptMemory {
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
+  std::vector<SweptCandidate> earlier_candidates;  // of the search before
+  ObstacleSearch obstacle_search;
   std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
   std::vector<NearFeatures> found;  // of two bodies
   std::vector<SweptContact> contacts;
@@ -169,6 +170,14 @@ class SweptSearch {
   const ContactMaterial& material(int body) const;
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
+  void search();
+  void search_beside_obstacles();
+  bool is_beside_obstacle(const BodyPair& bodies) const;
+  void offer_beside_obstacle(const BodyPair& bodies);
+  void offer_beside_obstacle(const BodyPair& bodies, const NearFeatures& features);
+  bool obstacle_is_nearest(const BodyPair& bodies, const NearFeatures& features,
+                           const ClosestPoints& closest) const;
+  void wake_if_touched(const BodyPair& bodies);
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);
@@ -209,6 +218,8 @@ class SweptSearch {
   SweptMemory& m_;
   SweptBodies& bodies_;
   std::optional<BodyPair> blocked_;
+  bool has_started_ = false;           // the contacts of the start are found
+  bool are_beside_obstacles_ = false;  // any candidates
 };
 
 }  // namespace pneuma::sim

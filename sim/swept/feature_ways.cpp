@@ -243,6 +243,12 @@ bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& secon
   return stands_for(of_first, pair.first.index, closest.first);
 }
 
+bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, Moment moment,
+                       double sine_of_flat) {
+  const Vec3 from = positions(surface, moment)[vertex];
+  return is_nearest_vertex({surface, moment, from, point - from, sine_of_flat}, vertex);
+}
+
 // Conservative advancement along the line between the nearest points: what slides past is far from
 // meeting, however fast.
 std::optional<double> time_of_meeting(const MovingSurface& first, const MovingSurface& second,

@@ -36,6 +36,10 @@ bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& secon
                           const NearFeatures& pair, const ClosestPoints& closest, Moment moment,
                           double sine_of_flat);
 
+/// Whether no edge at a vertex of a surface leads nearer to a point beside the surface.
+bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, Moment moment,
+                       double sine_of_flat);
+
 /// After which fraction of their ways the features have come to within 1.2 times `least` (m, above
 /// zero and less than their distance at the start); none if they stay further apart. Conservative:
 /// they may also just come near that. Never misses a crossing: each advance is shorter than the

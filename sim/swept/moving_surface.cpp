@@ -8,13 +8,6 @@
 namespace pneuma::sim {
 namespace {
 
-WayBox edge_box(const MovingSurface& surface, int edge) {
-  const auto& [from, to] = surface.tree->topology().edges()[at(edge)];
-  WayBox box = surface.vertices[at(from)];
-  box.include(surface.vertices[at(to)]);
-  return box;
-}
-
 /// Goes down two trees, or one with itself, and collects pairs of features.
 class PairSearch {
  public:
@@ -79,11 +72,11 @@ class PairSearch {
     }
     for (const int e : a.triangle_edges()[at(one)]) {
       if (first_.tree->owner_of_edge(e) != one || first_.tree->is_flat(e)) continue;
-      const WayBox around = edge_box(first_, e);
+      const WayBox around = edge_box(*first_.tree, first_, e);
       if (!overlap(around, second_.triangles[at(other)])) continue;
       for (const int f : b.triangle_edges()[at(other)]) {
         if (second_.tree->owner_of_edge(f) != other || second_.tree->is_flat(f)) continue;
-        if (!overlap(around, edge_box(second_, f))) continue;
+        if (!overlap(around, edge_box(*second_.tree, second_, f))) continue;
         if (is_within_ && share_a_vertex(a.edges()[at(e)], a.edges()[at(f)])) continue;
         pairs_.push_back({{FeatureKind::edge, e}, {FeatureKind::edge, f}});
       }
@@ -205,7 +198,7 @@ class BoxPairSearch {
       if (tree.is_flat(e) || !(is_below[at(edges[at(e)][0])] || is_below[at(edges[at(e)][1])])) {
         continue;
       }
-      found.edges.push_back({e, edge_box(surface, e)});
+      found.edges.push_back({e, edge_box(tree, surface, e)});
     }
     const auto& triangles = tree.topology().triangles();
     for (int t = 0; t < static_cast<int>(triangles.size()); ++t) {
@@ -239,29 +232,33 @@ class BoxPairSearch {
 }  // namespace
 
 void refit(MovingSurface& surface, double margin) {
+  surface.margin = margin;
+  fit(surface, margin, surface);
+}
+
+void fit(const MovingSurface& surface, double margin, WayBoxes& boxes) {
   const SurfaceTree& tree = *surface.tree;
   const VertexReader start(surface.start), end(surface.end);
-  surface.margin = margin;
-  surface.vertices.resize(at(surface.start.size()));
+  boxes.vertices.resize(at(surface.start.size()));
   for (int v = 0; v < surface.start.size(); ++v) {
-    surface.vertices[at(v)] = {min(start[v], end[v]) - margin, max(start[v], end[v]) + margin};
+    boxes.vertices[at(v)] = {min(start[v], end[v]) - margin, max(start[v], end[v]) + margin};
   }
   const auto& triangles = tree.topology().triangles();
-  surface.triangles.resize(triangles.size());
+  boxes.triangles.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    WayBox& box = surface.triangles[t] = WayBox{};
-    for (const int v : triangles[t]) box.include(surface.vertices[at(v)]);
+    WayBox& box = boxes.triangles[t] = WayBox{};
+    for (const int v : triangles[t]) box.include(boxes.vertices[at(v)]);
   }
-  surface.nodes.resize(tree.nodes().size());
+  boxes.nodes.resize(tree.nodes().size());
   for (std::size_t i = tree.nodes().size(); i-- > 0;) {
     const SurfaceTree::Node& node = tree.nodes()[i];
-    WayBox& box = surface.nodes[i] = WayBox{};
+    WayBox& box = boxes.nodes[i] = WayBox{};
     for (int t = node.first; t < node.end; ++t) {
-      box.include(surface.triangles[at(tree.order()[at(t)])]);
+      box.include(boxes.triangles[at(tree.order()[at(t)])]);
     }
     if (node.is_leaf()) continue;
-    box.include(surface.nodes[i + 1]);
-    box.include(surface.nodes[at(tree.nodes()[i + 1].next)]);
+    box.include(boxes.nodes[i + 1]);
+    box.include(boxes.nodes[at(tree.nodes()[i + 1].next)]);
   }
 }
 

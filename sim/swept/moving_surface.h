@@ -28,22 +28,36 @@ inline bool overlap(const WayBox& a, const WayBox& b) {
   return all_of_lanes((a.low <= b.high) & (b.low <= a.high));
 }
 
-/// The positions of a surface's vertices at the start and at the end of a step, between which they
-/// are taken to move along straight lines, and the boxes about these ways.
-struct MovingSurface {
-  std::shared_ptr<const SurfaceTree> tree;
-  VertexArray start;             // m
-  VertexArray end;               // m
-  std::vector<WayBox> vertices;  // about the way of each
+/// About the ways of a surface's vertices and triangles.
+struct WayBoxes {
+  std::vector<WayBox> vertices;
   std::vector<WayBox> triangles;
   std::vector<WayBox> nodes;  // of the tree
-  double margin = 0.0;        // m, of the boxes
 };
+
+/// The positions of a surface's vertices at the start and at the end of a step, between which they
+/// are taken to move along straight lines, and the boxes about these ways.
+struct MovingSurface : WayBoxes {
+  std::shared_ptr<const SurfaceTree> tree;
+  VertexArray start;    // m
+  VertexArray end;      // m
+  double margin = 0.0;  // m, of the boxes
+};
+
+/// About the way of an edge.
+inline WayBox edge_box(const SurfaceTree& tree, const WayBoxes& boxes, int edge) {
+  const auto& [from, to] = tree.topology().edges()[at(edge)];
+  WayBox box = boxes.vertices[at(from)];
+  box.include(boxes.vertices[at(to)]);
+  return box;
+}
 
 enum class Moment { start, end };
 
 /// Computes the boxes again, each larger by `margin` (m) on all sides.
 void refit(MovingSurface& surface, double margin);
+/// The same boxes elsewhere.
+void fit(const MovingSurface& surface, double margin, WayBoxes& boxes);
 
 /// A feature of each of two surfaces: a vertex and a triangle, a triangle and a vertex, or two
 /// edges.

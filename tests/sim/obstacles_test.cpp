@@ -99,6 +99,35 @@ TEST(Obstacles, ThatMoveTakeABoxAndABallAlong) {
   EXPECT_GT(world.rigid[0].velocity.x(), 0.5);
 }
 
+/// Triangles much smaller than those of the balls, with hills and hollows, at rest and moved.
+TEST(Obstacles, ThatAreFineAreNotCrossed) {
+  TriangleMesh mesh = make_icosphere(2.0, 4);
+  for (Vec3& x : mesh.vertices) x *= 1.0 + 0.1 * std::sin(6.0 * x.x()) * std::cos(7.0 * x.y());
+  for (const Vec3& velocity : {Vec3(0.0, 0.0, 0.0), Vec3(0.5, -0.3, 1.0)}) {
+    for (const int subdivisions : {0, 1}) {
+      World world;
+      world.settings.ground.reset();
+      world.settings.steps_per_second = 240;
+      world.soft = {make_obstacle(mesh, {0.0, 0.0, 0.0}, velocity),
+                    make_body(make_icosphere(0.9, subdivisions), {0.3, 0.2, 3.4})};
+      SoftBody& ball = world.soft[1];
+      ball.material.n = 0.1;
+      ball.material.k = 60.0;
+      ball.material.vertex_mass = 0.02;
+      for (int v = 0; v < ball.positions.size(); ++v) ball.velocities[v] = Vec3(1.0, 0.5, -10.0);
+      Stepper stepper(world);
+      std::size_t contacts = 0;
+      for (int i = 0; i < 60; ++i) {
+        const auto divergence = stepper.step(world);
+        ASSERT_FALSE(divergence) << divergence->what;
+        ASSERT_EQ(i % 4 == 0 ? crossings(world).between_bodies : 0, 0) << "after step " << i;
+        contacts += stepper.contacts().size();
+      }
+      EXPECT_GT(contacts, 5u);
+    }
+  }
+}
+
 TEST(Obstacles, MayLieInEachOtherAndInTheGround) {
   World world;
   world.soft = {make_obstacle(make_icosphere(1.0, 2), {0.0, 0.0, 0.0}),

@@ -1,0 +1,357 @@
+#include "sim/swept/obstacle_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pneuma::sim {
+namespace {
+
+/// Sine of the angle up to which faces are one: rounding.
+constexpr double sine_of_one_face = 1e-6;
+/// Normals of a vertex with more neighbours are not looked for: it has some.
+constexpr std::size_t max_ring = 32;
+
+Vec4d opposite_corner(const MeshTopology& topology, const VertexReader& x, int edge,
+                      std::size_t side) {
+  const auto& [from, to] = topology.edges()[at(edge)];
+  const auto& [a, b, c] = topology.triangles()[at(topology.edge_triangles()[at(edge)][side])];
+  return x[a + b + c - from - to];
+}
+
+/// Whether ways to two sides lead to one side of the plane across a direction.
+bool are_on_one_side(Vec4d one, Vec4d other, Vec4d direction) {
+  const double along_one = dot(direction, one), along_other = dot(direction, other);
+  if (along_one * along_other >= 0.0) return true;
+  const double least = sine_of_one_face * sine_of_one_face * dot(direction, direction);
+  return along_one * along_one <= least * dot(one, one) ||
+         along_other * along_other <= least * dot(other, other);
+}
+
+/// Of each of four vertices.
+Vec4d dots(Vec4d direction, const Vec3x4& vertices) {
+  return fma(direction[0], vertices.x, fma(direction[1], vertices.y, direction[2] * vertices.z));
+}
+
+double greatest_lane(Vec4d lanes) {
+  return std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3]));
+}
+double smallest_lane(Vec4d lanes) { return -greatest_lane(-lanes); }
+
+Vec3x4 corner_columns(const VertexReader& x, const Triangle& triangle) {
+  return to_columns(x[triangle[0]], x[triangle[1]], x[triangle[2]], x[triangle[2]]);
+}
+
+/// Zero of a triangle without area.
+Vec4d unit_normal(const VertexReader& x, const Triangle& corners) {
+  const Vec4d normal = cross(x[corners[1]] - x[corners[0]], x[corners[2]] - x[corners[0]]);
+  const double squared = dot(normal, normal);
+  return squared > 0.0 ? normal / std::sqrt(squared) : Vec4d{};
+}
+
+ObstacleShape::Face face_of(const VertexReader& x, const Triangle& triangle) {
+  const Vec4d normal = unit_normal(x, triangle);
+  return {{normal, dot(normal, x[triangle[0]])}, corner_columns(x, triangle)};
+}
+
+ObstacleShape::EdgeSides edge_sides_of(const MeshTopology& topology, const VertexReader& x,
+                                       int edge) {
+  const auto& [from, to] = topology.edges()[at(edge)];
+  return {x[to] - x[from], opposite_corner(topology, x, edge, 0) - x[from],
+          opposite_corner(topology, x, edge, 1) - x[from]};
+}
+
+bool is_convex(const MeshTopology& topology, const VertexArray& positions, int edge) {
+  const VertexReader x(positions);
+  const int triangle = topology.edge_triangles()[at(edge)][0];
+  const auto& [a, b, c] = topology.triangles()[at(triangle)];
+  const Vec4d normal = cross(x[b] - x[a], x[c] - x[a]);
+  const Vec4d beyond = opposite_corner(topology, x, edge, 1) - x[topology.edges()[at(edge)][0]];
+  const double height = dot(normal, beyond);
+  const double least = sine_of_one_face * std::sqrt(dot(normal, normal) * dot(beyond, beyond));
+  return !(height >= -least);
+}
+
+/// Whether some direction leads away from all neighbours of a vertex. If there are any, one is at
+/// right angles to the ways to two neighbours.
+bool has_normal(const MeshTopology& topology, const VertexArray& positions, int vertex) {
+  const VertexReader x(positions);
+  const auto ring = topology.ring(vertex);
+  if (ring.size() > max_ring) return true;
+  std::array<Vec4d, max_ring> ways;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec4d way = x[ring[i].vertex] - x[vertex];
+    ways[i] = way / std::sqrt(dot(way, way));
+  }
+  const auto all = std::span(ways).first(ring.size());
+  const auto leads_away = [&](Vec4d direction) {
+    const double least = sine_of_one_face * std::sqrt(dot(direction, direction));
+    return std::ranges::none_of(all, [&](Vec4d way) { return dot(direction, way) > least; });
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec4d direction = cross(all[i], all[j]);
+      if (leads_away(direction) || leads_away(-direction)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+ObstacleShape::ObstacleShape(const MeshTopology& topology, const VertexArray& positions)
+    : vertices_(at(topology.vertex_count())), edges_(at(topology.edge_count())) {
+  for (int e = 0; e < topology.edge_count(); ++e) {
+    edges_[at(e)] = is_convex(topology, positions, e) ? 1 : 0;
+  }
+  for (int v = 0; v < topology.vertex_count(); ++v) {
+    const bool has_edge = std::ranges::any_of(
+        topology.ring(v), [&](const auto& spoke) { return edges_[at(spoke.edge)] != 0; });
+    vertices_[at(v)] = has_edge && has_normal(topology, positions, v) ? 1 : 0;
+  }
+}
+
+void ObstacleShape::keep_place(const MovingSurface& surface) {
+  const MeshTopology& topology = surface.tree->topology();
+  const VertexReader x(surface.start);
+  find_planes(surface);
+  faces_.clear();
+  for (const Triangle& triangle : topology.triangles()) faces_.push_back(face_of(x, triangle));
+  edge_sides_.clear();
+  for (int e = 0; e < topology.edge_count(); ++e) {
+    edge_sides_.push_back(edge_sides_of(topology, x, e));
+  }
+}
+
+void ObstacleShape::find_planes(const MovingSurface& surface) {
+  const SurfaceTree& tree = *surface.tree;
+  const auto& triangles = tree.topology().triangles();
+  const VertexReader x(surface.start);
+  planes_.resize(tree.nodes().size());
+  for (std::size_t node = 0; node < planes_.size(); ++node) {
+    const auto for_each_triangle = [&](const auto& visit) {
+      for (int below = static_cast<int>(node); below < tree.nodes()[node].next; ++below) {
+        const SurfaceTree::Node& leaf = tree.nodes()[at(below)];
+        for (int t = leaf.first; t < leaf.end; ++t) visit(triangles[at(tree.order()[at(t)])]);
+      }
+    };
+    Vec4d sum{};
+    for_each_triangle(
+        [&](const Triangle& t) { sum += cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]); });
+    const double squared = dot(sum, sum);
+    Plane& plane = planes_[node];
+    plane.normal = squared > 0.0 ? sum / std::sqrt(squared) : Vec4d{};
+    plane.height = -std::numeric_limits<double>::infinity();
+    for_each_triangle([&](const Triangle& t) {
+      for (const int v : t) plane.height = std::max(plane.height, dot(plane.normal, x[v]));
+    });
+  }
+}
+
+/// Goes down both trees.
+class ObstacleSearch::Descent {
+ public:
+  Descent(const BesideObstacle& pair, bool may_pass, ObstacleSearch& search,
+          std::vector<NearFeatures>& pairs)
+      : pair_(pair),
+        may_pass_(may_pass),
+        reach_(may_pass ? pair.least : pair.near),
+        soft_(*pair.soft.tree),
+        obstacle_(*pair.obstacle.tree),
+        soft_start_(pair.soft.start),
+        soft_end_(pair.soft.end),
+        start_(pair.obstacle.start),
+        end_(pair.obstacle.end),
+        search_(search),
+        boxes_(search.boxes_),
+        pairs_(pairs) {}
+
+  void descend(int i, int j) {
+    const WayBox &one = boxes_.nodes[at(i)], &other = pair_.obstacle.nodes[at(j)];
+    if (!overlap(one, other)) return;
+    const SurfaceTree::Node &a = soft_.nodes()[at(i)], &b = obstacle_.nodes()[at(j)];
+    if (a.is_leaf()) {
+      for (int s = a.first; s < a.end; ++s) meet_below(soft_.order()[at(s)], j);
+    } else if (b.is_leaf() || squared_size(one) >= squared_size(other)) {
+      descend(i + 1, j);
+      descend(soft_.nodes()[at(i + 1)].next, j);
+    } else {
+      descend(i, j + 1);
+      descend(i, obstacle_.nodes()[at(j + 1)].next);
+    }
+  }
+
+ private:
+  using Face = ObstacleShape::Face;
+  using EdgeSides = ObstacleShape::EdgeSides;
+
+  static double squared_size(const WayBox& box) {
+    return dot(box.high - box.low, box.high - box.low);
+  }
+
+  /// What of the obstacle is below a node.
+  void meet_below(int triangle, int node) {
+    const WayBox& box = boxes_.triangles[at(triangle)];
+    const SoftTriangle& soft = soft_triangle(triangle);
+    const auto& nodes = obstacle_.nodes();
+    for (const int end = nodes[at(node)].next; node < end;) {
+      if (!overlap(box, pair_.obstacle.nodes[at(node)]) || is_above_plane(soft, node)) {
+        node = nodes[at(node)].next;
+        continue;
+      }
+      for (int t = nodes[at(node)].first; t < nodes[at(node)].end; ++t) {
+        const int other = obstacle_.order()[at(t)];
+        if (overlap(box, pair_.obstacle.triangles[at(other)])) meet(triangle, other);
+      }
+      ++node;
+    }
+  }
+
+  bool is_above_plane(const SoftTriangle& soft, int node) const {
+    if (!pair_.shape.keeps_place()) return false;
+    const ObstacleShape::Plane& plane = pair_.shape.planes()[at(node)];
+    const double least = plane.height + pair_.near;
+    return all_of_lanes(dots(plane.normal, soft.corners_at_start) >= least) &&
+           all_of_lanes(dots(plane.normal, soft.corners_at_end) >= least);
+  }
+
+  void meet(int triangle, int other) {
+    const SoftTriangle& soft = soft_triangle(triangle);
+    const Triangle& corners = obstacle_.topology().triangles()[at(other)];
+    const bool keeps_place = pair_.shape.keeps_place();
+    const Face at_start = keeps_place ? pair_.shape.faces()[at(other)] : face_of(start_, corners);
+    const Vec3x4 at_end = keeps_place ? at_start.corners : corner_columns(end_, corners);
+    const double beyond = clearance_beyond(soft, at_start, at_end);
+    if (beyond >= pair_.near) return;
+    const Vec4d heights = heights_above(soft, at_start.corners, at_end);
+    const double lowest = smallest_lane(heights);
+    if (lowest >= pair_.near) return;
+    const WayBox& box = pair_.obstacle.triangles[at(other)];
+    for (const int v : soft_.topology().triangles()[at(triangle)]) {
+      if (soft_.owner_of_vertex(v) != triangle || !overlap(boxes_.vertices[at(v)], box)) continue;
+      add({FeatureKind::vertex, v}, {FeatureKind::triangle, other});
+    }
+    if (std::max(lowest, beyond) >= reach_) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int v = corners[i];
+      const double height = heights[static_cast<int>(i)];
+      if (height >= reach_ || obstacle_.owner_of_vertex(v) != other) continue;
+      if (!pair_.shape.is_touchable_vertex(v)) continue;
+      if (!overlap(boxes_.triangles[at(triangle)], pair_.obstacle.vertices[at(v)])) continue;
+      add({FeatureKind::triangle, triangle}, {FeatureKind::vertex, v});
+    }
+    meet_edges(triangle, other);
+  }
+
+  void meet_edges(int triangle, int other) {
+    for (const int f : obstacle_.topology().triangle_edges()[at(other)]) {
+      if (obstacle_.owner_of_edge(f) != other || !pair_.shape.is_touchable_edge(f)) continue;
+      const WayBox around = edge_box(obstacle_, pair_.obstacle, f);
+      if (!overlap(boxes_.triangles[at(triangle)], around)) continue;
+      const EdgeSides sides = pair_.shape.keeps_place()
+                                  ? pair_.shape.edge_sides()[at(f)]
+                                  : edge_sides_of(obstacle_.topology(), start_, f);
+      for (const int e : soft_.topology().triangle_edges()[at(triangle)]) {
+        if (soft_.owner_of_edge(e) != triangle) continue;
+        const SoftEdge& soft = soft_edge(e);
+        if (!overlap(soft.box, around)) continue;
+        if (!may_pass_ && !may_be_nearest(soft.sides, sides)) continue;
+        add({FeatureKind::edge, e}, {FeatureKind::edge, f});
+      }
+    }
+  }
+
+  /// At the start, as far as their directions tell.
+  static bool may_be_nearest(const EdgeSides& one, const EdgeSides& other) {
+    const Vec4d apart = cross(one.along, other.along);
+    return are_on_one_side(one.into_first, one.into_second, apart) &&
+           are_on_one_side(other.into_first, other.into_second, apart);
+  }
+
+  void add(const Feature& of_soft, const Feature& of_obstacle) {
+    pairs_.push_back(pair_.soft_is_first ? NearFeatures{of_soft, of_obstacle}
+                                         : NearFeatures{of_obstacle, of_soft});
+  }
+
+  const SoftEdge& soft_edge(int edge) {
+    SoftEdge& soft = search_.edges_[at(edge)];
+    if (!soft.is_known) {
+      soft = {true, edge_sides_of(soft_.topology(), soft_start_, edge),
+              edge_box(soft_, boxes_, edge)};
+    }
+    return soft;
+  }
+
+  const SoftTriangle& soft_triangle(int triangle) {
+    SoftTriangle& soft = search_.triangles_[at(triangle)];
+    if (soft.is_known) return soft;
+    const Triangle& corners = soft_.topology().triangles()[at(triangle)];
+    soft.is_known = true;
+    soft.normal_at_start = unit_normal(soft_start_, corners);
+    soft.normal_at_end = unit_normal(soft_end_, corners);
+    soft.corners_at_start = corner_columns(soft_start_, corners);
+    soft.corners_at_end = corner_columns(soft_end_, corners);
+    const auto [first, middle, last] =
+        along_normal(soft, soft.corners_at_start, soft.corners_at_end);
+    soft.at_start = greatest_lane(first);
+    soft.between = greatest_lane(middle);
+    soft.at_end = greatest_lane(last);
+    return soft;
+  }
+
+  /// Bernstein's coefficients of n(t) . x(t), both linear in time.
+  static std::array<Vec4d, 3> along_normal(const SoftTriangle& soft, const Vec3x4& from,
+                                           const Vec3x4& to) {
+    return {dots(soft.normal_at_start, from),
+            0.5 * (dots(soft.normal_at_start, to) + dots(soft.normal_at_end, from)),
+            dots(soft.normal_at_end, to)};
+  }
+
+  /// m, by which the corners of the obstacle's triangle stay above the plane at least.
+  static Vec4d heights_above(const SoftTriangle& soft, const Vec3x4& from, const Vec3x4& to) {
+    const auto [first, middle, last] = along_normal(soft, from, to);
+    return min(min(first - soft.at_start, last - soft.at_end), middle - soft.between);
+  }
+
+  /// m, by which the triangle of the soft body stays above the plane of the other at least, as this
+  /// is at the start. Of one without area, nothing is known.
+  static double clearance_beyond(const SoftTriangle& soft, const Face& face, const Vec3x4& to) {
+    const Vec4d first = dots(face.plane.normal, soft.corners_at_start) - face.plane.height;
+    const Vec4d last = dots(face.plane.normal, soft.corners_at_end);
+    return smallest_lane(min(first, last - greatest_lane(dots(face.plane.normal, to))));
+  }
+
+  const BesideObstacle& pair_;
+  const bool may_pass_;  // on their ways, rather than be nearest at the start
+  const double reach_;   // m, of all but vertices of the soft body
+  const SurfaceTree& soft_;
+  const SurfaceTree& obstacle_;
+  const VertexReader soft_start_, soft_end_;
+  const VertexReader start_, end_;  // of the obstacle
+  ObstacleSearch& search_;
+  const WayBoxes& boxes_;  // of the soft body
+  std::vector<NearFeatures>& pairs_;
+};
+
+void ObstacleSearch::find_nearest_at_start(const BesideObstacle& pair,
+                                           std::vector<NearFeatures>& pairs) {
+  find(pair, false, pairs);
+}
+
+void ObstacleSearch::find_first_to_pass(const BesideObstacle& pair,
+                                        std::vector<NearFeatures>& pairs) {
+  find(pair, true, pairs);
+}
+
+void ObstacleSearch::find(const BesideObstacle& pair, bool may_pass,
+                          std::vector<NearFeatures>& pairs) {
+  fit(pair.soft, pair.near, boxes_);
+  const MeshTopology& topology = pair.soft.tree->topology();
+  triangles_.resize(std::max(triangles_.size(), at(topology.triangle_count())));
+  edges_.resize(std::max(edges_.size(), at(topology.edge_count())));
+  for (SoftTriangle& triangle : triangles_) triangle.is_known = false;
+  for (SoftEdge& edge : edges_) edge.is_known = false;
+  Descent(pair, may_pass, *this, pairs).descend(0, 0);
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,106 @@
+// The features of a soft body and of an obstacle, which keeps its shape, that may touch in a step.
+//
+// A fine obstacle has hundreds of features beside each of a coarse body. Of these only few can be
+// where the two surfaces meet first: a vertex of the obstacle only if the direction between them is
+// one of its normals, which edges that lie in a hollow do not have at all; and nothing of a pair of
+// triangles between which a plane passes while they move.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/swept/moving_surface.h"
+
+namespace pneuma::sim {
+
+/// What of an obstacle does not change.
+class ObstacleShape {
+ public:
+  ObstacleShape(const MeshTopology& topology, const VertexArray& positions);
+
+  /// Whether another surface can touch it first. What is flat, or has something higher on both
+  /// sides whichever way one looks, is touched with or after what is beside it.
+  bool is_touchable_vertex(int index) const { return vertices_[at(index)] != 0; }
+  bool is_touchable_edge(int index) const { return edges_[at(index)] != 0; }
+
+  /// A plane above all triangles below a node of the tree.
+  struct Plane {
+    Vec4d normal{};       // unit
+    double height = 0.0;  // m, along the normal
+  };
+  /// A triangle in its plane.
+  struct Face {
+    Plane plane;
+    Vec3x4 corners{};
+  };
+  /// An edge, and the ways from its first end into both triangles beside it.
+  struct EdgeSides {
+    Vec4d along{};
+    Vec4d into_first{};
+    Vec4d into_second{};
+  };
+  /// Keeps where all is, of an obstacle that stays there.
+  void keep_place(const MovingSurface& surface);
+  bool keeps_place() const { return !planes_.empty(); }
+  /// Per node of the tree, per triangle and per edge, if it does.
+  const std::vector<Plane>& planes() const { return planes_; }
+  const std::vector<Face>& faces() const { return faces_; }
+  const std::vector<EdgeSides>& edge_sides() const { return edge_sides_; }
+
+ private:
+  void find_planes(const MovingSurface& surface);
+
+  std::vector<std::uint8_t> vertices_;
+  std::vector<std::uint8_t> edges_;
+  std::vector<Plane> planes_;
+  std::vector<Face> faces_;
+  std::vector<EdgeSides> edge_sides_;
+};
+
+/// A soft body and an obstacle.
+struct BesideObstacle {
+  const MovingSurface& soft;      // its boxes may be old
+  const MovingSurface& obstacle;  // refitted
+  const ObstacleShape& shape;
+  bool soft_is_first = true;  // in the pairs that are found
+  double near = 0.0;          // m, up to which features are in contact
+  double least = 0.0;         // m, which they must keep on their ways
+};
+
+class ObstacleSearch {
+ public:
+  /// Appends pairs of features, each once: of those that may come within `near` on their ways
+  /// all that may be nearest to each other at the start, of what is beside them.
+  void find_nearest_at_start(const BesideObstacle& pair, std::vector<NearFeatures>& pairs);
+  /// Those that may be the first of their surfaces to come within `least`, and vertices of the soft
+  /// body that may come within `near`.
+  void find_first_to_pass(const BesideObstacle& pair, std::vector<NearFeatures>& pairs);
+
+ private:
+  /// A triangle of the soft body, and a plane that moves with it: nothing of it is above that.
+  struct SoftTriangle {
+    bool is_known = false;
+    Vec4d normal_at_start{};  // unit
+    Vec4d normal_at_end{};
+    double at_start = 0.0;  // m, along the normal
+    double at_end = 0.0;
+    double between = 0.0;  // Bernstein's middle coefficient of a quadratic function of time
+    Vec3x4 corners_at_start{};
+    Vec3x4 corners_at_end{};
+  };
+  struct SoftEdge {
+    bool is_known = false;
+    ObstacleShape::EdgeSides sides;
+    WayBox box;
+  };
+  class Descent;
+
+  void find(const BesideObstacle& pair, bool may_pass, std::vector<NearFeatures>& pairs);
+
+  // Allocated no more once the number of triangles has peaked.
+  WayBoxes boxes_;  // of the soft body
+  std::vector<SoftTriangle> triangles_;
+  std::vector<SoftEdge> edges_;
+};
+
+}  // namespace pneuma::sim
