@@ -4,6 +4,7 @@
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/soft/pins.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -126,6 +127,34 @@ TEST(Obstacles, ThatAreFineAreNotCrossed) {
       EXPECT_GT(contacts, 5u);
     }
   }
+}
+
+/// The second time, whatever balls of different meshes need is there.
+TEST(Obstacles, ThatAreFineAllocateNothingTwice) {
+  World start;
+  start.settings.ground.reset();
+  start.settings.steps_per_second = 240;
+  start.soft = {make_obstacle(make_icosphere(2.0, 4), {0.0, 0.0, 0.0}),
+                make_body(make_icosphere(0.5, 0), {0.6, 0.2, 2.7}),
+                make_body(make_icosphere(0.5, 1), {-0.6, 0.2, 2.7})};
+  for (SoftBody* ball : {&start.soft[1], &start.soft[2]}) {
+    ball->material.n = 0.1;
+    for (int v = 0; v < ball->positions.size(); ++v) ball->velocities[v].z() = -5.0;
+  }
+  World world = start;
+  Stepper stepper(world);
+  long before = 0;
+  for (int run = 0; run < 2; ++run) {
+    world = start;
+    before = allocation_count();
+    std::size_t contacts = 0;
+    for (int i = 0; i < 60; ++i) {
+      ASSERT_FALSE(stepper.step(world));
+      contacts += stepper.contacts().size();
+    }
+    EXPECT_GT(contacts, 5u);
+  }
+  EXPECT_EQ(allocation_count() - before, 0);
 }
 
 TEST(Obstacles, MayLieInEachOtherAndInTheGround) {
