@@ -125,6 +125,18 @@ inline Vec3x4 to_columns(Vec4d a, Vec4d b, Vec4d c, Vec4d d) {
           __builtin_shufflevector(xz_ab, xz_cd, 2, 3, 6, 7)};
 }
 
+inline std::array<Vec4d, 4> to_rows(const Vec3x4& v) {
+  const Vec4d zero{};
+  const Vec4d xy_02 = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6);
+  const Vec4d xy_13 = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);
+  const Vec4d z0_02 = __builtin_shufflevector(v.z, zero, 0, 4, 2, 6);
+  const Vec4d z0_13 = __builtin_shufflevector(v.z, zero, 1, 5, 3, 7);
+  return {__builtin_shufflevector(xy_02, z0_02, 0, 1, 4, 5),
+          __builtin_shufflevector(xy_13, z0_13, 0, 1, 4, 5),
+          __builtin_shufflevector(xy_02, z0_02, 2, 3, 6, 7),
+          __builtin_shufflevector(xy_13, z0_13, 2, 3, 6, 7)};
+}
+
 /// A 3 x 3 matrix by its columns, each x y z 0.
 struct Mat3x4 {
   std::array<Vec4d, 3> columns;

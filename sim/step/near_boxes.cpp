@@ -7,9 +7,6 @@
 namespace pneuma::sim {
 namespace {
 
-/// Of the shorter of their shortest sides: boxes no further apart at the start of the step touch in
-/// the points of one contact, as boxes, and not by their features.
-constexpr double near_of_side = 0.02;
 /// Of the distance wanted: further than this boxes do not get into each other in a step.
 constexpr double allowed_sinking = 0.1;
 
@@ -21,13 +18,12 @@ double reach_of(const OrientedBox& one, const OrientedBox& other) {
 
 OrientedBox SweptSearch::end_box(int body) const {
   const RigidBox& box = world_.rigid[at(bodies_.box(body))];
-  return {box.position, box.orientation.toRotationMatrix(), 0.5 * box.size};
+  return {box.position, bodies_.end_axes(body), 0.5 * box.size};
 }
 
 OrientedBox SweptSearch::start_box(int body) const {
   const RigidState& start = start_.rigid[at(bodies_.box(body))];
-  return {start.position, start.orientation.toRotationMatrix(),
-          0.5 * world_.rigid[at(bodies_.box(body))].size};
+  return {start.position, bodies_.start_axes(body), 0.5 * world_.rigid[at(bodies_.box(body))].size};
 }
 
 /// m, of a corner of one box against one of another, at most: the same motion of both is left out.
@@ -133,14 +129,12 @@ SweptContact SweptSearch::move_to_end(const SweptCandidate& candidate) const {
 
 void SweptSearch::find_contacts_of_boxes() {
   m_.contacts.clear();
-  m_.impulses.clear();
   for (const SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
     const bool on_ground = second == swept_ground && bodies_.is_rigid(first);
     if (!candidate.is_of_near_boxes && !on_ground) continue;
     m_.contacts.push_back(on_ground ? place_on_ground(candidate, Moment::start)
                                     : place(candidate, candidate.start, Moment::start));
-    m_.impulses.push_back(impulse(m_.contacts.back(), 0.0));
   }
 }
 

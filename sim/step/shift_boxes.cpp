@@ -1,5 +1,6 @@
 #include "sim/step/shift_boxes.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/response/group_motion.h"
@@ -11,20 +12,25 @@ namespace {
 constexpr double max_shift = 0.05;
 /// Of the thinnest skin: less is not worth a shift.
 constexpr double min_shift = 0.02;
-/// Of the greatest shift: to this they are solved for.
-constexpr double shift_tolerance = 0.05;
+/// Of the greatest shift: to a hundredth of this they are solved for, as velocities of boxes are.
+constexpr double shift_tolerance = 0.5;
 
 /// Solves for the shifts as changes of the boxes. Whether any is worth one.
 bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   search.find_contacts_of_boxes();
+  const auto shift = [&](const SweptContact& contact) {
+    return std::min(made_up_per_step * missing_distance(contact), fraction * max_shift);
+  };
   double greatest = 0.0;
-  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
-    const double missing = missing_distance(memory.contacts[i]);
-    const double shift = std::min(made_up_per_step * missing, fraction * max_shift);
-    memory.impulses[i].aim(shift, Vec3::Zero());
-    greatest = std::max(greatest, shift);
+  for (const SweptContact& contact : memory.contacts) {
+    greatest = std::max(greatest, shift(contact));
   }
   if (greatest < min_shift * memory.bodies.thinnest_skin()) return false;
+  memory.impulses.clear();
+  for (const SweptContact& contact : memory.contacts) {
+    memory.impulses.push_back(search.impulse(contact, 0.0));
+    memory.impulses.back().aim(shift(contact), Vec3::Zero());
+  }
   const std::size_t of_boxes = memory.contacts.size();
   search.find_contacts_beside_boxes(fraction * max_shift);
   for (std::size_t i = of_boxes; i < memory.contacts.size(); ++i) {

@@ -101,7 +101,8 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     MovingSurface& surface = surfaces_.emplace_back();
     surface.tree = std::move(tree);
     surface.start = surface.end = VertexArray(corners_.back().size());
-    skins_.push_back(thin_skin(skin, skin_of_side * box.size.minCoeff()));
+    shortest_sides_.push_back(box.size.minCoeff());
+    skins_.push_back(thin_skin(skin, skin_of_side * shortest_sides_.back()));
   }
   number_nodes(world);
   never_moves_.resize(surfaces_.size());
@@ -113,6 +114,8 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   may_be_changed_.resize(world.soft.size());
   kicked_.resize(world.soft.size());
   falls_.assign(world.rigid.size(), Vec3::Zero());
+  start_axes_.assign(world.rigid.size(), Mat3::Identity());
+  end_axes_ = turns_ = start_axes_;
   allowances_.resize(surfaces_.size());
   searched_ends_.resize(surfaces_.size());
 }
@@ -127,10 +130,9 @@ void SweptBodies::number_nodes(const World& world) {
   }
 }
 
-void SweptBodies::place_corners(int box, const Vec3& position,
-                                const Eigen::Quaterniond& orientation, VertexArray& corners) const {
+void SweptBodies::place_corners(int box, const Vec3& position, const Mat3& axes,
+                                VertexArray& corners) const {
   const VertexArray& own = corners_[at(box)];
-  const Mat3 axes = orientation.toRotationMatrix();
   for (int v = 0; v < own.size(); ++v) corners[v] = position + axes * Vec3(own[v]);
 }
 
@@ -141,9 +143,11 @@ void SweptBodies::set_start(const World& world, const MotionStart& start) {
   std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
   find_what_is_still(world);
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
-    if (is_still_[at(soft_count_ + i)] != 0) continue;
     const RigidState& box = start.rigid[at(i)];
-    place_corners(i, box.position, box.orientation, surfaces_[at(soft_count_ + i)].start);
+    const Mat3& axes = start_axes_[at(i)] = end_axes_[at(i)] = box.orientation.toRotationMatrix();
+    turns_[at(i)].setIdentity();
+    if (is_still_[at(soft_count_ + i)] != 0) continue;
+    place_corners(i, box.position, axes, surfaces_[at(soft_count_ + i)].start);
   }
 }
 
@@ -165,8 +169,11 @@ void SweptBodies::set_end(const World& world) {
 }
 
 void SweptBodies::set_end(const World& world, int body) {
-  const RigidBox& moved = world.rigid[at(box(body))];
-  place_corners(box(body), moved.position, moved.orientation, surfaces_[at(body)].end);
+  const int i = box(body);
+  const RigidBox& moved = world.rigid[at(i)];
+  const Mat3& axes = end_axes_[at(i)] = moved.orientation.toRotationMatrix();
+  turns_[at(i)] = axes * start_axes_[at(i)].transpose();
+  place_corners(i, moved.position, axes, surfaces_[at(body)].end);
 }
 
 void SweptBodies::begin_at_start(const World& world, const MotionStart& start) {
@@ -231,7 +238,7 @@ void SweptBodies::fit_still(const World& world, int body) {
   MovingSurface& surface = surfaces_[at(body)];
   if (is_rigid(body)) {
     const RigidBox& still = world.rigid[at(box(body))];
-    place_corners(box(body), still.position, still.orientation, surface.start);
+    place_corners(box(body), still.position, still.orientation.toRotationMatrix(), surface.start);
   } else {
     surface.start = world.soft[at(body)].positions;
   }
@@ -248,7 +255,7 @@ Bounds SweptBodies::root_bounds(int body) const {
 
 void SweptBodies::refit_anew(int body, double allowed) {
   MovingSurface& surface = surfaces_[at(body)];
-  is_searched_[at(body)] = 1;
+  is_searched_[at(body)] = is_refitted_[at(body)] = 1;
   allowances_[at(body)] = allowed + skin(body);
   searched_ends_[at(body)] = surface.end;
   refit(surface, skins_around * skin(body) + allowance(body));
@@ -258,6 +265,7 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
                                    std::vector<BodyPair>& pairs) {
   ways_.clear();
   spheres_.clear();
+  is_refitted_.assign(surfaces_.size(), 0);
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
       ways_.push_back(bounds_of_still(world, i));
@@ -268,15 +276,25 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
     spheres_.push_back({ways_.back().centre(), 0.5 * ways_.back().size().norm()});
   }
   sweep_and_prune_.find(spheres_, pairs);
-  // Boxes are looked at as boxes, over a distance of their own.
-  std::erase_if(pairs, [&](const BodyPair& pair) {
-    return !is_rigid(pair.first) && !overlap(ways_[at(pair.first)], ways_[at(pair.second)]);
-  });
+  std::erase_if(pairs, [&](const BodyPair& pair) { return !may_be_near(pair); });
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
       if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);
     }
   }
+}
+
+/// Boxes are looked at as boxes, over a distance of their own.
+bool SweptBodies::may_be_near(const BodyPair& bodies) const {
+  const auto& [first, second] = bodies;
+  Bounds way = ways_[at(first)];
+  if (is_rigid(first)) {
+    const auto shortest = [&](int body) { return shortest_sides_[at(box(body))]; };
+    const double reach = 2.0 * near_of_side * std::min(shortest(first), shortest(second));
+    way.low.array() -= reach;
+    way.high.array() += reach;
+  }
+  return overlap(way, ways_[at(second)]);
 }
 
 bool SweptBodies::may_meet_others(const Bounds& way, const BodyPair& bodies) const {
@@ -346,10 +364,9 @@ Vec3 SweptBodies::displacement(const World& world, const MotionStart& start,
                                const SurfacePoint& point) const {
   if (point.body == swept_ground) return Vec3::Zero();
   if (is_rigid(point.body)) {
-    const RigidBox& now = world.rigid[at(box(point.body))];
-    const RigidState& before = start.rigid[at(box(point.body))];
-    const Vec3 local = before.orientation.conjugate() * (point.point - before.position);
-    return now.position + now.orientation * local - point.point;
+    const std::size_t i = at(box(point.body));
+    const Vec3 arm = point.point - start.rigid[i].position;
+    return world.rigid[i].position + turns_[i] * arm - point.point;
   }
   const MovingSurface& moving = surface(point.body);
   return interpolate(point, [&](int v) -> Vec3 { return moving.end[v] - moving.start[v]; });

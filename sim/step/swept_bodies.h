@@ -26,6 +26,10 @@ struct SurfacePoint {
 };
 inline constexpr int swept_ground = -1;  // in place of a body: nothing moves it
 
+/// Of the shorter of their shortest sides: boxes no further apart at the start of the step touch in
+/// the points of one contact, as boxes, and not by their features.
+inline constexpr double near_of_side = 0.02;
+
 class SweptBodies {
  public:
   explicit SweptBodies(const World& world);
@@ -59,6 +63,11 @@ class SweptBodies {
   /// Fills `pairs` with the bodies whose ways come near each other, in ascending order. Their ways
   /// may then end elsewhere by the allowance of each body without another search.
   void find_near_bodies(const World& world, const MotionStart& start, std::vector<BodyPair>& pairs);
+  /// Whether the last search was for these ways of two boxes, though it was not the first.
+  bool is_as_searched(const BodyPair& bodies) const {
+    return is_rigid(bodies.first) && is_refitted_[at(bodies.first)] == 0 &&
+           is_refitted_[at(bodies.second)] == 0;
+  }
   /// Whether another body's way comes near one of these bodies, which it would go besides its own.
   bool may_meet_others(const Bounds& way, const BodyPair& bodies) const;
   void add_to_way(int body, const Bounds& way) { ways_[at(body)].include(way); }
@@ -72,6 +81,10 @@ class SweptBodies {
   double allowance(int body) const { return allowances_[at(body)]; }
   /// Whether all ends are still within the allowances.
   bool search_is_valid() const;
+
+  /// The axes of a box at the start of the step and at its end.
+  const Mat3& start_axes(int body) const { return start_axes_[at(box(body))]; }
+  const Mat3& end_axes(int body) const { return end_axes_[at(box(body))]; }
 
   /// m, where a point with these weights is at the start of the step.
   Vec3 start_point(const SurfacePoint& point) const;
@@ -124,6 +137,7 @@ class SweptBodies {
   /// `allowed`: m, by which the end may move before another search, besides a skin.
   void refit_anew(int body, double allowed);
   Bounds root_bounds(int body) const;
+  bool may_be_near(const BodyPair& bodies) const;
   void find_what_is_still(const World& world);
   Bounds bounds_of_still(const World& world, int body);
   void fit_still(const World& world, int body);
@@ -142,8 +156,7 @@ class SweptBodies {
   std::optional<Divergence> move_again(World& world, const MotionStart& start, JoinedStep& group,
                                        IntegrateSoftMemory& integrate_soft);
   void add_falls(World& world) const;
-  void place_corners(int box, const Vec3& position, const Eigen::Quaterniond& orientation,
-                     VertexArray& corners) const;
+  void place_corners(int box, const Vec3& position, const Mat3& axes, VertexArray& corners) const;
 
   int soft_count_ = 0;
   std::vector<MovingSurface> surfaces_;
@@ -156,13 +169,17 @@ class SweptBodies {
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
   std::vector<std::uint8_t> is_searched_;  // per body: whether a search of this step was for it
+  std::vector<std::uint8_t> is_refitted_;  // per body: whether the last search was anew for it
   std::vector<double> skins_;
+  std::vector<double> shortest_sides_;  // of the boxes, m
   std::vector<double> allowances_;
   std::vector<VertexArray> searched_ends_;                  // the ends that the last search was for
   std::vector<VertexArray> corners_;                        // of the boxes, in their own axes, m
   std::vector<std::unique_ptr<const MeshTopology>> boxes_;  // their triangles
   std::vector<VertexArray> changes_;                        // m/s, per soft body
   std::vector<std::uint8_t> may_be_changed_;  // per soft body: an impulse got a side of it
+  std::vector<Mat3> start_axes_, end_axes_;   // of the boxes
+  std::vector<Mat3> turns_;                   // of the boxes, from the start to the end
   std::vector<BoxChange> box_changes_;
   std::vector<BoxChange> shifts_;          // of the boxes, or empty
   std::vector<Vec3> falls_;                // m, of the boxes, within the step

@@ -41,10 +41,11 @@ void SweptSearch::start() {
 
 void SweptSearch::find_candidates() {
   has_started_ = false;
-  search();
+  m_.earlier_candidates.clear();
+  search_ways();
 }
 
-void SweptSearch::search() {
+void SweptSearch::search_ways() {
   m_.candidates.clear();
   are_beside_obstacles_ = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
@@ -54,7 +55,7 @@ void SweptSearch::search() {
     if (is_beside_obstacle(pair)) {
       offer_beside_obstacle(pair);
       bodies_.may_meet(pair);
-    } else if (!offer_near_boxes(pair)) {
+    } else if (!keep_earlier(pair) && !offer_near_boxes(pair)) {
       offer_near_features(pair);
     }
     if (m_.candidates.size() == before) continue;
@@ -68,6 +69,18 @@ void SweptSearch::wake_if_touched(const BodyPair& bodies) {
   for (const int body : {bodies.first, bodies.second}) {
     if (is_asleep(world_, body)) m_.touched_asleep.push_back(body);
   }
+}
+
+/// Of boxes whose ways still end where an earlier search of the step allowed for.
+bool SweptSearch::keep_earlier(const BodyPair& bodies) {
+  if (m_.earlier_candidates.empty() || !bodies_.is_as_searched(bodies)) return false;
+  const auto of_pair =
+      std::ranges::equal_range(m_.earlier_candidates, in_order(bodies.first, bodies.second), {},
+                               [](const SweptCandidate& earlier) {
+                                 return in_order(earlier.bodies.first, earlier.bodies.second);
+                               });
+  m_.candidates.insert(m_.candidates.end(), of_pair.begin(), of_pair.end());
+  return true;
 }
 
 /// Of two bodies that no impulse moves one must sleep and the other come near it.
@@ -117,7 +130,8 @@ void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
 void SweptSearch::follow_ends() {
   bodies_.set_end(world_);
   if (!bodies_.search_is_valid()) {
-    search();
+    m_.earlier_candidates = m_.candidates;
+    search_ways();
   } else if (has_started_ && are_beside_obstacles_) {
     search_beside_obstacles();
   } else {

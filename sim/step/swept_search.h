@@ -85,7 +85,7 @@ struct SweptMemory {
   std::vector<SweptStart> starts;  // by how often the step has been halved
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
-  std::vector<SweptCandidate> earlier_candidates;  // of the search before
+  std::vector<SweptCandidate> earlier_candidates;  // of the search before, in the same step
   ObstacleSearch obstacle_search;
   std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
   std::vector<NearFeatures> found;  // of two bodies
@@ -170,7 +170,6 @@ class SweptSearch {
   const ContactMaterial& material(int body) const;
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
-  void search();
   void search_beside_obstacles();
   bool is_beside_obstacle(const BodyPair& bodies) const;
   void offer_beside_obstacle(const BodyPair& bodies);
@@ -178,6 +177,8 @@ class SweptSearch {
   bool obstacle_is_nearest(const BodyPair& bodies, const NearFeatures& features,
                            const ClosestPoints& closest) const;
   void wake_if_touched(const BodyPair& bodies);
+  void search_ways();
+  bool keep_earlier(const BodyPair& bodies);
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);

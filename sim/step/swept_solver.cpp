@@ -131,14 +131,15 @@ void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
 
 void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
-  if (iterations_.correct(impulses, of_boxes, few_iterations) <= of_boxes) return;
+  iterations_.begin(impulses);
+  if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {
-      iterations_.correct(impulses, tolerance, many_iterations - few_iterations);
+      iterations_.correct(tolerance, many_iterations - few_iterations);
       return;
     }
-    if (iterations_.correct(impulses, of_boxes, few_iterations) <= of_boxes) return;
+    if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
   }
 }
 

@@ -52,6 +52,7 @@ void ImpactPath::begin(std::span<const ImpactPoint> points) {
     impulses_.push_back(point.impulse);
     point.impulse->replace_given(to_vec4d(point.impulse->given()) - point.impulse->impulse());
   }
+  iterations_.begin(impulses_);
 }
 
 /// Until the points that are hit part at `share` of the speed with which they were. Returns the
@@ -64,7 +65,7 @@ double ImpactPath::add_part(std::span<const ImpactPoint> points, double share, d
     const double parting = point.approach > 0.0 ? share * point.approach : point.parting;
     point.impulse->aim(parting - point.speed, point.velocity);
   }
-  iterations_.correct(impulses_, tolerance, max_iterations);
+  iterations_.correct(tolerance, max_iterations);
   double work = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     work += 0.5 * (states_[i].speed + speed(points[i])) * points[i].impulse->normal_impulse();

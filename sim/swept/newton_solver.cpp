@@ -7,7 +7,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr int max_steps = 20;
+constexpr int max_steps = 10;
 constexpr int max_shortenings = 12;
 /// Of the squared residual: below it lies rounding times the penalty.
 constexpr double converged = 1e-12;

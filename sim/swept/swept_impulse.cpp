@@ -15,68 +15,6 @@ Vec4d within(double limit, Vec4d vector) {
   return size > limit ? limit / size * vector : vector;
 }
 
-/// A direction in which an impulse acts on two boxes, one N s of it.
-struct Axis {
-  Vec4d along;
-  Vec4d first_lever, second_lever;  // about the centres, m
-  Vec4d first_turn, second_turn;    // rad/s
-};
-
-/// Two boxes, or one and what nothing moves, whose changes stay in registers until they are kept.
-/// What does not depend on them is computed for each axis, so that impulses wait for few operations
-/// of those before.
-class TwoBoxes {
- public:
-  TwoBoxes(const SweptSide& first, const SweptSide& second) : first_(first), second_(second) {}
-
-  Axis axis(Vec4d along) const {
-    const Vec4d first = cross(first_.arm, along), second = cross(second_.arm, along);
-    return {along, first, second, first_.inverse_inertia * first, second_.inverse_inertia * second};
-  }
-  /// m/s, by which the first point moves along the axis against the second.
-  double change(const Axis& axis) const {
-    return sum_of_lanes(axis.along * (first_.velocity - second_.velocity) +
-                        axis.first_lever * first_.angular_velocity -
-                        axis.second_lever * second_.angular_velocity);
-  }
-  void apply(const Axis& axis, double impulse) {
-    first_.velocity += (first_.inverse_mass * impulse) * axis.along;
-    second_.velocity -= (second_.inverse_mass * impulse) * axis.along;
-    first_.angular_velocity += impulse * axis.first_turn;
-    second_.angular_velocity -= impulse * axis.second_turn;
-  }
-  void keep() const {
-    first_.keep();
-    second_.keep();
-  }
-
- private:
-  struct Side {
-    explicit Side(const SweptSide& side) : box(side.box()) {
-      if (!box) return;
-      velocity = box->velocity;
-      angular_velocity = box->angular_velocity;
-      inverse_mass = box->inverse_mass;
-      inverse_inertia = box->inverse_inertia;
-      arm = side.arm();
-    }
-    void keep() const {
-      if (!box) return;
-      box->velocity = velocity;
-      box->angular_velocity = angular_velocity;
-    }
-
-    BoxChange* box;
-    Vec4d velocity{}, angular_velocity{};
-    double inverse_mass = 0.0;
-    Mat3x4 inverse_inertia{};
-    Vec4d arm{};
-  };
-
-  Side first_;
-  Side second_;
-};
-
 }  // namespace
 
 BoxChange make_box_change(const RigidBox& box, const Vec3& position,
@@ -114,30 +52,30 @@ void SweptSide::apply_to_vertices(Vec4d impulse) const {
   }
 }
 
-Mat3 SweptSide::mobility() const {
+double SweptSide::mobility(Vec4d axis, Vec4d other) const {
+  const double across = dot(axis, other);
   if (box_) {
-    const Mat3 arm = cross_matrix(to_vec3(arm_));
-    Mat3 inverse;
-    for (int i = 0; i < 3; ++i) inverse.col(i) = to_vec3(box_->inverse_inertia.columns[at(i)]);
-    return box_->inverse_mass * Mat3::Identity() - arm * inverse * arm;
+    const Vec4d turn = box_->inverse_inertia * cross(arm_, other);
+    return box_->inverse_mass * across + dot(cross(arm_, axis), turn);
   }
   double sum = 0.0;
   for (const double weight : weights_) sum += weight * weight;
-  return sum * inverse_vertex_mass_ * Mat3::Identity();
+  return sum * inverse_vertex_mass_ * across;
 }
 
 SweptImpulse::SweptImpulse(SweptSide first, SweptSide second, const Vec3& normal, double friction)
     : first_(first), second_(second), normal_(to_vec4d(normal)), friction_(friction) {
-  const Mat3 mobility = first_.mobility() + second_.mobility();
-  mobility_ = normal.dot(mobility * normal);
+  tangent_ = to_vec4d(normal.unitOrthogonal());
+  const Vec4d other = cross(normal_, tangent_);
+  const auto mobility = [&](Vec4d a, Vec4d b) {
+    return first_.mobility(a, b) + second_.mobility(a, b);
+  };
+  mobility_ = mobility(normal_, normal_);
   normal_mass_ = 1.0 / mobility_;
-  Eigen::Matrix<double, 3, 2> across;
-  across.col(0) = normal.unitOrthogonal();
-  across.col(1) = normal.cross(across.col(0));
-  tangent_ = to_vec4d(across.col(0));
-  const Eigen::Matrix2d along = across.transpose() * mobility * across;
-  const double half_difference = 0.5 * (along(0, 0) - along(1, 1));
-  min_tangent_mass_ = 1.0 / (0.5 * along.trace() + std::hypot(half_difference, along(0, 1)));
+  const double one = mobility(tangent_, tangent_), both = mobility(tangent_, other);
+  const double another = mobility(other, other), half_difference = 0.5 * (one - another);
+  const double radius = std::sqrt(half_difference * half_difference + both * both);
+  min_tangent_mass_ = 1.0 / (0.5 * (one + another) + radius);
 }
 
 void SweptImpulse::aim(double parting, const Vec3& sliding) {
@@ -248,16 +186,10 @@ bool SweptImpulse::may_rub() const {
   return friction_ * normal_impulse_ != 0.0 || dot(friction_impulse_, friction_impulse_) != 0.0;
 }
 
-double SweptImpulse::correct() {
-  const bool first_is_soft = first_.moves() && !first_.box();
-  const bool second_is_soft = second_.moves() && !second_.box();
-  return first_is_soft || second_is_soft ? correct_sides() : correct_boxes();
-}
-
 // A step against the sliding, then the nearest point in the cone: from within the cone it never
 // adds energy, and unlike the impulse that stops the sliding at once, where there is room for it,
 // it does not jump from one iteration to the next.
-double SweptImpulse::correct_sides() {
+double SweptImpulse::correct() {
   const double normal = raise_normal(dot(normal_, relative_change()));
   if (normal != 0.0) apply(normal * normal_);
   const double by_normal = std::abs(normal) * mobility_;
@@ -270,38 +202,6 @@ double SweptImpulse::correct_sides() {
   friction_impulse_ = after;
   apply(given);
   return std::max(by_normal, std::sqrt(dot(given, given)) / min_tangent_mass_);
-}
-
-/// The same, with friction in two directions across the normal.
-double SweptImpulse::correct_boxes() {
-  TwoBoxes boxes(first_, second_);
-  const Axis along = boxes.axis(normal_);
-  const double normal = raise_normal(boxes.change(along));
-  boxes.apply(along, normal);
-  double change = std::abs(normal) * mobility_;
-  if (may_rub()) {
-    const Axis one = boxes.axis(tangent_), other = boxes.axis(cross(normal_, tangent_));
-    const double before = dot(friction_impulse_, one.along);
-    const double other_before = dot(friction_impulse_, other.along);
-    double after = before - min_tangent_mass_ * (boxes.change(one) + dot(sliding_, one.along));
-    double other_after =
-        other_before - min_tangent_mass_ * (boxes.change(other) + dot(sliding_, other.along));
-    const double limit = friction_ * normal_impulse_,
-                 squared = after * after + other_after * other_after;
-    if (squared > limit * limit) {
-      const double shorter = limit / std::sqrt(squared);
-      after *= shorter;
-      other_after *= shorter;
-    }
-    friction_impulse_ = after * one.along + other_after * other.along;
-    const double given = after - before, other_given = other_after - other_before;
-    boxes.apply(one, given);
-    boxes.apply(other, other_given);
-    change =
-        std::max(change, std::sqrt(given * given + other_given * other_given) / min_tangent_mass_);
-  }
-  boxes.keep();
-  return change;
 }
 
 double SweptImpulse::work(const Vec3& before) const { return given().dot(before + 0.5 * change()); }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -25,6 +26,8 @@ struct BoxChange {
   Vec4d angular_velocity{};
   double inverse_mass = 0.0;  // 1/kg
   Mat3x4 inverse_inertia{};   // world axes, 1/(kg m^2)
+  /// Of the impulses on it that iterations have sorted (ConjugateIterations), one bit each.
+  std::uint64_t colours = 0;
 };
 
 /// Without a change as yet, of a box that lies there.
@@ -50,8 +53,8 @@ class SweptSide {
     box_->velocity += box_->inverse_mass * impulse;
     box_->angular_velocity += box_->inverse_inertia * cross(arm_, impulse);
   }
-  /// The velocity in m/s that one N s along each axis gives to the point, 1/kg.
-  Mat3 mobility() const;
+  /// The velocity in m/s along one axis that one N s along the other gives to the point, 1/kg.
+  double mobility(Vec4d axis, Vec4d other) const;
 
   /// False of the ground and of boxes that nothing moves.
   bool moves() const { return box_ || count_ > 0; }
@@ -95,6 +98,10 @@ class SweptImpulse {
 
   const SweptSide& first() const { return first_; }
   const SweptSide& second() const { return second_; }
+  /// Neither side is soft.
+  bool is_of_boxes() const {
+    return (first_.box() || !first_.moves()) && (second_.box() || !second_.moves());
+  }
 
   /// A step of the augmented Lagrangian from the impulse as it is.
   struct Response {
@@ -134,12 +141,12 @@ class SweptImpulse {
   double work(const Vec3& before) const;
 
  private:
+  friend class FourBoxImpulses;
+
   /// Raises the normal impulse by what the relative velocity's `change` along it (m/s) asks for;
   /// returns by how much, N s.
   double raise_normal(double change);
   bool may_rub() const;
-  double correct_sides();
-  double correct_boxes();
   Vec4d relative_change() const { return first_.change() - second_.change(); }
   Vec4d start() const { return start_normal_ * normal_ + start_friction_; }
   void respond_along_normal(Vec4d change, double penalty, Response& response) const;

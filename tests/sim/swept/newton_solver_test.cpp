@@ -165,9 +165,27 @@ TEST(GaussSeidel, CorrectsOnlyWhatDependsOnTheUnsettled) {
   }
 }
 
+void iterate_conjugately(Stack& stack, int iterations) {
+  ConjugateIterations conjugate;
+  conjugate.begin(stack.impulses());
+  conjugate.correct(0.0, iterations);
+}
+
+/// Of boxes many are corrected at once, each as by itself.
+TEST(ConjugateIterations, BeginWithOneCorrectionOfEach) {
+  Stack stack({1.0, 2.0}), iterated({1.0, 2.0});
+  iterate_conjugately(stack, 1);
+  iterated.iterate(0.0, 1);
+  for (std::size_t i = 0; i < stack.impulses().size(); ++i) {
+    const SweptImpulse &one = *stack.impulses()[i], &other = *iterated.impulses()[i];
+    EXPECT_NEAR(one.normal_impulse(), other.normal_impulse(), 1e-13) << i;
+    EXPECT_LT((one.friction_impulse() - other.friction_impulse()).norm(), 1e-13) << i;
+  }
+}
+
 TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
   Stack stack(std::vector(8, 1.0)), iterated(std::vector(8, 1.0));
-  ConjugateIterations().correct(stack.impulses(), 0.0, 200);
+  iterate_conjugately(stack, 200);
   iterated.iterate(0.0, 1'000);
   EXPECT_LT(stack.error(), iterated.error());
 }
@@ -175,7 +193,7 @@ TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
 TEST(ConjugateIterations, EndWithinTheLimits) {
   for (const int iterations : {1, 2, 3, 5, 8, 13}) {
     Stack stack(std::vector(20, 1.0));
-    ConjugateIterations().correct(stack.impulses(), 0.0, iterations);
+    iterate_conjugately(stack, iterations);
     for (const SweptImpulse* impulse : stack.impulses()) {
       EXPECT_GE(impulse->normal_impulse(), 0.0);
       EXPECT_LE(impulse->friction_impulse().norm(), 0.5 * impulse->normal_impulse() + 1e-12);

@@ -1,0 +1,68 @@
+// Four swept impulses between boxes, or between a box and what nothing moves, that have no box in
+// common: they are corrected at once, each in its own lane, and what does not change in iterations
+// is computed once.
+#pragma once
+
+#include <array>
+
+#include "sim/swept/swept_impulse.h"
+
+namespace pneuma::sim {
+
+class FourBoxImpulses {
+ public:
+  /// One for each axis: along the normal, and two across it.
+  using ByAxis = std::array<Vec4d, 3>;
+
+  /// What one iteration did, in the greatest lane or in all of them.
+  struct Change {
+    Vec4d squared_velocity{};  // m^2/s^2, the greatest
+    Vec4d energy{};            // J, the sum of the corrections, each by its mobility
+  };
+
+  /// Refers to the impulse and to the changes of its boxes.
+  void set(std::size_t lane, SweptImpulse& impulse);
+  /// Takes over what the impulses aim at, their limits and what they are.
+  void begin();
+  /// One projected Gauss-Seidel correction of each.
+  void correct(Change& change);
+  /// Goes on in the direction, `ratio` times as far as the last time and by the last correction
+  /// further. Unless `grows`: then the direction is forgotten.
+  void go_on(bool grows, double ratio);
+  /// Gives back what they are.
+  void end() const;
+
+ private:
+  struct Side {
+    std::array<BoxChange*, 4> boxes{};
+    Vec4d inverse_mass{};          // 1/kg; < 0 of the second side
+    std::array<Vec3x4, 3> levers;  // m, by axes; turned round on the second side
+    std::array<Vec3x4, 3> turns;   // rad/s, by one N s along each axis
+
+    void set(std::size_t lane, const SweptSide& side, double sign,
+             const std::array<Vec4d, 3>& axes);
+    Vec3x4 velocity() const;
+    Vec3x4 angular_velocity() const;
+    void apply(const Vec3x4& whole, const ByAxis& impulse) const;
+  };
+
+  void apply(const ByAxis& impulse) const;
+
+  std::array<Vec3x4, 3> axes_{};
+  Side first_{};
+  Side second_{};
+  Vec4d normal_mass_{};                         // kg
+  Vec4d min_tangent_mass_{1.0, 1.0, 1.0, 1.0};  // kg
+  Vec4d mobility_{};                            // 1/kg
+  Vec4d friction_{};
+  ByAxis by_normal_{};   // m/s along each axis, by one N s along the normal
+  Vec4d parting_{};      // m/s
+  Vec4d max_normal_{};   // N s
+  ByAxis sliding_{};     // m/s
+  ByAxis impulse_{};     // N s
+  ByAxis correction_{};  // of the last iteration
+  ByAxis direction_{};   // in which they go on
+  std::array<SweptImpulse*, 4> impulses_{};
+};
+
+}  // namespace pneuma::sim
