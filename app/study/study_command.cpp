@@ -30,14 +30,14 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
                {"pneuma study choices", "pneuma study choices one_torus --short --json"});
   add_examples(*study->get_subcommand("collision"),
                {"pneuma study collision sphere_in_torus", "pneuma study collision --seconds 2"});
-  add_examples(*study->get_subcommand("contacts"),
-               {"pneuma study contacts", "pneuma study contacts one_sphere --short"});
+  add_examples(*study->get_subcommand("contacts"), {"pneuma study contacts two_spheres_contact",
+                                                    "pneuma study contacts one_sphere --short"});
   add_examples(*study->get_subcommand("growth"),
                {"pneuma study growth", "pneuma study growth --short --out out/growth"});
   add_examples(*study->get_subcommand("extremes"),
                {"pneuma study extremes", "pneuma study extremes --short --out out/extremes"});
   add_examples(*study->get_subcommand("horizons"),
-               {"pneuma study horizons sphere_in_torus cubes_on_torus",
+               {"pneuma study horizons one_sphere sphere_in_torus",
                 "pneuma study horizons two_spheres_contact --set simulation.contact=potential"});
   add_examples(*study->get_subcommand("impacts"),
                {"pneuma study impacts", "pneuma study impacts --runs 100 --seed 2"});

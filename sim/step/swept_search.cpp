@@ -74,12 +74,13 @@ void SweptSearch::wake_if_touched(const BodyPair& bodies) {
 /// Of boxes whose ways still end where an earlier search of the step allowed for.
 bool SweptSearch::keep_earlier(const BodyPair& bodies) {
   if (m_.earlier_candidates.empty() || !bodies_.is_as_searched(bodies)) return false;
-  const auto of_pair =
-      std::ranges::equal_range(m_.earlier_candidates, in_order(bodies.first, bodies.second), {},
-                               [](const SweptCandidate& earlier) {
-                                 return in_order(earlier.bodies.first, earlier.bodies.second);
-                               });
-  m_.candidates.insert(m_.candidates.end(), of_pair.begin(), of_pair.end());
+  const auto bodies_of = [](const SweptCandidate& earlier) {
+    return in_order(earlier.bodies.first, earlier.bodies.second);
+  };
+  const auto key = in_order(bodies.first, bodies.second);
+  m_.candidates.insert(m_.candidates.end(),
+                       std::ranges::lower_bound(m_.earlier_candidates, key, {}, bodies_of),
+                       std::ranges::upper_bound(m_.earlier_candidates, key, {}, bodies_of));
   return true;
 }
 
