@@ -30,7 +30,11 @@ class Picture {
     this.surface = new Surface(recording);
     if (scenery.shadows) {
       this.map = new ShadowMap(gl, scenery);
-      if (scenery.between_bodies) this.between = new BetweenBodies(gl, recording, this.surface, shaders);
+      if (scenery.between_bodies) {
+        this.between = new BetweenBodies(gl, recording, this.surface, shaders);
+        const contacts = new BoxContacts(recording, this.surface);
+        if (contacts.any) this.boxContacts = contacts;
+      }
       // Light along the ground or from below throws no shadow on it.
       if (this.hasGround && this.toLight[2] > 0.05) this.groundShadow = new GroundShadow(gl, shaders);
     }
@@ -38,7 +42,7 @@ class Picture {
     this.ground = new Program(gl, shaders.ground, shaders.look + shaders.nearness);
     this.groundDepth = new Program(gl, groundDepth);
     this.surfaces = new Program(gl, shaders.surface, shaders.look,
-      scenery.shadows ? ["SMOOTH", "SHADOWED"] : ["SMOOTH"]);
+      ["SMOOTH", ...(scenery.shadows ? ["SHADOWED"] : []), ...(this.boxContacts ? ["NEAR_BOXES"] : [])]);
     this.discs = new Program(gl, shaders.disc);
     this.lines = new Program(gl, shaders.line);
     this.groundVertices = new Vertices(gl, [2]);
@@ -69,6 +73,10 @@ class Picture {
       gl.vertexAttrib3f(3, 0, 0, 0);
       gl.vertexAttrib2f(4, 1, 1);
     }
+    if (this.boxContacts) {
+      this.nearBuffer = attribute(5, 4, gl.createBuffer(), 32, 0);
+      attribute(6, 4, this.nearBuffer, 32, 16);
+    }
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, this.surface.triangles, gl.STATIC_DRAW);
     gl.bindVertexArray(null);
@@ -76,7 +84,7 @@ class Picture {
 
   // All of a frame that does not depend on the camera.
   load(frame, rounded) {
-    const { gl, recording, surface, map, between, groundShadow } = this;
+    const { gl, recording, surface, map, between, groundShadow, boxContacts } = this;
     const positions = recording.positionsAt(frame);
     surface.place(positions, rounded ? recording.sharesAt(frame) : null, this.hasGround);
     this.casters = boxAround(surface.positions);
@@ -89,6 +97,10 @@ class Picture {
     between?.takeBodies(positions, map, Boolean(groundShadow));
     groundShadow?.draw(map, between, () => this.drawAll());
     between?.lightSurface(groundShadow);
+    if (!boxContacts) return;
+    boxContacts.find(positions);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.nearBuffer);
+    gl.bufferData(gl.ARRAY_BUFFER, boxContacts.near, gl.STREAM_DRAW);
   }
 
   drawTriangles() {

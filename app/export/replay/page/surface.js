@@ -67,6 +67,7 @@ class Surface {
     this.smoothTriangles = recording.smooth;
     this.vertexNormals = new Float32Array(3 * recording.vertexCount);
     const sources = [], cornerNormals = [], flat = [], sharing = [], corners = [], weights = [], triangles = [];
+    this.flatMeshes = [];
     const made = new Map();  // refinements, of which copies of a body have one
     for (const mesh of recording.meshes) {
       const first = sources.length, firstPoint = corners.length / 3;
@@ -82,6 +83,7 @@ class Surface {
           sources.push(mesh.first + v);
         }
       } else {
+        this.flatMeshes.push({ ...mesh, firstPoint });
         const firstCorner = cornerNormals.length;
         for (let i = 0; i < mesh.triangles.length; ++i) {
           if (i % 3 === 0) flat.push(sources.length);
