@@ -120,4 +120,6 @@ void Outlines::draw(const View& view, const DrawnSurface& surface,
   buffer_.draw(instances_, GL_LEQUAL);
 }
 
+const char* outline_vertex_source() { return vertex_source; }
+
 }  // namespace pneuma::render

@@ -15,6 +15,9 @@ ShaderSources
 surface_shaders();  // variants by SMOOTH, NEAR_BOXES, SHADOWED and, of light only, OUTLINE
 ShaderSources ground_shaders();  // also needs nearness_source()
 
+/// Goes before the fragment shader of surfaces with SMOOTH, NEAR_BOXES and OUTLINE.
+const char* outline_vertex_source();
+
 /// The ground's shadow from a picture of it; needs nearness_source().
 ShaderSources ground_shadow_shaders();
 

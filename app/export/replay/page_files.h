@@ -9,6 +9,6 @@ namespace pneuma::app {
 extern const std::string_view
     page_template;  // with {{title}}, {{style}}, {{header}}, {{data}}, {{script}}
 extern const std::string_view page_style;
-extern const std::array<std::string_view, 12> page_scripts;
+extern const std::array<std::string_view, 13> page_scripts;
 
 }  // namespace pneuma::app

@@ -247,6 +247,7 @@ Json shaders_json() {
   return {{"look", render::look_source()},
           {"nearness", render::nearness_source()},
           {"surface", pair(render::surface_shaders())},
+          {"outline", render::outline_vertex_source()},
           {"ground", pair(render::ground_shaders())},
           {"ground_shadow", pair(render::ground_shadow_shaders())},
           {"disc", pair(render::disc_shaders())},

@@ -112,6 +112,18 @@ TEST_F(LongBrowser, DrawsEveryPaperSceneAtThreeTimes) {
   }
 }
 
+/// With cracks between boxes, and many outlines.
+TEST_F(LongBrowser, DrawsAHeapOfCubes) {
+  export_page("cubes_on_torus --frames 90-220");
+  std::string said;
+  for (const int frame : {90, 220}) {
+    SCOPED_TRACE(frame);
+    expect_alike(shown("cubes_on_torus.html", fmt::format("frame={}&bare=640x480", frame), said),
+                 rendered("cubes_on_torus", frame, ""));
+  }
+  EXPECT_EQ(said, "");
+}
+
 TEST_F(LongBrowser, DrawsParticlesAndContacts) {
   export_page("two_spheres_contact --frames 31");
   std::string said;

@@ -174,6 +174,38 @@ void main() {
   fragment: "void main() {}",
 };
 
+// Points of a surface by lit vertices and weights, three of each, and their light: bounced, and openness.
+class LitPoints {
+  constructor(gl) {
+    Object.assign(this, { gl, vertices: gl.createVertexArray(), light: gl.createBuffer() });
+    [this.corners, this.weights] = [gl.createBuffer(), gl.createBuffer()];
+    gl.bindVertexArray(this.vertices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.corners);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribIPointer(0, 3, gl.UNSIGNED_INT, 0, 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.weights);
+    gl.enableVertexAttribArray(1);
+    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 0);
+    gl.bindVertexArray(null);
+  }
+
+  load(corners, weights) {
+    const { gl } = this;
+    this.count = corners.length / 3;
+    for (const [buffer, content] of [[this.corners, corners], [this.weights, weights], [this.light, 20 * this.count]]) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, content, gl.DYNAMIC_DRAW);
+    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, null);
+  }
+}
+
+// Nothing comes from other bodies, and all of sky and ground is seen.
+function setUsualLight(gl, bounced, openTo) {
+  gl.vertexAttrib3f(bounced, 0, 0, 0);
+  gl.vertexAttrib2f(openTo, 1, 1);
+}
+
 class BetweenBodies {
   constructor(gl, recording, surface, shaders) {
     Object.assign(this, { gl, surface });
@@ -190,28 +222,10 @@ class BetweenBodies {
     this.lit = new FloatTable(gl, 2 * receiversPerRow, rows);
     this.light = drawnBits(gl, receiversPerRow, rows);
     this.findLight = new FullScreen(gl, litFragment, gatherFunctions + leftBelowFunction);
-    this.makeSpread();
-  }
-
-  makeSpread() {
-    const { gl, surface } = this;
     this.spread = new Program(gl, spreadShaders, "", [], ["bounced", "open_to"]);
     this.feedback = gl.createTransformFeedback();
-    this.points = gl.createVertexArray();
-    gl.bindVertexArray(this.points);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, surface.corners, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribIPointer(0, 3, gl.UNSIGNED_INT, 0, 0);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, surface.weights, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(1);
-    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 0);
-    gl.bindVertexArray(null);
-    this.pointLight = gl.createBuffer();  // bounced light and openness of each point
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.pointLight);
-    gl.bufferData(gl.ARRAY_BUFFER, 4 * 5 * surface.corners.length / 3, gl.DYNAMIC_COPY);
-    gl.bindBuffer(gl.ARRAY_BUFFER, null);
+    this.points = new LitPoints(gl);
+    this.points.load(surface.corners, surface.weights);
   }
 
   // After the map has been drawn. `positions`: of the vertices. `onGround`: whether a shadow falls on it.
@@ -236,22 +250,28 @@ class BetweenBodies {
 
   get values() { return { body_count: this.elements.bodies.length }; }
 
-  // Into `pointLight`. `groundShadow`: null where there is none.
+  // Each point of it. `groundShadow`: null where there is none.
   lightSurface(groundShadow) {
     const { gl, surface } = this;
     this.lit.load(surface.lit);
     this.light.begin();
     this.findLight.draw({ ...this.values, ...leftBelowValues(groundShadow) },
       { ...this.textures, lit: this.lit.texture, ground_left: groundShadow?.result.texture ?? null });
+    this.spreadTo(this.points);
+  }
+
+  // After the surface has been lit.
+  spreadTo(points) {
+    const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);  // what is read next may not be what is drawn to
-    gl.bindVertexArray(this.points);
+    gl.bindVertexArray(points.vertices);
     gl.bindTransformFeedback(gl.TRANSFORM_FEEDBACK, this.feedback);
-    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, this.pointLight);
+    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, points.light);
     bindTexture(gl, 0, this.light.texture);
     this.spread.use({ light: 0 });
     gl.enable(gl.RASTERIZER_DISCARD);
     gl.beginTransformFeedback(gl.POINTS);
-    gl.drawArrays(gl.POINTS, 0, surface.corners.length / 3);
+    gl.drawArrays(gl.POINTS, 0, points.count);
     gl.endTransformFeedback();
     gl.disable(gl.RASTERIZER_DISCARD);
     gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, null);

@@ -18,7 +18,7 @@ const readable = 5;
 
 class Picture {
   constructor(canvas, recording) {
-    const gl = canvas.getContext("webgl2", { alpha: false, antialias: true });
+    const gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
     if (!gl) throw new Error("This browser has no WebGL 2, which the picture is drawn with.");
     this.gl = gl;
     this.canvas = canvas;
@@ -41,8 +41,9 @@ class Picture {
     this.backdrop = new FullScreen(gl, backdropFragment, shaders.look);
     this.ground = new Program(gl, shaders.ground, shaders.look + shaders.nearness);
     this.groundDepth = new Program(gl, groundDepth);
-    this.surfaces = new Program(gl, shaders.surface, shaders.look,
-      ["SMOOTH", ...(scenery.shadows ? ["SHADOWED"] : []), ...(this.boxContacts ? ["NEAR_BOXES"] : [])]);
+    const defines = ["SMOOTH", ...(scenery.shadows ? ["SHADOWED"] : []), ...(this.boxContacts ? ["NEAR_BOXES"] : [])];
+    this.surfaces = new Program(gl, shaders.surface, shaders.look, defines);
+    this.outlines = new Outlines(gl, shaders, defines, this.surface, this.between, this.boxContacts);
     this.discs = new Program(gl, shaders.disc);
     this.lines = new Program(gl, shaders.line);
     this.groundVertices = new Vertices(gl, [2]);
@@ -67,11 +68,10 @@ class Picture {
     attribute(2, 4, gl.createBuffer());
     gl.bufferData(gl.ARRAY_BUFFER, this.surface.materials, gl.STATIC_DRAW);
     if (this.between) {
-      attribute(3, 3, this.between.pointLight, 20, 0);
-      attribute(4, 2, this.between.pointLight, 20, 12);
-    } else {  // nothing comes from other bodies, and all of sky and ground is seen
-      gl.vertexAttrib3f(3, 0, 0, 0);
-      gl.vertexAttrib2f(4, 1, 1);
+      attribute(3, 3, this.between.points.light, 20, 0);
+      attribute(4, 2, this.between.points.light, 20, 12);
+    } else {
+      setUsualLight(gl, 3, 4);
     }
     if (this.boxContacts) {
       this.nearBuffer = attribute(5, 4, gl.createBuffer(), 32, 0);
@@ -121,6 +121,7 @@ class Picture {
     if (this.loaded !== frame || this.rounded !== rounded) this.load(frame, rounded);
     Object.assign(this, { loaded: frame, rounded });
     const view = camera.view(canvas.width, canvas.height, this.casters);
+    this.outlines.find(view);
     const groundSeen = this.hasGround && view.eye[2] > 0;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, canvas.width, canvas.height);
@@ -172,6 +173,7 @@ class Picture {
     this.surfaces.use(values);
     this.drawTriangles();
     gl.disable(gl.CULL_FACE);
+    this.outlines.draw({ ...values, picture_size: [view.width, view.height] });
   }
 
   beginQuads(program, view, opacity) {

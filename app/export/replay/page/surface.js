@@ -54,6 +54,22 @@ function apart(triangles) {
   return { corners, weights, triangles: triangles.map((v, i) => i) };
 }
 
+// Both of each edge: first and second point, triangle. `places`: numbers that are the same for points at one place;
+// null where no two are.
+function sidesOf(triangles, places) {
+  const place = (point) => (places ? places[point] : point);
+  const firsts = new Map();  // by the numbers of the ends' places, from the first to the second
+  const sides = [];
+  triangles.forEach((from, i) => {
+    const to = triangles[i % 3 === 2 ? i - 2 : i + 1];
+    const [a, b] = [place(from), place(to)];
+    const side = [from, to, Math.floor(i / 3)], other = firsts.get(b * 2 ** 26 + a);
+    if (other) sides.push(...other, ...side);
+    else firsts.set(a * 2 ** 26 + b, side);
+  });
+  return sides;
+}
+
 function levelsOf(mesh, triangles) {
   let levels = 0;
   if (!mesh.rounded) return levels;
@@ -67,14 +83,16 @@ class Surface {
     this.smoothTriangles = recording.smooth;
     this.vertexNormals = new Float32Array(3 * recording.vertexCount);
     const sources = [], cornerNormals = [], flat = [], sharing = [], corners = [], weights = [], triangles = [];
+    const sides = [];
     this.flatMeshes = [];
     const made = new Map();  // refinements, of which copies of a body have one
     for (const mesh of recording.meshes) {
       const first = sources.length, firstPoint = corners.length / 3;
       const key = `${mesh.shape} ${mesh.smooth} ${mesh.rounded}`;
       if (!made.has(key)) {
-        made.set(key, mesh.smooth ? refine(mesh.triangles, mesh.vertices, levelsOf(mesh, mesh.triangles))
-          : apart(mesh.triangles));
+        const shape = mesh.smooth ? refine(mesh.triangles, mesh.vertices, levelsOf(mesh, mesh.triangles))
+          : apart(mesh.triangles);
+        made.set(key, { ...shape, sides: sidesOf(shape.triangles, mesh.smooth ? null : mesh.triangles) });
       }
       const refinement = made.get(key);
       if (mesh.smooth) {
@@ -91,6 +109,8 @@ class Surface {
           sources.push(mesh.first + mesh.triangles[i]);
         }
       }
+      const firstTriangle = triangles.length / 3;
+      refinement.sides.forEach((number, i) => sides.push(number + (i % 3 === 2 ? firstTriangle : firstPoint)));
       for (const corner of refinement.corners) corners.push(first + corner);
       for (const weight of refinement.weights) weights.push(weight);
       for (const point of refinement.triangles) triangles.push(firstPoint + point);
@@ -103,6 +123,7 @@ class Surface {
     this.corners = Uint32Array.from(corners);
     this.weights = Float32Array.from(weights);
     this.triangles = Uint32Array.from(triangles);
+    this.sides = Uint32Array.from(sides);  // both of each edge: first and second point, triangle
     const rows = Math.ceil(sources.length / receiversPerRow);
     this.lit = new Float32Array(8 * receiversPerRow * rows);  // position, share of the bulge; normal, 0
     this.positions = new Float32Array(corners.length);        // of the points
