@@ -133,6 +133,14 @@ TEST_F(LongBrowser, DrawsParticlesAndContacts) {
   EXPECT_EQ(said, "");
 }
 
+TEST_F(LongBrowser, DrawsEdges) {
+  export_page("torus_four_cubes --frames 61");
+  std::string said;
+  expect_alike(shown("torus_four_cubes.html", "frame=60&show=wireframe&bare=640x480", said),
+               rendered("torus_four_cubes", 60, "--show wireframe"));
+  EXPECT_EQ(said, "");
+}
+
 TEST_F(LongBrowser, FollowsACameraThatMoves) {
   const std::string camera =
       "--set camera.eye=[0,-30,14] --set camera.target=[0,0,3] --set camera.orbit=90";

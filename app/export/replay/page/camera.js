@@ -114,7 +114,8 @@ class Camera {
     const farCorner = Math.max(...boxCorners.map((corner) => norm(subtract(corner, this.target))));
     const groundRadius = Math.max(2.5 * this.distance, 2 * farCorner);
     const far = 1.01 * Math.max(...depths, this.distance + (this.scenery.grid_spacing ? groundRadius : 0));
-    const near = Math.max(Math.min(0.02 * this.distance, 0.9 * Math.min(...depths)), 1e-4 * far);
+    const nearest = Math.min(...depths);
+    const near = Math.max(Math.min(0.02 * this.distance, 0.9 * nearest), 1e-4 * far);
     const slope = this.slope(width / height);
     const projection = new Float32Array(16);
     projection[0] = height / (slope * width);
@@ -124,6 +125,7 @@ class Camera {
     projection[14] = -2 * far * near / (far - near);
     const view = affine(axes, axes.map((axis) => -dot(axis, eye)));
     return { view, projection, viewProjection: multiply(projection, view), eye, target: this.target, near,
-      groundRadius, casters, width, height, pixelScale: height / (480 * this.widening(width / height)) };
+      nearest: Math.max(nearest, near), groundRadius, casters, width, height,
+      pixelScale: height / (480 * this.widening(width / height)) };
   }
 }

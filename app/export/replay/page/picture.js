@@ -128,7 +128,7 @@ class Picture {
     this.backdrop.draw({ picture_height: view.height });
     if (groundSeen) this.drawGround(view);
     if (groundSeen) this.groundShadow?.darken(view);
-    this.drawSurfaces(view, groundSeen);
+    this.drawSurfaces(view, groundSeen && this.groundHides(view, !rounded), show.wireframe);
     if (show.wireframe) this.drawLines(view, this.edgesOf(), 0.7);
     if (show.contacts) this.drawLines(view, recording.normalsAt(frame).map((line) => ({ ...line, width: 1.5 })), 1);
     const points = [];
@@ -150,14 +150,21 @@ class Picture {
     this.groundVertices.draw(this.gl.TRIANGLE_STRIP, this.groundPlaces(view));
   }
 
-  drawSurfaces(view, groundSeen) {
+  // Whether it hides anything that would be seen without it: what stands on it is drawn above it, but lines and discs
+  // are wider than what they stand for. As render/renderer.cpp.
+  groundHides(view, marks) {
+    const pixel = 2 * view.nearest / (view.projection[5] * view.height);
+    return marks || this.casters.min[2] < -0.1 * pixel;
+  }
+
+  drawSurfaces(view, groundHides, underLines) {
     const { gl, map } = this;
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LESS);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    if (groundSeen) {  // its depth alone, so that what lies below is not drawn
+    if (groundHides) {  // its depth alone, so that what lies below is not drawn
       gl.colorMask(false, false, false, false);
       this.groundDepth.use({ view_projection: view.viewProjection });
       this.groundVertices.draw(gl.TRIANGLE_STRIP, this.groundPlaces(view));
@@ -170,8 +177,11 @@ class Picture {
     }
     gl.enable(gl.CULL_FACE);
     gl.cullFace(gl.BACK);
+    if (underLines) gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 0);  // by what the depth changes over one pixel
     this.surfaces.use(values);
     this.drawTriangles();
+    gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.disable(gl.CULL_FACE);
     this.outlines.draw({ ...values, picture_size: [view.width, view.height] });
   }

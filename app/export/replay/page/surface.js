@@ -200,7 +200,7 @@ class Surface {
     });
   }
 
-  // p + share / 2 * sum of w_i ((x_i - p) . n_i) n_i; nothing comes nearer to the ground than half its height.
+  // p + share / 2 * sum of w_i ((x_i - p) . n_i) n_i
   placePoints(ground) {
     const { lit, corners, weights, positions, normals } = this;
     for (let i = 0; i < corners.length; i += 3) {
@@ -220,11 +220,18 @@ class Surface {
       }
       positions[i] = px + x;
       positions[i + 1] = py + y;
-      positions[i + 2] = ground && pz > 0 ? Math.max(pz + z, 0.5 * pz) : pz + z;
+      positions[i + 2] = ground ? keptAboveGround(pz + z, pz) : pz + z;
       normals[i] = nx; normals[i + 1] = ny; normals[i + 2] = nz;
     }
     setLengthsToOne(normals);
   }
+}
+
+// Nothing above the ground comes nearer to it than half its height; what is pressed into it is not hidden by it.
+function keptAboveGround(height, flatHeight) {
+  const mostSunk = 0.03;  // m. A soft body that rests may be so far below.
+  const justAboveGround = 0.002;  // m
+  return flatHeight <= -mostSunk ? height : Math.max(height, 0.5 * flatHeight, justAboveGround);
 }
 
 function setLengthsToOne(vectors) {
