@@ -76,10 +76,11 @@ class LongBrowser : public testing::Test {
 
 /// Edges, the grid and the soft rims of shadows fall a little differently; a body, a shadow or a
 /// disc that is missing or in another place changes more pixels than these.
-void expect_alike(const render::Image& browser, const render::Image& own) {
+void expect_alike(const render::Image& browser, const render::Image& own, double mean = 0.9,
+                  double beyond = 0.005) {
   const render::ImageDifference difference = render::compare_images(browser, own, 24);
-  EXPECT_LE(difference.mean, 1.0);
-  EXPECT_LE(difference.fraction_beyond, 0.01);
+  EXPECT_LE(difference.mean, mean);
+  EXPECT_LE(difference.fraction_beyond, beyond);
 }
 
 TEST_F(LongBrowser, DrawsWhatTheRendererDraws) {
@@ -112,14 +113,14 @@ TEST_F(LongBrowser, DrawsEveryPaperSceneAtThreeTimes) {
   }
 }
 
-/// With cracks between boxes, and many outlines.
+/// Flat faces alone make smaller differences: a crack that is not dark is one beyond these.
 TEST_F(LongBrowser, DrawsAHeapOfCubes) {
   export_page("cubes_on_torus --frames 90-220");
   std::string said;
   for (const int frame : {90, 220}) {
     SCOPED_TRACE(frame);
     expect_alike(shown("cubes_on_torus.html", fmt::format("frame={}&bare=640x480", frame), said),
-                 rendered("cubes_on_torus", frame, ""));
+                 rendered("cubes_on_torus", frame, ""), 0.4, 0.002);
   }
   EXPECT_EQ(said, "");
 }
