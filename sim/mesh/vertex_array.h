@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 
 namespace pneuma::sim {
@@ -34,5 +35,10 @@ class VertexArray {
  private:
   Rows rows_;
 };
+
+/// The greatest distance of a vertex in one from that in the other.
+inline double max_distance(const VertexArray& one, const VertexArray& other) {
+  return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
+}
 
 }  // namespace pneuma::sim

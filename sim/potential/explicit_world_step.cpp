@@ -19,10 +19,6 @@ constexpr double reaches_around = 0.5;
 /// inside out on the straight ways of its corners.
 constexpr double max_turn_per_step = 1.0;
 
-double max_distance(const VertexArray& one, const VertexArray& other) {
-  return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
-}
-
 /// -1: none.
 int find_fast_box(const std::vector<RigidState>& start, const std::vector<RigidState>& end,
                   double step) {
@@ -185,6 +181,8 @@ double WorldAcceleration::contact_stiffness(double step) const {
   return most;
 }
 
+namespace {
+
 /// The equation as the stages of a step evaluate it, and what they meet: a stage that lies beyond a
 /// crossing, or so deep in a barrier that the step cannot follow it, makes the whole step worthless
 /// even if it ends well.
@@ -203,7 +201,8 @@ class WatchedStages {
     const double volume = acceleration_(positions, velocities, result);
     report_.is_too_stiff |= acceleration_.contact_stiffness(step_) > max_contact_stiffness;
     const VertexArray& reached = acceleration_.vertices(positions);
-    if (std::isfinite(reached.rows().sum())) limit_way(reached, 0.0);
+    const bool is_start = reached.rows() == start_.rows();
+    if (!is_start && std::isfinite(reached.rows().sum())) limit_way(reached, 0.0);
     return volume;
   }
 
@@ -222,6 +221,8 @@ class WatchedStages {
   double step_;
   ExplicitWorldReport& report_;
 };
+
+}  // namespace
 
 ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
     : surfaces_(surfaces),

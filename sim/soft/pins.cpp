@@ -24,6 +24,12 @@ void for_each_followed(const SoftBody& body, double time, const Visit& visit) {
 
 }  // namespace
 
+bool keeps_shape(const SoftBody& body) {
+  if (!body.pins || !body.pins->are_all) return false;
+  const auto follows = [](std::uint8_t vertex) { return vertex != 0; };
+  return !body.pins->are_moved || std::ranges::all_of(body.pins->follows, follows);
+}
+
 std::shared_ptr<const Pins> make_pins(const VertexArray& positions,
                                       std::vector<std::uint8_t> is_pinned,
                                       std::vector<std::uint8_t> follows, GivenMotion motion) {

@@ -19,6 +19,9 @@ inline bool is_still(const SoftBody& body) {
   return body.pins && body.pins->are_all && !body.pins->are_moved;
 }
 
+/// Whether it is an obstacle all of whose vertices stay, or follow its motion.
+bool keeps_shape(const SoftBody& body);
+
 /// Of a body as it lies there: `is_pinned` and `follows` are per vertex.
 std::shared_ptr<const Pins> make_pins(const VertexArray& positions,
                                       std::vector<std::uint8_t> is_pinned,

@@ -12,6 +12,7 @@
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stages.h"
+#include "sim/swept/soft_way.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
@@ -30,47 +31,8 @@ double thin_skin(double wanted, double most) { return std::clamp(wanted, thinnes
 /// A way's box is this many skins larger: surfaces are found before they are too near.
 constexpr double skins_around = 1.5;
 
-/// Of the longest way in the step: by so much impulses move its end before all is searched again.
-constexpr double allowed_of_way = 0.5;
-
 /// Of a whole vertex: a point nearer to pinned vertices is held by them.
 constexpr double least_mobility = 1e-3;
-
-/// m, of vertices from where they are in another array.
-double greatest_distance(const VertexArray& one, const VertexArray& other) {
-  return std::sqrt((one.rows() - other.rows()).colwise().squaredNorm().maxCoeff());
-}
-
-/// Whether it is an obstacle all of whose vertices stay, or follow its motion.
-bool keeps_shape(const SoftBody& body) {
-  if (!body.pins || !body.pins->are_all) return false;
-  const auto follows = [](std::uint8_t vertex) { return vertex != 0; };
-  return !body.pins->are_moved || std::ranges::all_of(body.pins->follows, follows);
-}
-
-/// What the vertices of a soft body do from the start of a step to its end.
-struct SoftWay {
-  WayBox box;
-  /// m, by which impulses may move the ends before all is searched again: half of the longest way,
-  /// or all by which a vertex leaves the line that it started along, since of a body at rest
-  /// contacts take that back.
-  double allowed_change = 0.0;
-};
-
-SoftWay way_of(const SoftState& start, const VertexArray& end, double step) {
-  const VertexReader from(start.positions), velocity(start.velocities), to(end);
-  SoftWay result;
-  double way = 0.0, off_line = 0.0;  // squared
-  for (int v = 0; v < end.size(); ++v) {
-    const Vec4d before = from[v], after = to[v];
-    const Vec4d moved = after - before, bent = moved - step * velocity[v];
-    result.box.include({min(before, after), max(before, after)});
-    way = std::max(way, dot(moved, moved));
-    off_line = std::max(off_line, dot(bent, bent));
-  }
-  result.allowed_change = std::max(allowed_of_way * std::sqrt(way), std::sqrt(off_line));
-  return result;
-}
 
 }  // namespace
 
@@ -223,7 +185,7 @@ Bounds SweptBodies::refit_way(const World& world, const MotionStart& start, int 
     refit_anew(
         body,
         is_rigid(body)
-            ? allowed_of_way * greatest_distance(moving.start, moving.end)
+            ? allowed_of_way * max_distance(moving.start, moving.end)
             : way_of(start.soft[at(body)], moving.end, time_step(world.settings)).allowed_change);
   }
   return root_bounds(body);
@@ -306,7 +268,7 @@ bool SweptBodies::may_meet_others(const Bounds& way, const BodyPair& bodies) con
 
 bool SweptBodies::is_within_allowance(int body) const {
   if (is_still_[at(body)] != 0) return true;
-  return greatest_distance(surface(body).end, searched_ends_[at(body)]) <= allowance(body);
+  return max_distance(surface(body).end, searched_ends_[at(body)]) <= allowance(body);
 }
 
 bool SweptBodies::search_is_valid() const {

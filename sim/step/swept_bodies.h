@@ -169,7 +169,7 @@ class SweptBodies {
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step
   std::vector<std::uint8_t> is_searched_;  // per body: whether a search of this step was for it
-  std::vector<std::uint8_t> is_refitted_;  // per body: whether the last search was anew for it
+  std::vector<std::uint8_t> is_refitted_;  // per body: whether the last search fitted its boxes
   std::vector<double> skins_;
   std::vector<double> shortest_sides_;  // of the boxes, m
   std::vector<double> allowances_;
