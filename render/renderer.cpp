@@ -85,6 +85,7 @@ struct Renderer::Resources {
   BoxContacts box_contacts;
   std::vector<IndirectLight> lit;    // per lit vertex
   std::vector<IndirectLight> drawn;  // per drawn vertex
+  bool has_near_boxes = false;       // any of it
   ShadowMap shadow_map;
   ShadowDepths shadow_depths;
   GroundShadow ground_shadow;
@@ -117,8 +118,9 @@ void Renderer::Resources::light_surface(const Frame& frame, const View& view, bo
                    })
                              : FloorLeft(),
                    lit);
-    box_contacts.find(frame.meshes, surface, view.eye, lit);
+    has_near_boxes = box_contacts.find(frame.meshes, surface, view.eye, lit);
   } else {
+    has_near_boxes = false;
     lit.assign(surface.positions().size(), IndirectLight{});
   }
   surface.spread(lit, drawn);
@@ -161,7 +163,7 @@ void Renderer::draw(const Frame& frame, Image& image) {
   r.layer.begin(frame, view, r.surface.vertices());
   if (hides) r.ground_plane.hide_below(view);
   const ShadowMap* shadow = shadows ? &r.shadow_map : nullptr;
-  r.surfaces.draw(view, r.surface_buffers, shadow, frame.wireframe);
+  r.surfaces.draw(view, r.surface_buffers, shadow, r.has_near_boxes, frame.wireframe);
   if (ground_shadow && surfaces_first) r.ground_plane.darken(view, r.ground_shadow, true);
   // Several samples smooth outlines by themselves.
   if (r.options.samples == 1) r.outlines.draw(view, r.surface, r.drawn, shadow);

@@ -93,10 +93,11 @@ std::optional<OrientedBox> box_of(const Mesh& mesh) {
   return {};
 }
 
-void BoxContacts::find(const std::vector<Mesh>& meshes, const DrawnSurface& surface,
+bool BoxContacts::find(const std::vector<Mesh>& meshes, const DrawnSurface& surface,
                        const Vec3f& eye, std::vector<IndirectLight>& light) {
   take_boxes(meshes);
   find_neighbours();
+  bool is_any = false;
   for (const Body& body : bodies_) {
     if (body.near.empty()) continue;
     for (int side = 0; side < 6; ++side) {
@@ -104,9 +105,10 @@ void BoxContacts::find(const std::vector<Mesh>& meshes, const DrawnSurface& surf
       const Vec3f normal = (side % 2 == 0 ? 1.0f : -1.0f) * body.box.axes.row(axis).transpose();
       const Vec3f middle = body.box.centre + body.box.half[axis] * normal;
       if (normal.dot(eye - middle) <= 0.0f) continue;
-      darken_face(body, normal, surface.lit_meshes()[body.mesh], surface, light);
+      is_any |= darken_face(body, normal, surface.lit_meshes()[body.mesh], surface, light);
     }
   }
+  return is_any;
 }
 
 void BoxContacts::take_boxes(const std::vector<Mesh>& meshes) {
@@ -133,7 +135,8 @@ void BoxContacts::find_neighbours() {
   }
 }
 
-void BoxContacts::darken_face(const Body& body, const Vec3f& normal, const LitMesh& lit,
+/// Whether anything is near it.
+bool BoxContacts::darken_face(const Body& body, const Vec3f& normal, const LitMesh& lit,
                               const DrawnSurface& surface, std::vector<IndirectLight>& light) {
   const OrientedBox& box = body.box;
   int axis = 0;
@@ -157,6 +160,7 @@ void BoxContacts::darken_face(const Body& body, const Vec3f& normal, const LitMe
           in_box(other, surface.positions()[i], normal, reach_between(box, other));
     }
   }
+  return !near_.empty();
 }
 
 }  // namespace pneuma::render

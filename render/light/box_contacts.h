@@ -31,8 +31,8 @@ std::optional<OrientedBox> box_of(const Mesh& mesh);
 /// Finds the boxes near each face that is turned to the eye.
 class BoxContacts {
  public:
-  /// Of the frame that the surface was built of: into the light of its lit vertices.
-  void find(const std::vector<Mesh>& meshes, const DrawnSurface& surface, const Vec3f& eye,
+  /// Of the frame that the surface was built of: into the light of its lit vertices. Whether any.
+  bool find(const std::vector<Mesh>& meshes, const DrawnSurface& surface, const Vec3f& eye,
             std::vector<IndirectLight>& light);
 
  private:
@@ -48,7 +48,7 @@ class BoxContacts {
 
   void take_boxes(const std::vector<Mesh>& meshes);
   void find_neighbours();
-  void darken_face(const Body& body, const Vec3f& normal, const LitMesh& lit,
+  bool darken_face(const Body& body, const Vec3f& normal, const LitMesh& lit,
                    const DrawnSurface& surface, std::vector<IndirectLight>& light);
 
   std::vector<Body> bodies_;

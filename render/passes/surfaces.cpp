@@ -169,9 +169,9 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
   set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
 }
 
-Surfaces::Variant::Variant(bool shadowed)
+Surfaces::Variant::Variant(bool shadowed, bool near_boxes)
     : program("surfaces",
-              std::string("#define SMOOTH\n#define NEAR_BOXES\n") +
+              std::string("#define SMOOTH\n") + (near_boxes ? "#define NEAR_BOXES\n" : "") +
                   (shadowed ? "#define SHADOWED\n" : ""),
               vertex_source, look_source() + fragment_source),
       uniforms(program, shadowed) {}
@@ -182,7 +182,8 @@ void Surfaces::use(const Variant& variant, const View& view, const ShadowMap* sh
 }
 
 void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow,
-                    bool under_lines) {
+                    bool near_boxes, bool under_lines) {
+  const Variants& variants = near_boxes ? of_near_boxes_ : usual_;
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -196,13 +197,13 @@ void Surfaces::draw(const View& view, const SurfaceBuffers& surface, const Shado
     glPolygonOffset(1.0f, 0.0f);  // by what the depth changes over one pixel
   }
   if (shadow != nullptr) {
-    use(shadowed_, view, shadow);
+    use(variants.shadowed, view, shadow);
     surface.draw_sunward();
     // The sun does not reach these, whatever the map says.
-    use(lit_, view, nullptr);
+    use(variants.lit, view, nullptr);
     surface.draw_averted();
   } else {
-    use(lit_, view, nullptr);
+    use(variants.lit, view, nullptr);
     surface.draw();
   }
   glDisable(GL_POLYGON_OFFSET_FILL);

@@ -23,23 +23,30 @@ class Surfaces {
  public:
   Surfaces();
 
-  /// `shadow` is null when there are no shadows. `under_lines`: so far behind that the whole width
-  /// of a line on the surface is seen.
+  /// `shadow` is null when there are no shadows. `near_boxes`: whether any box nearly touches
+  /// another (light/box_contacts.h). `under_lines`: so far behind that the whole width of a line on
+  /// the surface is seen.
   void draw(const View& view, const SurfaceBuffers& surface, const ShadowMap* shadow,
-            bool under_lines);
+            bool near_boxes, bool under_lines);
 
  private:
-  /// One program with and one without shadows, so that none pays for the other.
+  /// A program with and one without shadows, and of both with and without boxes that nearly touch,
+  /// so that none pays for the other.
   struct Variant {
-    explicit Variant(bool shadowed);
+    Variant(bool shadowed, bool near_boxes);
     Program program;
     SurfaceUniforms uniforms;
   };
 
   static void use(const Variant& variant, const View& view, const ShadowMap* shadow);
 
-  Variant lit_{false};
-  Variant shadowed_{true};
+  struct Variants {
+    explicit Variants(bool near_boxes) : lit(false, near_boxes), shadowed(true, near_boxes) {}
+    Variant lit;
+    Variant shadowed;
+  };
+  Variants usual_{false};
+  Variants of_near_boxes_{true};
 };
 
 }  // namespace pneuma::render
