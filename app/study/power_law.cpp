@@ -16,27 +16,36 @@ void check(std::span<const double> x, std::span<const double> y) {
   }
 }
 
+std::vector<double> logarithms(std::span<const double> values) {
+  std::vector<double> result;
+  for (const double value : values) result.push_back(std::log(value));
+  return result;
+}
+
 }  // namespace
+
+Line fit_line(std::span<const double> x, std::span<const double> y) {
+  const auto count = static_cast<double>(x.size());
+  double mean_x = 0.0, mean_y = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    mean_x += x[i] / count;
+    mean_y += y[i] / count;
+  }
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  return {xy / xx, mean_y - xy / xx * mean_x};
+}
 
 PowerLaw fit_power_law(std::span<const double> x, std::span<const double> y) {
   check(x, y);
-  const auto count = static_cast<double>(x.size());
-  double mean_u = 0.0, mean_v = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_u += std::log(x[i]) / count;
-    mean_v += std::log(y[i]) / count;
-  }
-  double uu = 0.0, uv = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double u = std::log(x[i]) - mean_u;
-    uu += u * u;
-    uv += u * (std::log(y[i]) - mean_v);
-  }
   if (std::ranges::all_of(x, [&](double value) { return value == x[0]; })) {
     throw std::invalid_argument("a power law through points of one x");
   }
-  const double exponent = uv / uu;
-  return {exponent, std::exp(mean_v - exponent * mean_u)};
+  const Line line = fit_line(logarithms(x), logarithms(y));
+  return {line.slope, std::exp(line.start)};
 }
 
 std::vector<double> local_exponents(std::span<const double> x, std::span<const double> y) {

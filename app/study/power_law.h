@@ -1,4 +1,4 @@
-// Straight lines through measured points in double logarithmic diagrams.
+// Straight lines through measured points, also in double logarithmic diagrams.
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,15 @@
 #include <vector>
 
 namespace pneuma::app {
+
+/// y = start + slope * x.
+struct Line {
+  double slope = 0.0;
+  double start = 0.0;
+};
+
+/// Least squares, of as many y as x, of which not all are equal.
+Line fit_line(std::span<const double> x, std::span<const double> y);
 
 /// y = factor * x^exponent.
 struct PowerLaw {

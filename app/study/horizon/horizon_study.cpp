@@ -8,7 +8,9 @@
 #include <random>
 
 #include "app/host/interrupt.h"
+#include "app/record/statistics.h"
 #include "app/study/error/error_meter.h"
+#include "app/study/power_law.h"
 #include "app/world/build_world.h"
 #include "app/world/replay.h"
 #include "sim/rigid/rigid_motion.h"
@@ -18,7 +20,6 @@ namespace {
 
 using sim::Vec3;
 
-constexpr int looks_per_second = 15;
 // Of the rest radius: larger differences do not grow as small ones do.
 constexpr double small_difference = 1e-2;
 constexpr std::size_t least_fitted = 3;
@@ -60,7 +61,7 @@ sim::World disturbed(sim::World world, int seed, double difference) {
 
 /// Steps until look i.
 std::int64_t steps_until(std::size_t i, int steps_per_second) {
-  return std::llround(static_cast<double>(i + 1) * steps_per_second / looks_per_second);
+  return std::llround(static_cast<double>(i + 1) * steps_per_second / samples_per_second);
 }
 
 Trajectory run(sim::World world, std::size_t looks, const std::string& name) {
@@ -74,28 +75,18 @@ Trajectory run(sim::World world, std::size_t looks, const std::string& name) {
   return trajectory;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 }  // namespace
 
 double fit_growth(const std::vector<Difference>& differences) {
-  double n = 0.0, t = 0.0, y = 0.0, tt = 0.0, ty = 0.0;
+  std::vector<double> times, logarithms;
   for (const auto& [time, size] : differences) {
     if (size > small_difference) break;
     if (!(size > 0.0)) continue;
-    const double logarithm = std::log(size);
-    n += 1.0;
-    t += time;
-    y += logarithm;
-    tt += time * time;
-    ty += time * logarithm;
+    times.push_back(time);
+    logarithms.push_back(std::log(size));
   }
-  if (n < least_fitted) return std::numeric_limits<double>::quiet_NaN();
-  return (n * ty - t * y) / (n * tt - t * t);
+  if (times.size() < least_fitted) return std::numeric_limits<double>::quiet_NaN();
+  return fit_line(times, logarithms).slope;
 }
 
 std::optional<double> Horizon::exceeds(double size) const {
@@ -113,7 +104,7 @@ Horizon study_horizon(const scenes::Scene& scene, const HorizonOptions& options,
   const sim::World world = build_world(scene);
   const double seconds = std::min(options.seconds.value_or(scene.duration), scene.duration);
   const auto looks =
-      static_cast<std::size_t>(std::max(1.0, std::floor(seconds * looks_per_second)));
+      static_cast<std::size_t>(std::max(1.0, std::floor(seconds * samples_per_second)));
   say("as it is");
   ErrorMeter meter(world, run(world, looks, scene.name));
   std::vector<std::vector<double>> sizes(looks);
@@ -126,7 +117,8 @@ Horizon study_horizon(const scenes::Scene& scene, const HorizonOptions& options,
   }
   for (std::size_t i = 0; i < looks; ++i) {
     const auto steps = static_cast<double>(steps_until(i, world.settings.steps_per_second));
-    horizon.differences.push_back({steps / world.settings.steps_per_second, median(sizes[i])});
+    horizon.differences.push_back(
+        {steps / world.settings.steps_per_second, spread(sizes[i]).median});
   }
   horizon.growth_rate = fit_growth(horizon.differences);
   return horizon;
