@@ -70,7 +70,8 @@ std::vector<Trajectory> motions(const Flight& flight, const LimitOptions& option
     if (motion.size() < samples) break;
     distances.push_back(distance);
     all.push_back(std::move(motion));
-    if (thread_seconds() - start > options.longest_run) break;
+    const bool are_enough = all.size() >= least_motions;
+    if (are_enough && thread_seconds() - start > options.longest_run) break;
   }
   return all;
 }

@@ -11,8 +11,9 @@
 namespace pneuma::app {
 
 struct LimitOptions {
-  int halvings = 6;         // of the scene's distance, at most; at least two
-  double longest_run = 60;  // s of processor time: after one that took longer there is no other
+  int halvings = 6;  // of the scene's distance, at most; at least two
+  /// s of processor time: after one that took longer there is no other, but for what it takes.
+  double longest_run = 60;
 };
 
 struct ContactLimit {

@@ -7,8 +7,6 @@
 
 #include "app/accuracy/accuracy.h"
 #include "app/host/errors.h"
-#include "app/study/report_text.h"
-#include "app/world/build_world.h"
 #include "sim/base/enum_name.h"
 #include "sim/world/paper_method.h"
 
@@ -44,38 +42,52 @@ sim::World world_by(ContactForm form, sim::World world) {
 Flight flight_of(const scenes::Scene& scene, const ContactOptions& options) {
   scenes::Scene by_potential = scene;
   by_potential.settings.contact = sim::ContactMethod::potential;
-  FlightOptions flight;
-  flight.seconds = scene.duration;
-  if (options.seconds) {
-    flight.seconds = *options.seconds;
-  } else if (const auto touch = first_contact(build_world(by_potential), scene.duration)) {
-    flight.seconds = *touch + seconds_of_contact;
+  FlightOptions whole;
+  whole.seconds = options.seconds.value_or(scene.duration);
+  Flight flight = prepare_flight(by_potential, whole);
+  if (!flight.first_contact) {
+    throw UsageError(
+        fmt::format("{}: nothing touches in the first {:.4g} s: `pneuma study error` measures that",
+                    scene.name, flight.seconds));
   }
-  Flight made = prepare_flight(by_potential, flight);
-  if (made.contacts) return made;
-  throw UsageError(
-      fmt::format("{}: nothing touches in the first {:.4g} s: `pneuma study error` measures that",
-                  scene.name, made.seconds));
+  if (!options.seconds) {
+    flight.seconds =
+        std::min(flight.seconds, whole_samples(*flight.first_contact + seconds_of_contact));
+  }
+  return flight;
 }
 
-void keep_cheaper(ContactChoice& choice, ContactForm form, const ErrorRun& run) {
-  if (choice.form && choice.run.run_time <= run.run_time) return;
-  choice.form = form;
-  choice.run = run;
+bool is_cheaper(const ErrorRun& one, const ErrorRun& other) {
+  return one.run_time < other.run_time;
+}
+bool is_better(const ErrorRun& one, const ErrorRun& other) {
+  return error_of(one) < error_of(other);
 }
 
-/// Error is at most `greatest`; `only` says which runs count.
-template <class Counts>
-ContactChoice cheapest(const ContactStudy& study, std::string purpose, double greatest,
-                       const Counts& only) {
-  ContactChoice choice{.purpose = std::move(purpose), .form = {}, .run = {}};
-  choice.known = study.limit.reference.uncertainty <= known_fraction * greatest;
+/// Of the stable runs that count the first in an order.
+template <class Counts, class ComesBefore>
+void choose_first(const ContactStudy& study, const Counts& counts, const ComesBefore& comes_before,
+                  ContactChoice& choice) {
   for (const ContactRuns& runs : study.forms) {
     for (const ErrorRun& run : runs.runs) {
-      if (!choice.known || run.status != Status::stable || !only(runs.form, run)) continue;
-      if (error_of(run) <= greatest) keep_cheaper(choice, runs.form, run);
+      if (run.status != Status::stable || !counts(runs.form, run)) continue;
+      if (choice.form && !comes_before(run, choice.run)) continue;
+      choice.form = runs.form;
+      choice.run = run;
     }
   }
+}
+
+/// With an error of at most `greatest`; `counts` says of which runs.
+template <class Counts>
+ContactChoice cheapest(const ContactStudy& study, std::string purpose, double greatest,
+                       const Counts& counts) {
+  ContactChoice choice{.purpose = std::move(purpose), .form = {}, .run = {}};
+  choice.known = study.limit.reference.uncertainty <= known_fraction * greatest;
+  const auto is_good = [&](ContactForm form, const ErrorRun& run) {
+    return counts(form, run) && error_of(run) <= greatest;
+  };
+  if (choice.known) choose_first(study, is_good, is_cheaper, choice);
   return choice;
 }
 
@@ -87,15 +99,7 @@ bool gives_a_guarantee(ContactForm form, const ErrorRun& run) {
 ContactChoice guarantee(const ContactStudy& study) {
   ContactChoice choice =
       cheapest(study, "guarantee", max_error(Accuracy::picture), gives_a_guarantee);
-  if (choice.form) return choice;
-  for (const ContactRuns& runs : study.forms) {
-    for (const ErrorRun& run : runs.runs) {
-      if (run.status != Status::stable || !gives_a_guarantee(runs.form, run)) continue;
-      if (choice.form && error_of(choice.run) <= error_of(run)) continue;
-      choice.form = runs.form;
-      choice.run = run;
-    }
-  }
+  if (!choice.form) choose_first(study, gives_a_guarantee, is_better, choice);
   return choice;
 }
 

@@ -73,9 +73,7 @@ void check(const scenes::Scene& scene, const sim::World& world) {
   }
 }
 
-}  // namespace
-
-std::optional<double> first_contact(sim::World world, double seconds) {
+std::optional<double> find_first_contact(sim::World world, double seconds) {
   world.settings.integrator = sim::Integrator::rk4;
   world.settings.steps_per_second =
       std::max(world.settings.steps_per_second, looking_steps_per_second);
@@ -90,14 +88,18 @@ std::optional<double> first_contact(sim::World world, double seconds) {
   return std::nullopt;
 }
 
+}  // namespace
+
+double whole_samples(double seconds) {
+  return std::max(1.0, std::floor(seconds * samples_per_second + 1e-9)) / samples_per_second;
+}
+
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) {
   Flight flight;
   flight.world = build_world(scene);
   flight.world.settings.sleep_speed = 0.0;  // no part of the equation
   if (options.body.empty() && !options.free_flight) refuse_start_overlap(scene, flight.world);
-  const double longest = std::min(options.seconds, scene.duration);
-  flight.seconds =
-      std::max(1.0, std::floor(longest * samples_per_second + 1e-9)) / samples_per_second;
+  flight.seconds = whole_samples(std::min(options.seconds, scene.duration));
   if (!options.body.empty()) keep_body(flight.world, options.body);
   if (options.free_flight) {
     flight.world.settings.ground.reset();
@@ -105,8 +107,9 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
   }
   check(scene, flight.world);
   // Boxes alone turn by their own equation, which only the contact potential's solutions have.
-  const bool has_contacts = !options.free_flight && (flight.world.soft.empty() ||
-                                                     first_contact(flight.world, flight.seconds));
+  if (!options.free_flight) flight.first_contact = find_first_contact(flight.world, flight.seconds);
+  const bool has_contacts =
+      !options.free_flight && (flight.world.soft.empty() || flight.first_contact);
   // Its search for contacts is no part of a free flight.
   if (!has_contacts && flight.world.settings.contact == sim::ContactMethod::potential) {
     flight.world.settings.contact = sim::ContactMethod::swept;

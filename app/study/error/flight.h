@@ -20,13 +20,15 @@ struct Flight {
   /// Contacts are looked for and resolved. Without, every soft body moves by itself, by the
   /// model's differential equation: a smooth motion with a reference.
   bool contacts = false;
-  double seconds = 0.0;     // a whole number of samples
+  double seconds = 0.0;  // a whole number of samples
+  /// s, when something first touches, if it does so in the time: by short steps of rk4. A run that
+  /// diverges before is said to touch then.
+  std::optional<double> first_contact;
   std::string description;  // "free flight (nothing touches in this time)"
 };
 
-/// s, when something first touches, if it does so in the time: by short steps of rk4. A run that
-/// diverges before is said to touch then.
-std::optional<double> first_contact(sim::World world, double seconds);
+/// s, down to a whole number of samples, at least one.
+double whole_samples(double seconds);
 
 /// Asked for or not, a world in which nothing touches in the time is in free flight. Throws
 /// UsageError for a body that is not there, when nothing is left that could have an error, for a

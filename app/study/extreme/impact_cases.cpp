@@ -61,8 +61,8 @@ void add_case(std::vector<ExtremeCase>& cases, const std::string& name, const st
 
 std::vector<ExtremeCase> impact_cases() {
   std::vector<ExtremeCase> cases;
-  for (const char* contact : {"swept", "potential"}) {
-    const bool is_slow = contact == std::string("potential");
+  for (const std::string contact : {"swept", "potential"}) {
+    const bool is_slow = contact == "potential";
     for (const double speed : {10.0, 100.0, 1000.0}) {
       add_case(cases, fmt::format("two bodies meet at {} m/s", speed), contact,
                ball(-3.6, 0.5 * speed, 1.0) + ball(3.6, -0.5 * speed, 1.0),
