@@ -9,7 +9,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x35414d55454e50ULL;  // "PNEUMA5" as little-endian bytes
+constexpr std::uint64_t magic = 0x36414d55454e50ULL;  // "PNEUMA6" as little-endian bytes
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   base::Hash hash;
@@ -133,6 +133,14 @@ void get(Reader& reader, const World& world, ParticlePair& pair) {
   get(reader, pair.near);
 }
 
+void get_lost_energy(Reader& reader, World& world) {
+  world.lost_energy.assign(reader.count(), 0.0);
+  if (!world.lost_energy.empty() && world.lost_energy.size() != world.soft.size()) {
+    throw CheckpointError("the saved state has lost energy of other bodies than there are");
+  }
+  for (double& lost : world.lost_energy) reader.get(lost);
+}
+
 void get_rest(Reader& reader, World& world) {
   const std::size_t bodies = world.soft.size() + world.rigid.size();
   world.rest.assign(reader.count(), {});
@@ -206,6 +214,8 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(pair.first);
     writer.put(pair.second);
   }
+  writer.put(world.lost_energy.size());
+  for (const double lost : world.lost_energy) writer.put(lost);
   writer.put(world.rest.size());
   for (const BodyRest& rest : world.rest) {
     writer.put(rest.quiet_steps);
@@ -243,6 +253,7 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   for (WarmStartImpulse& impulse : loaded.warm_start_impulses) get(reader, loaded, impulse);
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
+  get_lost_energy(reader, loaded);
   get_rest(reader, loaded);
   reader.end();
   world = std::move(loaded);

@@ -28,27 +28,39 @@ Energy& operator+=(Energy& sum, const Energy& term) {
   return sum;
 }
 
-}  // namespace
-
-Energy energy(const SoftBody& body, const Vec3& gravity) {
+Energy energy(const SoftBody& body, const VertexArray& positions, const VertexArray& velocities,
+              const Vec3& gravity) {
   const SoftMaterial& material = body.material;
   Energy result;
-  if (body.pins && body.pins->are_all) return result;  // likewise
-  result.kinetic = 0.5 * material.vertex_mass * body.velocities.rows().squaredNorm();
-  result.spring = spring_energy(*body.mesh, body.positions, material.k) +
-                  bending_energy(*body.mesh, body.positions, material.bending);
-  result.gas = gas_energy(material, volume(body.mesh->topology, body.positions));
-  result.gravity =
-      -material.vertex_mass * body.positions.size() * gravity.dot(mean(body.positions));
+  if (body.pins && body.pins->are_all) return result;  // of no finite mass
+  result.kinetic = 0.5 * material.vertex_mass * velocities.rows().squaredNorm();
+  result.spring = spring_energy(*body.mesh, positions, material.k) +
+                  bending_energy(*body.mesh, positions, material.bending);
+  result.gas = gas_energy(material, volume(body.mesh->topology, positions));
+  result.gravity = -material.vertex_mass * positions.size() * gravity.dot(mean(positions));
   return result;
 }
 
+}  // namespace
+
+Energy energy(const SoftBody& body, const Vec3& gravity) {
+  return energy(body, body.positions, body.velocities, gravity);
+}
+
+Energy energy(const SoftBody& body, const SoftState& state, const Vec3& gravity) {
+  return energy(body, state.positions, state.velocities, gravity);
+}
+
 Energy energy(const RigidBox& box, const Vec3& gravity) {
+  return energy(box, state_of(box), gravity);
+}
+
+Energy energy(const RigidBox& box, const RigidState& state, const Vec3& gravity) {
   Energy result;
-  if (box.is_kinematic) return result;  // of no finite mass
-  result.kinetic =
-      0.5 * box.mass * box.velocity.squaredNorm() + 0.5 * box.angular_velocity.dot(spin(box));
-  result.gravity = -box.mass * gravity.dot(box.position);
+  if (box.is_kinematic) return result;  // likewise
+  result.kinetic = 0.5 * box.mass * state.velocity.squaredNorm() +
+                   0.5 * state.angular_velocity.dot(spin(box, state));
+  result.gravity = -box.mass * gravity.dot(state.position);
   return result;
 }
 
@@ -130,6 +142,7 @@ std::uint64_t state_hash(const World& world) {
   }
   for (const DepenetratingPair& pair : world.depenetrating)
     add_list(hash, {pair.first, pair.second});
+  for (const double lost : world.lost_energy) hash.add(lost);
   for (std::size_t i = 0; i < world.rest.size(); ++i) {
     if (world.rest[i].group >= 0) add_list(hash, {static_cast<int>(i), world.rest[i].group});
   }

@@ -10,6 +10,36 @@
 namespace pneuma::sim {
 namespace {
 
+/// Of what was lost before, per step.
+constexpr double kept_of_loss = 0.5;
+/// Of motion, per step, that is taken for work that has not made energy grow.
+constexpr double share_of_motion = 0.02;
+/// Slower than this fraction of what a fall gains in a step, all motion counts as rest.
+constexpr double quiet_speed = 0.2;
+
+/// J, that an island gives up.
+struct Due {
+  double must = 0.0;   // as its energy has grown
+  double may = 0.0;    // besides, as its contacts have done work
+  double quiet = 0.0;  // of motion that counts as rest
+
+  double all() const { return must + may; }
+  /// Of a motion with so much energy, J.
+  double of(double motion) const {
+    return std::min(motion, must + std::min(may, std::max(share_of_motion * motion, quiet)));
+  }
+  void pay(double taken) {
+    const double of_must = std::min(must, taken);
+    must -= of_must;
+    may = std::max(0.0, may - (taken - of_must));
+  }
+  void forgive(double energy) {
+    const double of_may = std::min(may, energy);
+    may -= of_may;
+    must = std::max(0.0, must - (energy - of_may));
+  }
+};
+
 std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
   return static_cast<std::size_t>(impulse - memory.impulses.data());
 }
@@ -144,11 +174,11 @@ void for_each_soft_body(World& world, SweptMemory& memory, int island, const Vis
 }
 
 /// Returns what was taken, J: no more than there is.
-double slow_vibrations(World& world, SweptMemory& memory, int island, double excess) {
+double slow_vibrations(World& world, SweptMemory& memory, int island, const Due& due) {
   double there_is = 0.0;
   for_each_soft_body(world, memory, island,
                      [&](const SoftBody& body) { there_is += energy_of_vibration(body); });
-  const double taken = std::min(excess, there_is);
+  const double taken = due.of(there_is);
   if (!(taken > 0.0)) return 0.0;
   const double factor = std::sqrt(1.0 - taken / there_is);
   for_each_soft_body(world, memory, island, [&](SoftBody& body) { slow_vibration(body, factor); });
@@ -202,6 +232,64 @@ double spring_energy_of_island(World& world, SweptMemory& memory, int island) {
   return sum;
 }
 
+/// Of islands with soft bodies: by how much their energy has grown in the step, and what they may
+/// give back of what they lost before.
+class EnergyAccount {
+ public:
+  EnergyAccount(World& world, const MotionStart& start, SweptMemory& memory)
+      : world_(world), start_(start), m_(memory) {
+    std::swap(world.lost_energy, memory.lost_energy);
+    world.lost_energy.assign(world.soft.size(), 0.0);
+    memory.lost_energy.resize(world.soft.size());
+  }
+
+  /// Of boxes alone, which nothing damps, all that contacts added.
+  Due due(int island) {
+    const double work = m_.work_of_islands[at(island)];
+    double growth = 0.0, before = 0.0, mass = 0.0;
+    int count = 0;
+    for_each_soft_body(island, [&](std::size_t i) {
+      mass += world_.soft[i].material.vertex_mass * world_.soft[i].positions.size();
+      growth += growth_of(world_.soft[i], start_.soft[i]);
+      before += m_.lost_energy[i];
+      ++count;
+    });
+    if (count == 0 || holder_of(world_, m_, island) == Holder::none)
+      return {.must = work, .may = 0.0, .quiet = 0.0};
+    for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
+      const int body = m_.bodies.of_box(static_cast<int>(i));
+      if (m_.solver.island_of(body) != island) continue;
+      mass += world_.rigid[i].mass;
+      growth += growth_of(world_.rigid[i], start_.rigid[i]);
+    }
+    const double must = std::max(0.0, std::min(work, growth - before)), kept = growth - must;
+    const double lost =
+        kept_of_loss * std::max(0.0, before - std::max(0.0, kept)) + std::max(0.0, -kept);
+    for_each_soft_body(island, [&](std::size_t i) { world_.lost_energy[i] = lost / count; });
+    return {.must = must,
+            .may = work - must,
+            .quiet = quiet_speed * quiet_speed * energy_of_fall(world_.settings, mass)};
+  }
+
+ private:
+  template <class Body, class State>
+  double growth_of(const Body& body, const State& start) const {
+    const Vec3& gravity = world_.settings.gravity;
+    return energy(body, gravity).total() - energy(body, start, gravity).total();
+  }
+
+  template <class Visit>
+  void for_each_soft_body(int island, const Visit& visit) const {
+    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
+      if (m_.solver.island_of(static_cast<int>(i)) == island) visit(i);
+    }
+  }
+
+  World& world_;
+  const MotionStart& start_;
+  SweptMemory& m_;
+};
+
 /// Of an island's energy of motion and springs, what rounding may leave in a step.
 constexpr double max_added_work = 1e-9;
 
@@ -214,7 +302,7 @@ constexpr double max_added_work = 1e-9;
 /// Nothing is asked for if pins, or bodies that keep their velocities, hold the island. Of one that
 /// nothing holds, whose energy its loads cannot change, none may be left but what rounding leaves,
 /// and the `tolerance` (m/s) to which velocities are solved for.
-Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, double energy,
+Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, Due due,
                                  double tolerance) {
   const Holder holder = holder_of(world, memory, island);
   if (holder == Holder::moved) return {};
@@ -222,9 +310,9 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   if (holder == Holder::none) {
     motion.leave_out_common();
   } else if (motion.has_soft_bodies()) {
-    energy = std::max(0.0, energy - energy_of_fall(world.settings, motion.mass()));
+    due.forgive(energy_of_fall(world.settings, motion.mass()));
   }
-  const double taken = motion.take(energy), left = energy - taken;
+  const double taken = motion.take(due.of(motion.energy())), left = due.must - taken;
   if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
   const double of_solution = 0.5 * motion.mass() * tolerance * tolerance;
   const double all = taken + motion.energy() + spring_energy_of_island(world, memory, island);
@@ -245,18 +333,20 @@ void limit_returned_energy(SweptMemory& memory, double tolerance) {
   ReturnedEnergy(memory, tolerance).limit();
 }
 
-Excess take_back_excess_work(World& world, SweptMemory& memory, double tolerance) {
+Excess take_back_excess_work(World& world, const MotionStart& start, SweptMemory& memory,
+                             double tolerance) {
   Excess all;
   if (is_implicit(world.settings.integrator)) return all;
+  EnergyAccount account(world, start, memory);
   for (std::size_t i = 0; i < memory.work_of_islands.size(); ++i) {
     const int island = static_cast<int>(i);
-    const double work = memory.work_of_islands[i];
-    if (!(work > 0.0)) continue;
-    const double of_vibrations = slow_vibrations(world, memory, island, work);
+    Due due = account.due(island);
+    if (!(due.all() > 0.0)) continue;
+    const double of_vibrations = slow_vibrations(world, memory, island, due);
     all.taken += of_vibrations;
-    if (of_vibrations >= work) continue;
-    const Excess of_island =
-        take_from_relative_motion(world, memory, island, work - of_vibrations, tolerance);
+    due.pay(of_vibrations);
+    if (!(due.all() > 0.0)) continue;
+    const Excess of_island = take_from_relative_motion(world, memory, island, due, tolerance);
     all.taken += of_island.taken;
     if (of_island.left > all.left) {
       all.left = of_island.left;

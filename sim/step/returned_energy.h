@@ -33,10 +33,18 @@ struct Excess {
 /// against each other, so that momentum and angular momentum stay as they are. Where the ground or
 /// a body at rest bears the island, which then changes these anyway, it gives up from all motion.
 ///
+/// Of what is so held with soft bodies in it, springs that are damped between the impulses at both
+/// ends may have taken the work already, and where impulses swing, steps gain and lose by turns.
+/// Were all work taken, no motion might be left. So such an island gives up what its energy has
+/// grown by, less what it lost in the step before and half as much of each step before that
+/// (World::lost_energy), and of the rest of the work no more than a share of its motion, if that is
+/// not as slow as at rest.
+///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///
-/// The velocities must be those of the end, solved for to `tolerance` (m/s, of a whole step), and
-/// the memory know the work of its islands.
-Excess take_back_excess_work(World& world, SweptMemory& memory, double tolerance);
+/// `start`: of the step. The velocities must be those of the end, solved for to `tolerance` (m/s,
+/// of a whole step), and the memory know the work of its islands.
+Excess take_back_excess_work(World& world, const MotionStart& start, SweptMemory& memory,
+                             double tolerance);
 
 }  // namespace pneuma::sim

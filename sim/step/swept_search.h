@@ -20,6 +20,7 @@ namespace pneuma::sim {
 struct SweptStart {
   MotionStart motion;
   std::vector<WarmStartImpulse> warm_start_impulses;
+  std::vector<double> lost_energy;  // J
 };
 
 /// How often a step may be halved: to a 256th.
@@ -103,6 +104,7 @@ struct SweptMemory {
   ReturnedEnergyMemory returned_energy;
   ImpactPath impact_path;
   std::vector<ImpactPoint> impact_points;
+  std::vector<double> lost_energy;      // World's, before the step
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
   std::vector<MetFreely> met_freely;

@@ -55,6 +55,7 @@ class SweptStep {
   std::optional<Divergence> advance(int halvings) {
     SweptStart& start = m_.starts[at(halvings)];
     start.warm_start_impulses = world_.warm_start_impulses;
+    start.lost_energy = world_.lost_energy;
     const double work = m_.work, driven_work = m_.driven_work;
     const std::size_t contacts = w_.contacts.size();
     const auto take_all_back = [&] {
@@ -91,6 +92,7 @@ class SweptStep {
     restore_soft(world_, start.motion.soft);
     restore_rigid(world_, start.motion.rigid);
     world_.warm_start_impulses = start.warm_start_impulses;
+    world_.lost_energy = start.lost_energy;
   }
 
   std::optional<Divergence> try_step() {
@@ -227,7 +229,7 @@ class SweptStep {
       m_.driven_work += driven_work(i, Moment::end);
     }
     bodies_.add_changes(world_);
-    const Excess excess = take_back_excess_work(world_, m_, fraction_ * tolerance());
+    const Excess excess = take_back_excess_work(world_, start(), m_, fraction_ * tolerance());
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
