@@ -81,7 +81,7 @@ std::string next_longer(const ErrorStudy& study, const ErrorRun& run) {
 }
 
 /// What makes up the two run times, in evaluations of the forces.
-std::string reason(const ErrorStudy& study, const Choice& choice, double wanted) {
+std::string reason(const ErrorStudy& study, const Choice& choice) {
   const double evaluation = study.evaluation_time;
   const ErrorRun& ours = *choice.ours;
   const ErrorRun& peer = *choice.peer;
@@ -91,30 +91,24 @@ std::string reason(const ErrorStudy& study, const Choice& choice, double wanted)
       "of "
       "its time on other work;",
       peer.method, readable(peer.evaluations), in_microseconds(evaluation), 100.0 * own_work);
-  return fmt::format(
-      "{} {} at 1/{} s takes as long as {} evaluations{}. To be {:g} times ahead it would have to "
-      "take no longer than {}.",
-      theirs, ours.method, ours.steps_per_second, readable(ours.run_time / evaluation),
-      next_longer(study, ours), wanted, readable(peer.run_time / wanted / evaluation));
+  return fmt::format("{} {} at 1/{} s takes as long as {} evaluations{}, theirs as long as {}.",
+                     theirs, ours.method, ours.steps_per_second,
+                     readable(ours.run_time / evaluation), next_longer(study, ours),
+                     readable(peer.run_time / evaluation));
 }
-
-double wanted_ratio(double error) { return error == 1e-2 || error == 1e-3 ? 10.0 : 1.0; }
 
 constexpr const char* not_known = "the motion itself is not known that well";
 
-/// Empty when ours is as far ahead as wanted.
-std::string shortfall(const ErrorStudy& study, const Choice& choice, double wanted) {
+/// Empty when ours is ahead.
+std::string shortfall(const ErrorStudy& study, const Choice& choice) {
   if (!choice.known) return fmt::format("nothing can be said: {}", not_known);
   if (!choice.ours) {
     return fmt::format("{}: none of our steps studied reaches it",
                        choice.peer ? "SUNDIALS is ahead" : "neither can be chosen");
   }
-  if (!choice.peer || *choice.ratio() >= wanted) return "";
-  const double ratio = *choice.ratio();
-  const std::string how_far =
-      ratio < 1.0 ? fmt::format("behind SUNDIALS, {:.2g} times as fast", ratio)
-                  : fmt::format("{:.1f} times ahead of SUNDIALS, not {:g}", ratio, wanted);
-  return fmt::format("ours is {}. {}", how_far, reason(study, choice, wanted));
+  if (!choice.peer || *choice.ratio() >= 1.0) return "";
+  return fmt::format("ours is behind SUNDIALS, {:.2g} times as fast. {}", *choice.ratio(),
+                     reason(study, choice));
 }
 
 }  // namespace
@@ -167,7 +161,7 @@ std::vector<std::string> shortfalls(const ErrorStudy& study) {
   std::vector<std::string> sentences;
   if (study.flight.contacts) return sentences;
   for (const double error : compared_errors) {
-    const std::string what = shortfall(study, choose(study, error), wanted_ratio(error));
+    const std::string what = shortfall(study, choose(study, error));
     if (!what.empty()) {
       sentences.push_back(fmt::format("at an error of {} {}", power_of_ten(error), what));
     }

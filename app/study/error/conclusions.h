@@ -49,8 +49,8 @@ inline constexpr std::array compared_errors = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-
 /// 1.6e-3)", or why there is none.
 std::string recommendation(const Choice& choice);
 
-/// Whether ours is ahead of SUNDIALS at every error compared, and ten times at 1e-2 and 1e-3; where
-/// not, a sentence each that says so and why. Empty when all of it holds.
+/// Where ours is not ahead of SUNDIALS, of the errors compared: a sentence each that says so and
+/// why.
 std::vector<std::string> shortfalls(const ErrorStudy& study);
 
 }  // namespace pneuma::app

@@ -47,6 +47,7 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
   std::vector<Method> methods;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
     if (!can_integrate(integrator, flight.world)) continue;
+    if (!options.implicit && sim::is_implicit(integrator)) continue;
     const sim::Settings& settings = flight.world.settings;
     if (sim::is_as_printed(settings) && integrator != settings.integrator) continue;
     Method& method = methods.emplace_back();
@@ -67,6 +68,7 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
     return methods;
   }
   for (const SundialsMethod kind : sundials_methods) {
+    if (flight.contacts && is_preconditioned(kind)) continue;
     Method& method = methods.emplace_back();
     for (const double tolerance : options.tolerances) {
       Candidate& candidate = method.emplace_back();
@@ -137,17 +139,20 @@ std::string label(const ErrorRun& run) {
 
 void measure_errors(Method& method, ErrorMeter& meter, const ErrorOptions& options,
                     const std::function<void(const std::string&)>& say) {
-  std::string too_long;
+  std::string no_further;
   for (Candidate& candidate : method) {
-    if (!too_long.empty()) {
-      candidate.run.status = Status::skipped;
-      candidate.run.failure = too_long;
+    ErrorRun& run = candidate.run;
+    if (!no_further.empty()) {
+      run.status = Status::skipped;
+      run.failure = no_further;
       continue;
     }
-    say(label(candidate.run));
+    say(label(run));
     measure_error(candidate, meter);
     if (candidate.spent > options.longest_run) {
-      too_long = fmt::format("the run before it took {:.0f} s", candidate.spent);
+      no_further = fmt::format("the run before it took {:.0f} s", candidate.spent);
+    } else if (run.status == Status::stable && error_of(run) < options.finest_error) {
+      no_further = "the run before it is good enough";
     }
   }
 }

@@ -18,6 +18,8 @@ struct ErrorOptions {
   FlightOptions flight;
   std::vector<int> steps_per_second;  // ascending, multiples of samples_per_second, not empty
   std::vector<double> tolerances;     // of SUNDIALS, from loose to tight
+  bool implicit = true;               // our implicit integrators, too
+  double finest_error = 0.0;          // no shorter steps after a run with an error below
   int repeats = 5;                    // of each run, for its time
   /// s of processor time: a method is not taken to shorter steps (or tighter tolerances) after a
   /// run that took longer than this, and the runs of a repetition are not repeated beyond it.
@@ -34,7 +36,7 @@ struct ErrorRun {
   enum class Status {
     stable,
     unstable,  // diverged, or further off than ten rest radii
-    skipped,   // would have taken too long
+    skipped,   // would take too long, or is not needed
   };
 
   std::string method;

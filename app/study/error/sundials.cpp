@@ -3,7 +3,6 @@
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <fmt/format.h>
-#include <nvector/nvector_serial.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
@@ -13,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/study/error/sundials_vector.h"
 #include "sim/base/enum_name.h"
 
 namespace pneuma::app {
@@ -53,6 +53,7 @@ constexpr auto set_arkode_steps = ARKodeSetMaxNumSteps;
 constexpr auto set_arkode_order = ARKodeSetOrder;
 constexpr auto set_arkode_tolerances = ARKodeSVtolerances;
 constexpr auto stop_arkode_at = ARKodeSetStopTime;
+constexpr auto set_arkode_degree = ARKodeSetInterpolantDegree;
 constexpr auto evolve_arkode = ARKodeEvolve;
 constexpr auto free_arkode = ARKodeFree;
 
@@ -74,30 +75,51 @@ constexpr auto set_arkode_steps = ERKStepSetMaxNumSteps;
 constexpr auto set_arkode_order = ERKStepSetOrder;
 constexpr auto set_arkode_tolerances = ERKStepSVtolerances;
 constexpr auto stop_arkode_at = ERKStepSetStopTime;
+constexpr auto set_arkode_degree = ERKStepSetInterpolantDegree;
 constexpr auto evolve_arkode = ERKStepEvolve;
 constexpr auto free_arkode = ERKStepFree;
 
 #endif
 
-/// Of an explicit Runge-Kutta method; 0: of CVODE's, which vary it.
-int fixed_order(SundialsMethod method) {
+/// An explicit Runge-Kutta method of ARKODE's.
+struct RungeKutta {
+  int order = 0;  // 0: it is none
+  bool is_dense = false;
+  ARKODE_ERKTableID table = ARKODE_ERK_NONE;  // none: ARKODE's own choice
+};
+
+RungeKutta runge_kutta(SundialsMethod method) {
+  using enum SundialsMethod;
   switch (method) {
-    case SundialsMethod::arkode_3:
-      return 3;
-    case SundialsMethod::arkode_5:
-      return 5;
-    case SundialsMethod::arkode_8:
-      return 8;
+    case arkode_3:
+      return {3};
+    case arkode_4:
+      return {4};
+    case arkode_5:
+      return {5};
+    case arkode_dp5:
+      return {5, false, ARKODE_DORMAND_PRINCE_7_4_5};
+    case arkode_8:
+      return {8};
+    case arkode_3_dense:
+      return {3, true};
+    case arkode_dp5_dense:
+      return {5, true, ARKODE_DORMAND_PRINCE_7_4_5};
     default:
-      return 0;
+      return {};
   }
 }
+
+// Cubic, from the states and derivatives at both ends of a step. One degree more takes another
+// evaluation in each step.
+constexpr int dense_degree = 3;
 
 }  // namespace
 
 std::string_view to_string(SundialsMethod method) {
   static constexpr auto names = std::to_array<std::string_view>(
-      {"cvode_adams", "cvode_bdf", "arkode_3", "arkode_5", "arkode_8"});
+      {"cvode_adams", "cvode_bdf", "cvode_bdf_blocks", "cvode_bdf_factors", "arkode_3", "arkode_4",
+       "arkode_5", "arkode_dp5", "arkode_8", "arkode_3_dense", "arkode_dp5_dense"});
   return base::enum_name(names, method);
 }
 
@@ -108,8 +130,10 @@ std::string sundials_version() {
 }
 
 struct Sundials::Memory {
-  Memory(RightHandSide given, std::vector<double> start)
-      : right_hand_side(std::move(given)), values(std::move(start)) {}
+  Memory(RightHandSide given, std::vector<double> start, std::unique_ptr<Preconditioner> own)
+      : right_hand_side(std::move(given)),
+        preconditioner(std::move(own)),
+        values(std::move(start)) {}
   ~Memory() {
     if (is_arkode) {
       free_arkode(&solver);
@@ -126,12 +150,18 @@ struct Sundials::Memory {
 
   void set_up(SundialsMethod method, const SundialsTolerances& tolerances);
   void set_up_cvode(SundialsMethod method);
-  void set_up_arkode(int order);
+  void set_up_arkode(const RungeKutta& method);
   static int evaluate(sunrealtype time, N_Vector state, N_Vector derivative, void* memory);
+  static int set_up_preconditioner(sunrealtype time, N_Vector state, N_Vector derivative,
+                                   sunbooleantype is_same_state, sunbooleantype* is_new,
+                                   sunrealtype gamma, void* memory);
+  static int precondition(sunrealtype time, N_Vector state, N_Vector derivative, N_Vector r,
+                          N_Vector z, sunrealtype gamma, sunrealtype delta, int side, void* memory);
 
   bool advance_step_by_step(double time);
 
   RightHandSide right_hand_side;
+  std::unique_ptr<Preconditioner> preconditioner;
   StepDone step_done;
   double reached = 0.0;        // s, by the last step, if each is told of
   std::vector<double> values;  // where `state` keeps its numbers
@@ -140,6 +170,7 @@ struct Sundials::Memory {
   SUNNonlinearSolver nonlinear = nullptr;
   SUNLinearSolver linear = nullptr;
   bool is_arkode = false;
+  bool is_dense = false;
   void* solver = nullptr;
 };
 
@@ -150,21 +181,36 @@ int Sundials::Memory::evaluate(sunrealtype, N_Vector state, N_Vector derivative,
   return sound ? 0 : 1;  // above zero: recoverable
 }
 
+int Sundials::Memory::set_up_preconditioner(sunrealtype, N_Vector state, N_Vector, sunbooleantype,
+                                            sunbooleantype* is_new, sunrealtype gamma,
+                                            void* memory) {
+  *is_new = SUNTRUE;
+  const auto& self = *static_cast<const Memory*>(memory);
+  return self.preconditioner->set_up(N_VGetArrayPointer(state), gamma) ? 0 : 1;
+}
+
+int Sundials::Memory::precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z,
+                                   sunrealtype, sunrealtype, int, void* memory) {
+  const auto& self = *static_cast<const Memory*>(memory);
+  self.preconditioner->solve(N_VGetArrayPointer(r), N_VGetArrayPointer(z));
+  return 0;
+}
+
 void Sundials::Memory::set_up(SundialsMethod method, const SundialsTolerances& tolerances) {
   if (tolerances.absolute.size() != values.size()) {
     throw std::invalid_argument("SUNDIALS needs an absolute tolerance per component");
   }
   context = make_context();
   const auto count = static_cast<sunindextype>(values.size());
-  state = require(N_VMake_Serial(count, values.data(), context), "N_VMake_Serial");
-  is_arkode = fixed_order(method) > 0;
+  state = require(make_vector(count, values.data(), context), "N_VMake_Serial");
+  is_arkode = runge_kutta(method).order > 0;
   if (is_arkode) {
-    set_up_arkode(fixed_order(method));
+    set_up_arkode(runge_kutta(method));
   } else {
     set_up_cvode(method);
   }
   auto absolute = tolerances.absolute;
-  N_Vector vector = require(N_VMake_Serial(count, absolute.data(), context), "N_VMake_Serial");
+  N_Vector vector = require(make_vector(count, absolute.data(), context), "N_VMake_Serial");
   const auto set_tolerances = is_arkode ? set_arkode_tolerances : CVodeSVtolerances;
   const int flag = set_tolerances(solver, tolerances.relative, vector);  // copies them
   N_VDestroy(vector);
@@ -183,21 +229,32 @@ void Sundials::Memory::set_up_cvode(SundialsMethod method) {
     require(CVodeSetNonlinearSolver(solver, nonlinear), "CVodeSetNonlinearSolver");
     return;
   }
-  linear = require(SUNLinSol_SPGMR(state, SUN_PREC_NONE, 0, context), "SUNLinSol_SPGMR");
+  const int side = preconditioner ? SUN_PREC_LEFT : SUN_PREC_NONE;
+  linear = require(SUNLinSol_SPGMR(state, side, 0, context), "SUNLinSol_SPGMR");
   require(CVodeSetLinearSolver(solver, linear, nullptr), "CVodeSetLinearSolver");
+  if (!preconditioner) return;
+  require(CVodeSetPreconditioner(solver, set_up_preconditioner, precondition),
+          "CVodeSetPreconditioner");
 }
 
-void Sundials::Memory::set_up_arkode(int order) {
+void Sundials::Memory::set_up_arkode(const RungeKutta& method) {
   solver = require(ERKStepCreate(evaluate, 0.0, state, context), "ERKStepCreate");
   silence_arkode(solver);
   require(set_arkode_data(solver, this), "SetUserData");
   require(set_arkode_steps(solver, most_steps), "SetMaxNumSteps");
-  require(set_arkode_order(solver, order), "SetOrder");
+  require(set_arkode_order(solver, method.order), "SetOrder");
+  if (method.table != ARKODE_ERK_NONE) {
+    require(ERKStepSetTableNum(solver, method.table), "ERKStepSetTableNum");
+  }
+  is_dense = method.is_dense;
+  if (is_dense) require(set_arkode_degree(solver, dense_degree), "SetInterpolantDegree");
 }
 
 Sundials::Sundials(SundialsMethod method, RightHandSide right_hand_side, std::vector<double> start,
-                   const SundialsTolerances& tolerances)
-    : memory_(std::make_unique<Memory>(std::move(right_hand_side), std::move(start))) {
+                   const SundialsTolerances& tolerances,
+                   std::unique_ptr<Preconditioner> preconditioner)
+    : memory_(std::make_unique<Memory>(std::move(right_hand_side), std::move(start),
+                                       std::move(preconditioner))) {
   memory_->set_up(method, tolerances);
 }
 Sundials::~Sundials() = default;
@@ -218,8 +275,8 @@ bool Sundials::advance_to(double time) {
   sunrealtype reached = 0.0;
   Memory& m = *memory_;
   if (m.is_arkode) {
-    // Its interpolation is of an order below that of the method.
-    require(stop_arkode_at(m.solver, time), "SetStopTime");
+    // Its interpolation is of an order below that of most methods.
+    if (!m.is_dense) require(stop_arkode_at(m.solver, time), "SetStopTime");
     return evolve_arkode(m.solver, time, m.state, &reached, ARK_NORMAL) >= 0;
   }
   if (m.step_done) return m.advance_step_by_step(time);

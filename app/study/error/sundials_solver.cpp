@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "app/study/error/body_preconditioner.h"
 #include "app/study/error/error_meter.h"
 #include "app/study/error/reference_equation.h"
 #include "app/study/error/solver.h"
@@ -281,6 +282,18 @@ std::unique_ptr<Solver> make_contact_solver(const sim::World& world, SundialsMet
   return std::make_unique<SundialsSolver>(world, std::move(solver), read);
 }
 
+std::unique_ptr<Sundials::Preconditioner> preconditioner_of(SundialsMethod method,
+                                                            const sim::World& world) {
+  switch (method) {
+    case SundialsMethod::cvode_bdf_blocks:
+      return make_body_preconditioner(world.soft, BodyPreconditioning::blocks);
+    case SundialsMethod::cvode_bdf_factors:
+      return make_body_preconditioner(world.soft, BodyPreconditioning::factors);
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod method,
@@ -295,7 +308,8 @@ std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod
   return std::make_unique<SundialsSolver>(
       world,
       Sundials(method, evaluate, flat_state(world.soft),
-               {0.0, absolute_tolerances(world, tolerance, frequency)}),
+               {0.0, absolute_tolerances(world, tolerance, frequency)},
+               preconditioner_of(method, world)),
       read_soft);
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace pneuma::app {
 namespace {
@@ -56,6 +57,28 @@ TEST_P(SundialsMethods, GiveUpWhereTheStateHasNoMeaning) {
     EXPECT_NEAR(solver.state()[0], 0.5, 1e-5);  // tolerance over a few steps
   }
   EXPECT_FALSE(solver.advance_to(2.0));
+}
+
+// More numbers than the vector's sums take at once, and no multiple of that.
+TEST_P(SundialsMethods, FollowManyOscillations) {
+  constexpr int count = 301;
+  const auto frequency = [](int i) { return 1.0 + 0.01 * i; };
+  const auto oscillate_all = [&](const double* state, double* derivative) {
+    for (int i = 0; i < count; ++i) {
+      derivative[2 * i] = state[2 * i + 1];
+      derivative[2 * i + 1] = -frequency(i) * frequency(i) * state[2 * i];
+    }
+    return true;
+  };
+  std::vector<double> start(2 * count);
+  for (int i = 0; i < count; ++i) start[2 * static_cast<std::size_t>(i)] = 1.0;
+  Sundials solver(GetParam(), oscillate_all, start,
+                  {1e-8, std::vector<double>(start.size(), 1e-8)});
+  EXPECT_TRUE(solver.advance_to(2.0));
+  for (int i = 0; i < count; ++i) {
+    EXPECT_NEAR(solver.state()[2 * static_cast<std::size_t>(i)], std::cos(2.0 * frequency(i)), 1e-5)
+        << i;
+  }
 }
 
 TEST(Sundials, WantsATolerancePerComponent) {
