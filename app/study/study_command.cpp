@@ -19,11 +19,12 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   add_extreme_study(*study, action, command_line);
   add_horizon_study(*study, action, command_line);
   add_impact_study(*study, action, command_line);
+  add_solvers_study(*study, action, command_line);
   add_stability_study(*study, action, command_line);
   // Last, because commands below another begin with its examples.
   add_examples(*study, {"pneuma study error one_sphere --short", "pneuma study extremes"});
   add_examples(*study->get_subcommand("error"),
-               {"pneuma study error one_sphere --free-flight",
+               {"pneuma study error one_sphere --free-flight --tumbling",
                 "pneuma study error one_sphere one_torus --snakemake flow",
                 "pneuma study error one_sphere --set body.k=80 --short"});
   add_examples(*study->get_subcommand("choices"),
@@ -41,6 +42,8 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
                 "pneuma study horizons two_spheres_contact --set simulation.contact=potential"});
   add_examples(*study->get_subcommand("impacts"),
                {"pneuma study impacts", "pneuma study impacts --runs 100 --seed 2"});
+  add_examples(*study->get_subcommand("solvers"),
+               {"pneuma study solvers", "pneuma study solvers --short"});
   add_examples(*study->get_subcommand("stability"),
                {"pneuma study stability", "pneuma study stability one_sphere --short",
                 "pneuma study stability --snakemake flow"});

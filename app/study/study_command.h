@@ -26,6 +26,7 @@ void add_horizon_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
 void add_impact_study(CLI::App& study_command, Action& action,
                       std::span<const std::string> command_line);
+void add_solvers_study(CLI::App& study, Action& action, std::span<const std::string> command_line);
 void add_stability_study(CLI::App& study_command, Action& action,
                          std::span<const std::string> command_line);
 

@@ -38,6 +38,7 @@ ErrorOptions sweep(const ErrorArguments& typed) {
   ErrorOptions options = typed.is_short ? short_sweep() : full_sweep();
   options.flight.body = typed.flight.body;
   options.flight.free_flight = typed.flight.free_flight;
+  options.flight.tumbling = typed.flight.tumbling;
   options.flight.seconds = typed.seconds.value_or(options.flight.seconds);
   options.repeats = typed.repeats.value_or(options.repeats);
   return options;
@@ -154,6 +155,8 @@ void add_error_study(CLI::App& study_command, Action& action,
       ->type_name("NAME");
   command->add_flag("--free-flight", typed->flight.free_flight,
                     "Without ground, boxes and contacts; so is any scene in which nothing touches");
+  command->add_flag("--tumbling", typed->flight.tumbling,
+                    "Start with spin, shear and slack springs");
   command
       ->add_option("--seconds", typed->seconds,
                    "Simulated time, at most the scene's own [1; with --short 0.4]")

@@ -12,6 +12,7 @@
 #include "app/study/error/samples.h"
 #include "app/world/build_world.h"
 #include "app/world/start_overlap.h"
+#include "sim/mesh/measure.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {
@@ -73,6 +74,18 @@ void check(const scenes::Scene& scene, const sim::World& world) {
   }
 }
 
+void set_tumbling(sim::SoftBody& body) {
+  constexpr double size = 0.9;
+  constexpr double shear = 2.0;  // 1/s
+  const sim::Vec3 spin = 3.0 * sim::Vec3::Ones().normalized();
+  const sim::Vec3 centre = sim::mean(body.positions);
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const sim::Vec3 arm = size * (body.positions[v] - centre);
+    body.positions[v] = centre + arm;
+    body.velocities[v] += spin.cross(arm) + shear * arm.z() * sim::Vec3::UnitX();
+  }
+}
+
 std::optional<double> find_first_contact(sim::World world, double seconds) {
   world.settings.integrator = sim::Integrator::rk4;
   world.settings.steps_per_second =
@@ -106,6 +119,7 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
     flight.world.rigid.clear();
   }
   check(scene, flight.world);
+  if (options.tumbling) std::ranges::for_each(flight.world.soft, set_tumbling);
   // Boxes alone turn by their own equation, which only the contact potential's solutions have.
   if (!options.free_flight) flight.first_contact = find_first_contact(flight.world, flight.seconds);
   const bool has_contacts =
@@ -123,6 +137,7 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
     flight.world.rigid.clear();
     flight.description = "free flight: nothing touches anything in this time";
   }
+  if (options.tumbling) flight.description += "; starts with spin, shear and slack springs";
   return flight;
 }
 

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/host/errors.h"
+#include "sim/mesh/measure.h"
 #include "tests/app/study/error/small_study.h"
 
 namespace pneuma::app {
@@ -50,6 +53,28 @@ TEST(Flight, CanBeOfOneBody) {
   EXPECT_FALSE(flight.contacts);
   ASSERT_EQ(flight.world.soft.size(), 1u);
   EXPECT_EQ(flight.world.soft[0].name, "ball");
+}
+
+TEST(Flight, CanTumble) {
+  FlightOptions tumbling = options(0.5, true);
+  tumbling.tumbling = true;
+  const sim::World still = prepare_flight(small_scene(), options(0.5, true)).world;
+  const sim::World world = prepare_flight(small_scene(), tumbling).world;
+  const sim::SoftBody& body = world.soft[0];
+  const sim::Vec3 centre = sim::mean(body.positions);
+  EXPECT_LT((centre - sim::mean(still.soft[0].positions)).norm(), 1e-12);
+  EXPECT_LT(sim::mean(body.velocities).norm(), 1e-12);
+  const sim::Vec3 spin(std::sqrt(3.0), std::sqrt(3.0), std::sqrt(3.0));
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const sim::Vec3 arm = body.positions[v] - centre;
+    const sim::Vec3 sheared = spin.cross(arm) + sim::Vec3(2.0 * arm.z(), 0.0, 0.0);
+    EXPECT_LT((body.velocities[v] - sheared).norm(), 1e-12);
+  }
+  const auto& edges = body.mesh->topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const double length = (body.positions[edges[e][1]] - body.positions[edges[e][0]]).norm();
+    EXPECT_NEAR(length, 0.9 * body.mesh->rest_lengths[e], 1e-12);
+  }
 }
 
 TEST(Flight, LastsWholeSamplesAndNoLongerThanTheScene) {
