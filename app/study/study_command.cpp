@@ -12,6 +12,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   CLI::App* study = app.add_subcommand("study", "Measure what choices cost and what they gain");
   study->require_subcommand(1);
   add_error_study(*study, action, command_line);
+  add_accuracy_study(*study, action, command_line);
   add_choices_study(*study, action, command_line);
   add_collision_study(*study, action, command_line);
   add_contact_study(*study, action, command_line);
@@ -27,6 +28,9 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
                {"pneuma study error one_sphere --free-flight --tumbling",
                 "pneuma study error one_sphere one_torus --snakemake flow",
                 "pneuma study error one_sphere --set body.k=80 --short"});
+  add_examples(*study->get_subcommand("accuracy"),
+               {"pneuma study accuracy one_sphere torus_four_cubes",
+                "pneuma study accuracy one_sphere --short"});
   add_examples(*study->get_subcommand("choices"),
                {"pneuma study choices", "pneuma study choices one_torus --short --json"});
   add_examples(*study->get_subcommand("collision"),

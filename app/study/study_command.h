@@ -12,6 +12,7 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
 
 void add_error_study(CLI::App& study_command, Action& action,
                      std::span<const std::string> command_line);
+void add_accuracy_study(CLI::App& study, Action& action, std::span<const std::string> command_line);
 void add_choices_study(CLI::App& study_command, Action& action,
                        std::span<const std::string> command_line);
 void add_collision_study(CLI::App& study_command, Action& action,

@@ -47,7 +47,8 @@ std::vector<Method> all_methods(const Flight& flight, const ErrorOptions& option
   std::vector<Method> methods;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
     if (!can_integrate(integrator, flight.world)) continue;
-    if (!options.implicit && sim::is_implicit(integrator)) continue;
+    const auto& wanted = options.integrators;
+    if (!wanted.empty() && std::ranges::count(wanted, integrator) == 0) continue;
     const sim::Settings& settings = flight.world.settings;
     if (sim::is_as_printed(settings) && integrator != settings.integrator) continue;
     Method& method = methods.emplace_back();

@@ -18,9 +18,9 @@ struct ErrorOptions {
   FlightOptions flight;
   std::vector<int> steps_per_second;  // ascending, multiples of samples_per_second, not empty
   std::vector<double> tolerances;     // of SUNDIALS, from loose to tight
-  bool implicit = true;               // our implicit integrators, too
-  double finest_error = 0.0;          // no shorter steps after a run with an error below
-  int repeats = 5;                    // of each run, for its time
+  std::vector<sim::Integrator> integrators;  // of ours; empty: all
+  double finest_error = 0.0;                 // no shorter steps after a run with an error below
+  int repeats = 5;                           // of each run, for its time
   /// s of processor time: a method is not taken to shorter steps (or tighter tolerances) after a
   /// run that took longer than this, and the runs of a repetition are not repeated beyond it.
   double longest_run = 20.0;

@@ -11,6 +11,7 @@
 namespace pneuma::app {
 
 struct SolverCase {
+  int vertices = 0;
   scenes::Scene scene;
   ErrorOptions options;
 };

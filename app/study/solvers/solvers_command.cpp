@@ -6,6 +6,7 @@
 #include <CLI/Formatter.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
@@ -25,6 +26,7 @@ namespace pneuma::app {
 namespace {
 
 struct SolversArguments : StudyOptions {
+  std::optional<int> vertices;
   bool quiet = false;
 };
 
@@ -80,6 +82,7 @@ ExitCode run_solvers_study(const SolversArguments& typed) {
   Table table = ratios_table();
   std::string behind;
   for (const SolverCase& one : solver_cases(typed.is_short)) {
+    if (typed.vertices && one.vertices != *typed.vertices) continue;
     const auto say = [&](const std::string& what) {
       progress.show(fmt::format("{}: {}", one.scene.name, what));
     };
@@ -103,6 +106,9 @@ void add_solvers_study(CLI::App& study, Action& action, std::span<const std::str
   const auto typed = std::make_shared<SolversArguments>();
   CLI::App* command = study.add_subcommand(
       "solvers", "Our explicit integrators beside those of SUNDIALS, from 58 to 10,242 vertices");
+  command->add_option("--vertices", typed->vertices, "Only the sphere of so many [all of them]")
+      ->type_name("N")
+      ->check(CLI::IsMember({58, 162, 642, 2562, 10242}));
   add_study_options(*command, *typed, command_line, "The coarsest sphere alone: seconds");
   add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return run_solvers_study(*typed); }; });
