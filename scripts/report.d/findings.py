@@ -80,7 +80,7 @@ def methods(out):
 
 def errors(out):
     ratios = []
-    for path in sorted(out.glob("error*/*_ratios.csv")):
+    for path in [*sorted(out.glob("error*/*_ratios.csv")), *sorted(out.glob("solvers/*_ratios.csv"))]:
         for row in read_rows(path):
             ratio = number(row.get("sundials_over_ours") or "")
             if ratio and abs(float(row["error"]) / 1e-3 - 1) < 1e-6:
