@@ -16,6 +16,7 @@ TEST(SolverCases, AreTheSameBodyOnFinerMeshesWithBothMotions) {
     const Flight flight = prepare_flight(one.scene, one.options.flight);
     const sim::SoftBody& body = flight.world.soft.front();
     sizes.insert(body.positions.size());
+    EXPECT_EQ(one.vertices, body.positions.size());
     EXPECT_FALSE(flight.contacts);
     EXPECT_NEAR(body.material.vertex_mass * body.positions.size(), 20.3, 1e-9);
     EXPECT_EQ(body.material.k, 50.0);
