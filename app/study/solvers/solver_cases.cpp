@@ -53,7 +53,7 @@ ErrorOptions options_of(bool few, bool tumbling) {
   options.integrators = {sim::Integrator::symplectic_euler, sim::Integrator::velocity_verlet,
                          sim::Integrator::rk4};
   options.finest_error = few ? 1e-4 : 8e-7;
-  options.longest_run = 1.0;
+  options.longest_run = few ? 1.0 : 4.0;
   options.flight.free_flight = true;
   options.flight.tumbling = tumbling;
   return options;
