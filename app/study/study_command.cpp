@@ -25,7 +25,8 @@ void add_study_command(CLI::App& app, Action& action, std::span<const std::strin
   // Last, because commands below another begin with its examples.
   add_examples(*study, {"pneuma study error one_sphere --short", "pneuma study extremes"});
   add_examples(*study->get_subcommand("error"),
-               {"pneuma study error one_sphere --free-flight --tumbling",
+               {"pneuma study error one_sphere --free-flight",
+                "pneuma study error one_sphere --free-flight --tumbling",
                 "pneuma study error one_sphere one_torus --snakemake flow",
                 "pneuma study error one_sphere --set body.k=80 --short"});
   add_examples(*study->get_subcommand("accuracy"),

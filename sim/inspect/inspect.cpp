@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/collision/find_body_contacts.h"
+#include "sim/inspect/state_energy.h"
 #include "sim/joints/body_springs.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/hash_vertices.h"
@@ -142,7 +143,11 @@ std::uint64_t state_hash(const World& world) {
   }
   for (const DepenetratingPair& pair : world.depenetrating)
     add_list(hash, {pair.first, pair.second});
-  for (const double lost : world.lost_energy) hash.add(lost);
+  for (std::size_t i = 0; i < world.lost_energy.size(); ++i) {
+    if (world.lost_energy[i] == 0.0) continue;
+    hash.add(static_cast<std::uint64_t>(i));
+    hash.add(world.lost_energy[i]);
+  }
   for (std::size_t i = 0; i < world.rest.size(); ++i) {
     if (world.rest[i].group >= 0) add_list(hash, {static_cast<int>(i), world.rest[i].group});
   }

@@ -7,8 +7,6 @@
 
 #include "sim/collision/contact.h"
 #include "sim/mesh/measure.h"
-#include "sim/rigid/rigid_state.h"
-#include "sim/soft/soft_state.h"
 #include "sim/world/world.h"
 
 namespace pneuma::sim {
@@ -32,9 +30,6 @@ struct Momentum {
 Energy energy(const World& world);
 Energy energy(const SoftBody& body, const Vec3& gravity);
 Energy energy(const RigidBox& box, const Vec3& gravity);
-/// In other states than their own.
-Energy energy(const SoftBody& body, const SoftState& state, const Vec3& gravity);
-Energy energy(const RigidBox& box, const RigidState& state, const Vec3& gravity);
 Momentum momentum(const World& world);
 Momentum momentum(const SoftBody& body);
 

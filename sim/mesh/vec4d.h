@@ -150,6 +150,12 @@ inline Mat3x4 mat3x4(const Mat3& matrix) {
   return {{to_vec4d(matrix.col(0)), to_vec4d(matrix.col(1)), to_vec4d(matrix.col(2))}};
 }
 
+inline Mat3 to_mat3(const Mat3x4& m) {
+  Mat3 matrix;
+  matrix << to_vec3(m.columns[0]), to_vec3(m.columns[1]), to_vec3(m.columns[2]);
+  return matrix;
+}
+
 inline Mat3x4 transposed(const Mat3x4& m) {
   const Vec3x4 rows = to_columns(m.columns[0], m.columns[1], m.columns[2], Vec4d{});
   return {{rows.x, rows.y, rows.z}};

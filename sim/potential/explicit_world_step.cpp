@@ -40,8 +40,8 @@ WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& 
                                      BoxCoordinates::Form form)
     : surfaces_(surfaces),
       gravity_(world.settings.gravity),
-      finder_(surfaces),
-      searched_(surfaces.vertex_count()),
+      kept_(surfaces),
+      between_(surfaces),
       forces_(surfaces.vertex_count()) {
   scratch_.reserve(world.soft.size());  // which the equations refer to
   for (int b = 0; b < static_cast<int>(world.soft.size()); ++b) {
@@ -102,16 +102,6 @@ void WorldAcceleration::place_boxes(const VertexArray& positions,
   }
 }
 
-bool WorldAcceleration::covers(const VertexArray& positions) const {
-  return searched_margin_ >= 0.0 && max_distance(positions, searched_) <= searched_margin_;
-}
-
-void WorldAcceleration::search(const VertexArray& positions) const {
-  searched_.rows() = positions.rows();
-  searched_margin_ = margin_;
-  finder_.find(positions, positions, margin_, pairs_);
-}
-
 double WorldAcceleration::operator()(const VertexArray& positions, const VertexArray& velocities,
                                      VertexArray& acceleration) const {
   acceleration.rows().setZero();
@@ -120,8 +110,8 @@ double WorldAcceleration::operator()(const VertexArray& positions, const VertexA
   if (!boxes_.empty()) place_boxes(positions, velocities);
   const VertexArray& x = vertices(positions);
   const VertexArray& v = boxes_.empty() ? velocities : corner_velocities_;
-  if (!covers(x)) search(x);
-  find_active(surfaces_, x, pairs_, active_);
+  if (!kept_.cover(x)) kept_.find(x, x, margin_);
+  find_active(surfaces_, x, kept_.pairs(), active_);
   forces_.rows().setZero();
   add_forces(active_, x, v, surfaces_.regularisation_speed(), forces_);
   for (Body& body : bodies_) {
@@ -144,9 +134,9 @@ double WorldAcceleration::operator()(const VertexArray& positions, const VertexA
 
 const std::vector<ContactPair>& WorldAcceleration::pairs_between(const VertexArray& from,
                                                                  const VertexArray& to) const {
-  if (covers(from) && covers(to)) return pairs_;
-  finder_.find(from, to, 0.0, between_);
-  return between_;
+  if (kept_.cover(from) && kept_.cover(to)) return kept_.pairs();
+  between_.find(from, to, 0.0);
+  return between_.pairs();
 }
 
 /// 1/kg, of a force between the sides of a contact along its normal.

@@ -8,6 +8,7 @@
 #include "sim/potential/contact_potential.h"
 #include "sim/potential/continuous_collision.h"
 #include "sim/potential/implicit_world_step.h"
+#include "sim/potential/kept_pairs.h"
 #include "sim/soft/acceleration.h"
 #include "sim/soft/explicit_step.h"
 
@@ -63,8 +64,6 @@ class WorldAcceleration {
     RigidState state;
     BoxFrame frame;
   };
-  bool covers(const VertexArray& positions) const;
-  void search(const VertexArray& positions) const;
   void place_boxes(const VertexArray& positions, const VertexArray& velocities) const;
   double mobility_of_boxes(const ActiveContact& contact) const;
 
@@ -74,12 +73,10 @@ class WorldAcceleration {
   Vec3 gravity_;
   mutable std::vector<Box> boxes_;
   std::vector<double> inverse_mass_;  // 1/kg, per vertex of soft bodies; 0: no force moves it
-  mutable PairFinder finder_;
-  mutable std::vector<ContactPair> pairs_, between_;
+  mutable KeptPairs kept_, between_;
   mutable std::vector<ActiveContact> active_;
-  mutable VertexArray searched_, forces_;
+  mutable VertexArray forces_;
   mutable VertexArray corners_, corner_velocities_;  // of all vertices, if there are free boxes
-  mutable double searched_margin_ = -1.0;
   double margin_ = 0.0;
 };
 

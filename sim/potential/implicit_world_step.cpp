@@ -30,7 +30,6 @@ ImplicitWorldStep::ImplicitWorldStep(const World& world, const ContactSurfaces& 
     : surfaces_(surfaces),
       energy_(world, surfaces),
       minimiser_(surfaces, energy_),
-      finder_(surfaces),
       extrapolated_(make_state(surfaces.vertex_count(), energy_.boxes().size())),
       middle_(extrapolated_),
       targets_(surfaces.vertex_count()) {
@@ -57,6 +56,8 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
                                             WorldState& end) {
   report_ = {};
   const double h = time_step(world.settings);
+  extrapolated_.positions.rows() = start.positions.rows() + h * start.velocities.rows();
+  minimiser_.find_pairs(start.positions, extrapolated_.positions);
   does_work_ = false;
   for (int v = 0; v < start.velocities.size(); ++v) {
     does_work_ |= !surfaces_.is_mobile(v) && !Vec3(start.velocities[v]).isZero(0.0);
@@ -234,8 +235,7 @@ double ImplicitWorldStep::potential(const World& world, const WorldState& state)
     sum += gravity;
     magnitude_ += std::abs(gravity);
   }
-  finder_.find(positions, positions, 0.0, pairs_);
-  const double contacts = contact_energy(surfaces_, positions, pairs_);
+  const double contacts = contact_energy(surfaces_, positions, minimiser_.pairs_at(positions));
   magnitude_ += contacts;
   return sum + contacts;
 }

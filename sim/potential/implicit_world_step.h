@@ -60,8 +60,6 @@ class ImplicitWorldStep {
   const ContactSurfaces& surfaces_;
   WorldEnergy energy_;
   WorldMinimiser minimiser_;
-  PairFinder finder_;
-  std::vector<ContactPair> pairs_;
   std::vector<EulerBase> bases_;
   std::vector<Deformation> start_deformations_;  // per body
   WorldState extrapolated_, middle_;

@@ -30,8 +30,9 @@ class PairFinder {
   /// Refers to the surfaces, which must outlive it.
   explicit PairFinder(const ContactSurfaces& surfaces);
 
-  /// Fills `pairs` with all that come within their reach plus 2 `margin` (m) while the vertices
-  /// move along straight ways, and some more, each once, in an order by their vertices alone.
+  /// Fills `pairs` with all that come within their reach while every vertex is anywhere within
+  /// `margin` (m) of its straight way, and some more, each once, in an order by their vertices
+  /// alone.
   void find(const VertexArray& from, const VertexArray& to, double margin,
             std::vector<ContactPair>& pairs);
 

@@ -127,8 +127,7 @@ void WorldEnergy::gradient(const WorldPoint& point, VertexArray& gradient) const
   }
 }
 
-void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, ContactHessian form,
-                             WorldMatrix& matrix) {
+void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, WorldMatrix& matrix) {
   if (body.energy.bending == 0.0) return;
   const auto& all = body.energy.hinges.corners;
   for (std::size_t e = 0; e < all.size(); ++e) {
@@ -136,7 +135,7 @@ void WorldEnergy::add_hinges(const Body& body, const EnergyPoint& own, ContactHe
         hinge_hessian(body.energy.hinges, own.positions, body.energy.bending, static_cast<int>(e));
     HingeTable::Corners corners = all[e];
     for (int& v : corners) v += body.first_vertex;
-    matrix.add_whole(corners, form == ContactHessian::positive ? positive_part(block) : block);
+    matrix.add(corners, block);
   }
 }
 
@@ -157,7 +156,7 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, LaggedTe
       matrix.add(first + edges[e][1], of_edge.own);
       matrix.add_between(first + edges[e][0], first + edges[e][1], of_edge.between);
     }
-    add_hinges(body, own, form, matrix);
+    add_hinges(body, own, matrix);
     if (body.energy.gas.strength > 0.0) {
       scratch_[i].rows() =
           std::sqrt(pressure_slope(body.energy.gas, own.volume)) * own.volume_gradient.rows();
@@ -166,10 +165,9 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, LaggedTe
   }
   add_boxes(point, matrix);
   for (const ActiveContact& contact : point.active) {
-    const bool is_whole =
-        contact.count == 4 && (form == ContactHessian::positive || contact.is_mollified());
-    if (is_whole) {
-      matrix.add_whole(contact.vertices, positive_part(contact_hessian(contact, point.positions)));
+    if (contact.count == 4 && (form == ContactHessian::whole || contact.is_mollified())) {
+      const Mat12 block = contact_hessian(contact, point.positions);
+      matrix.add(contact.vertices, form == ContactHessian::whole ? block : positive_part(block));
       continue;
     }
     const Vec3 normal = contact.point.normal();

@@ -33,8 +33,8 @@ struct WorldPoint {
 
 /// Which form of the contacts' second derivative.
 enum class ContactHessian {
-  along_normals,  // without the curvature of the distance, which is less by distance over edge
-  positive,       // whole, projected to what is positive
+  along_normals,  // without the curvature of the distance: positive
+  whole,
 };
 
 class WorldEnergy {
@@ -90,8 +90,7 @@ class WorldEnergy {
   double gas_scale() const;
 
  private:
-  static void add_hinges(const Body& body, const EnergyPoint& own, ContactHessian form,
-                         WorldMatrix& matrix);
+  static void add_hinges(const Body& body, const EnergyPoint& own, WorldMatrix& matrix);
 
   BoxFrame frame_of(const WorldPoint& point, std::size_t box) const;
   void add_boxes(const WorldPoint& point, WorldMatrix& matrix) const;

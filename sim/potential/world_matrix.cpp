@@ -2,14 +2,15 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "sim/soft/vertex_matrix.h"
 
 namespace pneuma::sim {
 namespace {
 
-/// The fraction of the residual, in the preconditioner's norm, that may be left.
-constexpr double world_forcing_term = 1e-3;
+/// Of r^T M^-1 r, M the preconditioner: negative curvature nearer to 0 counts as this much.
+constexpr double min_curvature = 1e-3;
 /// Per vertex: as many iterations as there are coordinates solve any system but for rounding.
 constexpr int iterations_per_vertex = 3;
 
@@ -28,10 +29,10 @@ WorldMatrix::WorldMatrix(std::vector<std::uint8_t> is_mobile)
 
 void WorldMatrix::clear() {
   std::fill(diagonal_.begin(), diagonal_.end(), Mat3::Zero());
-  edges_.clear();
+  between_.clear();
+  between_blocks_.clear();
   rank_one_count_ = 0;
   blocks_.clear();
-  wholes_.clear();
   frames_.clear();
   boxes_.clear();
 }
@@ -41,7 +42,8 @@ void WorldMatrix::add_diagonal(int vertex, double value) {
 }
 
 void WorldMatrix::add_between(int a, int b, const Mat3& block) {
-  edges_.push_back({a, b, mat3x4(block), mat3x4(block.transpose())});
+  between_.push_back({a, b});
+  between_blocks_.push_back(mat3x4(block));
 }
 
 void WorldMatrix::add_rank_one(int first, const VertexArray& q) {
@@ -51,8 +53,13 @@ void WorldMatrix::add_rank_one(int first, const VertexArray& q) {
   part.q = q;
 }
 
-void WorldMatrix::add_whole(const std::array<int, 4>& vertices, const Mat12& block) {
-  wholes_.push_back({vertices, block});
+void WorldMatrix::add(const std::array<int, 4>& vertices, const Mat12& block) {
+  for (int i = 0; i < 4; ++i) {
+    add(vertices[at(i)], block.block<3, 3>(3 * i, 3 * i));
+    for (int j = i + 1; j < 4; ++j) {
+      add_between(vertices[at(i)], vertices[at(j)], block.block<3, 3>(3 * i, 3 * j));
+    }
+  }
 }
 
 void WorldMatrix::add_box(const BoxFrame& frame, const Mat6& own, double squared_radius) {
@@ -78,9 +85,11 @@ void WorldMatrix::multiply_vertices(const VertexArray& values, VertexArray& prod
   const VertexReader x(values), y(product);
   const VertexWriter out(product);
   for (int v = 0; v < values.size(); ++v) product[v] = diagonal_[at(v)] * values[v];
-  for (const Edge& edge : edges_) {
-    out.put(edge.a, y[edge.a] + edge.block * x[edge.b]);
-    out.put(edge.b, y[edge.b] + edge.transposed * x[edge.a]);
+  for (std::size_t i = 0; i < between_.size(); ++i) {
+    const auto& [a, b] = between_[i];
+    const Mat3x4& block = between_blocks_[i];
+    out.put(a, y[a] + block * x[b]);
+    out.put(b, y[b] + transposed(block) * x[a]);
   }
   for (std::size_t r = 0; r < rank_one_count_; ++r) {
     const RankOne& part = rank_ones_[r];
@@ -97,12 +106,6 @@ void WorldMatrix::multiply_vertices(const VertexArray& values, VertexArray& prod
     for (int i = 0; i < term.count; ++i) {
       product[term.vertices[at(i)]] += term.weights[at(i)] * force;
     }
-  }
-  for (const Whole& whole : wholes_) {
-    Vec12 own;
-    for (int i = 0; i < 4; ++i) own.segment<3>(3 * i) = values[whole.vertices[at(i)]];
-    const Vec12 force = whole.block * own;
-    for (int i = 0; i < 4; ++i) product[whole.vertices[at(i)]] += force.segment<3>(3 * i);
   }
 }
 
@@ -121,11 +124,6 @@ bool WorldMatrix::invert_diagonal(double shift) {
       whole[at(term.vertices[at(i)])] += weight * weight * term.block;
     }
   }
-  for (const Whole& each : wholes_) {
-    for (int i = 0; i < 4; ++i) {
-      whole[at(each.vertices[at(i)])] += each.block.block<3, 3>(3 * i, 3 * i);
-    }
-  }
   for (std::size_t v = 0; v < whole.size(); ++v) {
     if (is_mobile_[v] == 0 || box_of_vertex_[v] >= 0) continue;
     whole[v].diagonal().array() += shift;
@@ -139,7 +137,7 @@ bool WorldMatrix::invert_diagonal(double shift) {
 bool WorldMatrix::invert_boxes(double shift) {
   for (Box& box : boxes_) box.whole = box.own;
   for (const WeightedBlock& term : blocks_) add_to_boxes(term);
-  for (const Whole& each : wholes_) add_to_boxes(each);
+  add_corners_to_boxes();
   for (Box& box : boxes_) {
     box.whole.diagonal().head<3>().array() += shift;
     box.whole.diagonal().tail<3>().array() += shift * box.squared_radius;
@@ -171,18 +169,22 @@ void WorldMatrix::add_to_boxes(const WeightedBlock& term) {
   }
 }
 
-void WorldMatrix::add_to_boxes(const Whole& whole) {
-  int last = -1;
-  for (int i = 0; i < 4; ++i) {
-    const int box = box_of(whole.vertices[at(i)]);
-    if (box < 0 || box == last) continue;
-    last = box;
-    Eigen::Matrix<double, 12, 6> rates = Eigen::Matrix<double, 12, 6>::Zero();
-    for (int j = 0; j < 4; ++j) {
-      const int v = whole.vertices[at(j)];
-      if (box_of(v) == box) rates.middleRows<3>(3 * j) = frames_[at(box)].rates(v);
+/// The blocks of corners, and between corners of one box.
+void WorldMatrix::add_corners_to_boxes() {
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    for (int i = 0; i < box_corners; ++i) {
+      const int v = frames_[b].first_vertex + i;
+      const Mat3x6 rates = frames_[b].rates(v);
+      boxes_[b].whole += rates.transpose() * (diagonal_[at(v)] * rates);
     }
-    boxes_[at(box)].whole += rates.transpose() * (whole.block * rates);
+  }
+  for (std::size_t i = 0; i < between_.size(); ++i) {
+    const auto& [v, w] = between_[i];
+    const int box = box_of(v);
+    if (box < 0 || box_of(w) != box) continue;
+    const BoxFrame& frame = frames_[at(box)];
+    const Mat6 part = frame.rates(v).transpose() * (to_mat3(between_blocks_[i]) * frame.rates(w));
+    boxes_[at(box)].whole += part + part.transpose();
   }
 }
 
@@ -212,7 +214,7 @@ void WorldMatrix::clear_fixed(VertexArray& values) const {
   }
 }
 
-WorldMatrix::End WorldMatrix::solve(const VertexArray& right, double shift,
+WorldMatrix::End WorldMatrix::solve(const VertexArray& right, double shift, double forcing,
                                     VertexArray& direction) {
   if (!invert_diagonal(shift)) return End::not_positive;
   direction.rows().setZero();
@@ -220,7 +222,7 @@ WorldMatrix::End WorldMatrix::solve(const VertexArray& right, double shift,
   precondition();
   search_.rows() = preconditioned_.rows();
   double size = dot(residual_, preconditioned_);
-  const double target = world_forcing_term * world_forcing_term * size;
+  const double target = forcing * forcing * size;
   const int max_iterations = iterations_per_vertex * right.size();
   for (int i = 0; i < max_iterations && size > target; ++i) {
     ++iterations_;
@@ -228,7 +230,11 @@ WorldMatrix::End WorldMatrix::solve(const VertexArray& right, double shift,
     clear_fixed(product_);
     add_shift(shift);
     const double curvature = dot(search_, product_);
-    if (!(curvature > 0.0)) return End::not_positive;
+    if (!std::isfinite(curvature)) return End::not_positive;
+    if (curvature <= 0.0) {
+      direction.rows() += size / std::max(-curvature, min_curvature * size) * search_.rows();
+      return End::negative_curvature;
+    }
     const double length = size / curvature;
     direction.rows() += length * search_.rows();
     residual_.rows() -= length * product_.rows();

@@ -1,10 +1,10 @@
 // The second derivative of the incremental potential of a whole world, as a sum of parts that can
 // be multiplied and summed up, and Newton's directions by conjugate gradients.
 //
-// Parts: a 3 x 3 block for each vertex and each edge of a mesh, q q^T of each body's gas, and for
-// contacts either 3 x 3 blocks between weighted sums of vertices or whole 12 x 12 ones, and a 6 x 6
-// block for each free box, whose corners take its six coordinates with them (box_frame.h). The
-// preconditioner is block Jacobi, of a box in all of its coordinates.
+// Parts: 3 x 3 blocks of vertices and between two of them, q q^T of each body's gas, 3 x 3 blocks
+// between weighted sums of vertices, and a 6 x 6 block for each free box, whose corners take its
+// six coordinates with them (box_frame.h). The preconditioner is block Jacobi, of a box in all of
+// its coordinates.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class WorldMatrix {
   /// q q^T of the vertices from `first` on.
   void add_rank_one(int first, const VertexArray& q);
   std::vector<WeightedBlock>& blocks() { return blocks_; }
-  void add_whole(const std::array<int, 4>& vertices, const Mat12& block);
+  void add(const std::array<int, 4>& vertices, const Mat12& block);
   /// A free box with its own second derivative; `squared_radius` (m^2): of what shifts the diagonal
   /// of ways, the part that shifts that of turns.
   void add_box(const BoxFrame& frame, const Mat6& own, double squared_radius);
@@ -42,27 +42,24 @@ class WorldMatrix {
   /// All of it times `values`. Of free boxes both are contracted.
   void multiply(const VertexArray& values, VertexArray& product) const;
 
-  enum class End { solved, not_positive, too_slow };
+  enum class End {
+    solved,
+    negative_curvature,  // H is not positive: p goes on along a direction in which it is not
+    not_positive,        // not even the diagonal is: p means nothing
+    too_slow,
+  };
   /// Solves H p = right for the mobile vertices, on whose rows `right` must be zero elsewhere.
-  /// `shift` is added to the diagonal. Unless positive, p means nothing.
-  End solve(const VertexArray& right, double shift, VertexArray& direction);
+  /// `shift` is added to the diagonal. Of the residual, in the preconditioner's norm, the fraction
+  /// `forcing` may be left. p . right > 0 but for not_positive.
+  End solve(const VertexArray& right, double shift, double forcing, VertexArray& direction);
 
   int iterations() const { return iterations_; }  // of conjugate gradients so far
 
  private:
-  struct Edge {
-    int a, b;
-    Mat3x4 block, transposed;
-  };
   struct RankOne {
     int first;
     VertexArray q;
   };
-  struct Whole {
-    std::array<int, 4> vertices;
-    Mat12 block;
-  };
-
   struct Box {
     Mat6 own;
     double squared_radius;
@@ -75,7 +72,7 @@ class WorldMatrix {
   bool invert_boxes(double shift);
   int box_of(int vertex) const { return box_of_vertex_[at(vertex)]; }
   void add_to_boxes(const WeightedBlock& term);
-  void add_to_boxes(const Whole& whole);
+  void add_corners_to_boxes();
   Mat3x6 rates_of(const WeightedBlock& term, int box) const;
   void add_shift(double shift);
   void precondition();
@@ -83,11 +80,11 @@ class WorldMatrix {
 
   std::vector<std::uint8_t> is_mobile_;
   std::vector<Mat3> diagonal_;
-  std::vector<Edge> edges_;
+  std::vector<std::array<int, 2>> between_;  // the vertices of
+  std::vector<Mat3x4> between_blocks_;
   std::vector<RankOne> rank_ones_;
   std::size_t rank_one_count_ = 0;
   std::vector<WeightedBlock> blocks_;
-  std::vector<Whole> wholes_;
   std::vector<Mat3> whole_diagonal_;  // of all parts
   std::vector<Mat3x4> inverse_;
   std::vector<BoxFrame> frames_;

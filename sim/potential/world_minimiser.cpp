@@ -28,11 +28,25 @@ constexpr double kept_beside = 0.05;
 /// How much shorter than a way that is free a turn beside it is tried.
 constexpr double beside = 0.7;
 constexpr int max_besides = 30;
+/// How far around ways pairs are looked for, as the next iteration's end near: of the longest way,
+/// and of the greatest reach, which is a fraction of the edges, at least and at most.
+constexpr double way_around = 0.25;
+constexpr double least_reaches_around = 0.5;
+constexpr double most_reaches_around = 4.0;
 /// rad, by which a box turns at most in an iteration, so that it is never turned inside out.
 constexpr double max_turn_per_iteration = 1.0;
+/// Along a direction of negative curvature E has no minimum by its derivatives: an iteration goes
+/// at most so much further than the last, or than the reach.
+constexpr double max_growth = 10.0;
 /// After so many iterations the contacts' second derivative is taken whole: where distances curve,
 /// what is left of it converges only slowly.
-constexpr int quick_iterations = 12;
+constexpr int quick_iterations = 8;
+
+/// Eisenstat & Walker, Choosing the forcing terms in an inexact Newton method, 1996, choice 2, with
+/// what the last two iterations promised in place of squared residuals.
+constexpr double max_forcing = 0.03;
+constexpr double min_forcing = 1e-3;
+constexpr double forcing_factor = 0.5;
 /// Of a way that keys prescribe: an iteration that goes less far goes nowhere.
 constexpr double least_progress = 1e-4;
 constexpr int max_blocked = 8;
@@ -67,7 +81,7 @@ double max_way(const VertexArray& values) {
 WorldMinimiser::WorldMinimiser(const ContactSurfaces& surfaces, const WorldEnergy& energy)
     : surfaces_(surfaces),
       energy_(energy),
-      finder_(surfaces),
+      kept_(surfaces),
       matrix_(mobile_coordinates(surfaces, energy)),
       point_(energy.make_point()),
       trial_(energy.make_point()),
@@ -75,12 +89,33 @@ WorldMinimiser::WorldMinimiser(const ContactSurfaces& surfaces, const WorldEnerg
       right_(surfaces.vertex_count()),
       direction_(surfaces.vertex_count()),
       given_(surfaces.vertex_count()),
-      ahead_(surfaces.vertex_count()) {}
-
-bool WorldMinimiser::begin() {
-  finder_.find(point_.positions, point_.positions, 0.0, pairs_);
-  return energy_.evaluate(pairs_, point_);
+      ahead_(surfaces.vertex_count()) {
+  for (const ContactSurface& surface : surfaces_.all()) {
+    greatest_reach_ = std::max(greatest_reach_, surface.reach);
+  }
 }
+
+void WorldMinimiser::find_pairs(const VertexArray& from, const VertexArray& to, double beside) {
+  const double around =
+      std::clamp(way_around * max_distance(from, to), least_reaches_around * greatest_reach_,
+                 most_reaches_around * greatest_reach_);
+  kept_.find(from, to, beside + around);
+}
+
+const std::vector<ContactPair>& WorldMinimiser::pairs_at(const VertexArray& positions) {
+  if (!kept_.cover(positions)) find_pairs(positions, positions);
+  return kept_.pairs();
+}
+
+/// Also on the way from the point, where it bends by `beside` (m) at most.
+const std::vector<ContactPair>& WorldMinimiser::pairs_to(const VertexArray& ahead, double beside) {
+  if (!kept_.cover(point_.positions, beside) || !kept_.cover(ahead, beside)) {
+    find_pairs(point_.positions, ahead, beside);
+  }
+  return kept_.pairs();
+}
+
+bool WorldMinimiser::begin() { return energy_.evaluate(pairs_at(point_.positions), point_); }
 
 bool WorldMinimiser::is_arrived() const {
   for (int v = 0; v < point_.positions.size(); ++v) {
@@ -93,7 +128,7 @@ bool WorldMinimiser::is_arrived() const {
 void WorldMinimiser::find_direction(int iteration) {
   energy_.gradient(point_, gradient_);
   const bool is_whole = iteration >= quick_iterations;
-  energy_.hessian(point_, is_whole ? ContactHessian::positive : ContactHessian::along_normals,
+  energy_.hessian(point_, is_whole ? ContactHessian::whole : ContactHessian::along_normals,
                   lagged_form_, matrix_);
   for (int v = 0; v < given_.size(); ++v) {
     given_[v] = surfaces_.is_mobile(v) ? Vec3(Vec3::Zero())
@@ -106,7 +141,9 @@ void WorldMinimiser::find_direction(int iteration) {
   }
   if (shift_ < 0.02 * energy_.inertia()) shift_ = 0.0;
   while (std::isfinite(shift_)) {
-    if (matrix_.solve(right_, shift_, direction_) != WorldMatrix::End::not_positive) break;
+    const WorldMatrix::End end = matrix_.solve(right_, shift_, forcing_, direction_);
+    has_negative_curvature_ = end == WorldMatrix::End::negative_curvature;
+    if (end != WorldMatrix::End::not_positive) break;
     shift_ = std::max(world_shift_factor * shift_, first_world_shift * energy_.inertia());
   }
   direction_.rows() += given_.rows();
@@ -137,7 +174,7 @@ double WorldMinimiser::allowed_fraction(double fraction) {
   for (int i = 0; i < max_besides; ++i) {
     go(fraction, trial_);
     const WayLimit limit =
-        limit_ways(surfaces_, pairs_, point_.positions, trial_.positions, kept_beside);
+        limit_ways(surfaces_, kept_.pairs(), point_.positions, trial_.positions, kept_beside);
     if (!limit.is_limited) return fraction;
     fraction *= std::min(beside, limit.fraction);
   }
@@ -155,17 +192,24 @@ double WorldMinimiser::margin_beside(double turn) const {
   return farthest * (1.0 - std::cos(0.5 * turn));
 }
 
+/// Of a direction by which vertices move by `size` (m) and boxes turn by `turn` at most.
+double WorldMinimiser::longest_fraction(double turn, double size) const {
+  double longest = turn > max_turn_per_iteration ? max_turn_per_iteration / turn : 1.0;
+  if (has_negative_curvature_) longest = std::min(longest, max_growth * last_way_ / size);
+  return longest;
+}
+
 /// Returns the fraction of the direction that was taken; 0 when none helped.
-double WorldMinimiser::search_line(bool arrived, WorldMinimiserReport& report) {
-  const double turn = max_turn();
-  const double longest = turn > max_turn_per_iteration ? max_turn_per_iteration / turn : 1.0;
+double WorldMinimiser::search_line(bool arrived, double size, WorldMinimiserReport& report) {
+  const double turn = max_turn(), longest = longest_fraction(turn, size);
   go(longest, trial_);
   ahead_.rows() = trial_.positions.rows();
-  finder_.find(point_.positions, ahead_, margin_beside(longest * turn), pairs_);
-  const WayLimit limit = limit_ways(surfaces_, pairs_, point_.positions, ahead_, kept_distance);
+  const std::vector<ContactPair>& pairs = pairs_to(ahead_, margin_beside(longest * turn));
+  const WayLimit limit = limit_ways(surfaces_, pairs, point_.positions, ahead_, kept_distance);
   report.blocked = limit;
-  if (limit.pair >= 0) report.blocked_pair = pairs_[at(limit.pair)];
-  double fraction = longest * limit.fraction;
+  if (limit.pair >= 0) report.blocked_pair = pairs[at(limit.pair)];
+  free_fraction_ = longest * limit.fraction;
+  double fraction = free_fraction_;
   for (int i = 0; i <= max_world_halvings; ++i, fraction *= 0.5) {
     if (turn > 0.0 && fraction < longest) {
       fraction = allowed_fraction(fraction);
@@ -175,7 +219,7 @@ double WorldMinimiser::search_line(bool arrived, WorldMinimiserReport& report) {
     for (int v = 0; fraction == 1.0 && v < given_.size(); ++v) {
       if (!surfaces_.is_mobile(v)) trial_.positions[v] = energy_.targets()[v];
     }
-    if (!energy_.evaluate(pairs_, trial_)) continue;
+    if (!energy_.evaluate(pairs, trial_)) continue;
     bool keeps_volume = true;
     for (std::size_t b = 0; b < trial_.bodies.size(); ++b) {
       keeps_volume &= trial_.bodies[b].volume >= min_world_volume_left * point_.bodies[b].volume;
@@ -194,18 +238,27 @@ double WorldMinimiser::search_line(bool arrived, WorldMinimiserReport& report) {
 WorldMinimiserReport WorldMinimiser::minimise(double tolerance) {
   WorldMinimiserReport report;
   shift_ = 0.0;
+  forcing_ = max_forcing;
+  last_way_ = greatest_reach_;
   lagged_form_ = LaggedTerms::Form::derivative;
   double last_size = std::numeric_limits<double>::infinity();
+  double last_promise = 0.0;
   int polishing = 0, blocked = 0;
   bool arrived = is_arrived();
   while (report.iterations < max_world_iterations && !report.converged) {
+    const double forcing = forcing_;
     find_direction(report.iterations);
     ++report.iterations;
     right_.rows() = direction_.rows();
     expand(matrix_.frames(), right_);
     const double size = max_way(right_);
     const double promise = -dot(gradient_, direction_);
-    const double fraction = search_line(arrived, report);
+    const double fraction = search_line(arrived, size, report);
+    last_way_ = fraction * size;
+    if (last_promise > 0.0) {
+      forcing_ = std::clamp(forcing_factor * promise / last_promise, min_forcing, max_forcing);
+    }
+    last_promise = promise;
     if (!arrived) {
       if (fraction < least_progress && ++blocked >= max_blocked) break;
       if (report.iterations >= max_arrival_iterations) break;
@@ -215,15 +268,16 @@ WorldMinimiserReport WorldMinimiser::minimise(double tolerance) {
     }
     if (!(promise > world_energy_rounding * point_.magnitude)) ++polishing;
     const bool full = fraction == 1.0 && shift_ == 0.0;
-    const double shrinking = full && last_size > 0.0 && std::isfinite(last_size)
-                                 ? std::clamp(size / last_size, min_shrinking, 1.0)
-                                 : 1.0;
+    const double shrinking =
+        full && last_size > 0.0 && std::isfinite(last_size)
+            ? std::clamp(size / last_size, std::max(min_shrinking, forcing), 1.0)
+            : 1.0;
     report.converged =
         (size * shrinking <= tolerance && promise <= small_world_promise * energy_.gas_scale()) ||
         fraction == 0.0 || polishing > max_world_polishing;
     last_size = full ? size : 0.0;
     shift_ /= world_shift_factor;
-    const bool is_halved = fraction < halved_fraction * report.blocked.fraction;
+    const bool is_halved = fraction < halved_fraction * free_fraction_;
     const bool is_long = size > long_way * energy_.lagged_length();
     const bool is_bounding = is_halved || lagged_form_ == LaggedTerms::Form::bounding;
     lagged_form_ =

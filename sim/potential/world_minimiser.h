@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/potential/continuous_collision.h"
+#include "sim/potential/kept_pairs.h"
 #include "sim/potential/world_energy.h"
 
 namespace pneuma::sim {
@@ -38,6 +39,11 @@ class WorldMinimiser {
   WorldPoint& point() { return point_; }
   const WorldPoint& point() const { return point_; }
 
+  /// Looks for pairs around straight ways. They are kept as long as they hold.
+  void find_pairs(const VertexArray& from, const VertexArray& to, double beside = 0.0);
+  /// All pairs within their reach there, and more.
+  const std::vector<ContactPair>& pairs_at(const VertexArray& positions);
+
   /// Finds the contacts at the start; false when its energy means nothing.
   bool begin();
 
@@ -48,22 +54,28 @@ class WorldMinimiser {
   int gradient_iterations() const { return matrix_.iterations(); }
 
  private:
+  const std::vector<ContactPair>& pairs_to(const VertexArray& ahead, double beside);
   bool is_arrived() const;
   void find_direction(int iteration);
   double max_turn() const;
+  double longest_fraction(double turn, double size) const;
   void go(double fraction, WorldPoint& to) const;
   double margin_beside(double turn) const;
   double allowed_fraction(double fraction);
-  double search_line(bool arrived, WorldMinimiserReport& report);
+  double search_line(bool arrived, double size, WorldMinimiserReport& report);
 
   const ContactSurfaces& surfaces_;
   const WorldEnergy& energy_;
-  PairFinder finder_;
-  std::vector<ContactPair> pairs_;
+  KeptPairs kept_;
+  double greatest_reach_ = 0.0;  // m
   WorldMatrix matrix_;
   WorldPoint point_, trial_;
   VertexArray gradient_, right_, direction_, given_, ahead_;
   double shift_ = 0.0;
+  bool has_negative_curvature_ = false;  // E, along the direction
+  double last_way_ = 0.0;                // m, of an iteration
+  double free_fraction_ = 1.0;           // of the direction, before anything is in the way
+  double forcing_ = 0.0;
   LaggedTerms::Form lagged_form_ = LaggedTerms::Form::derivative;
 };
 

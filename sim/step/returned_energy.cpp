@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/inspect/inspect.h"
+#include "sim/inspect/state_energy.h"
 #include "sim/response/group_motion.h"
 #include "sim/response/vibration.h"
 
@@ -13,7 +13,7 @@ namespace {
 /// Of what was lost before, per step.
 constexpr double kept_of_loss = 0.5;
 /// Of motion, per step, that is taken for work that has not made energy grow.
-constexpr double share_of_motion = 0.02;
+constexpr double fraction_of_motion = 0.02;
 /// Slower than this fraction of what a fall gains in a step, all motion counts as rest.
 constexpr double quiet_speed = 0.2;
 
@@ -26,7 +26,7 @@ struct Due {
   double all() const { return must + may; }
   /// Of a motion with so much energy, J.
   double of(double motion) const {
-    return std::min(motion, must + std::min(may, std::max(share_of_motion * motion, quiet)));
+    return std::min(motion, must + std::min(may, std::max(fraction_of_motion * motion, quiet)));
   }
   void pay(double taken) {
     const double of_must = std::min(must, taken);

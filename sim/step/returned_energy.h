@@ -33,12 +33,13 @@ struct Excess {
 /// against each other, so that momentum and angular momentum stay as they are. Where the ground or
 /// a body at rest bears the island, which then changes these anyway, it gives up from all motion.
 ///
-/// Of what is so held with soft bodies in it, springs that are damped between the impulses at both
-/// ends may have taken the work already, and where impulses swing, steps gain and lose by turns.
-/// Were all work taken, no motion might be left. So such an island gives up what its energy has
-/// grown by, less what it lost in the step before and half as much of each step before that
-/// (World::lost_energy), and of the rest of the work no more than a share of its motion, if that is
-/// not as slow as at rest.
+/// Of an island that is so held and has soft bodies, springs that are damped between the impulses
+/// at both ends may have taken the work already, and steps may gain and lose energy alternately.
+/// Were all work taken, no motion might be left. So it gives up what its energy has grown by, less
+/// what it lost, by whatever, in the step before and half as much of each step before that
+/// (World::lost_energy): over some steps its energy does not grow, in a single one it may. Of the
+/// rest of the work it gives up no more than a fraction of its motion, or than what is as slow as
+/// at rest.
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///

@@ -428,7 +428,10 @@ std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
   m.work = m.driven_work = 0.0;
   workspace.contacts.clear();
   // Of a world whose bodies were others, nothing is known.
-  if (world.rest.size() != at(m.bodies.count())) world.rest.clear();
+  if (world.rest.size() != at(m.bodies.count())) {
+    world.rest.clear();
+    world.lost_energy.clear();
+  }
   m.rest = world.rest;
   wake_moving(world);
   if (is_at_rest(world)) return std::nullopt;

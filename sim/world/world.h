@@ -58,7 +58,8 @@ struct World {
   // Of the last step. Without swept contacts those of each pair of boxes come one after the other.
   std::vector<WarmStartImpulse> warm_start_impulses;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
-  // J, per soft body: what swept contacts may give back (sim/step/returned_energy.h); or empty.
+  // J, per soft body, of the last steps: what bodies in contact may gain
+  // (sim/step/returned_energy.h).
   std::vector<double> lost_energy;
   std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
   std::int64_t steps = 0;      // done so far; time is steps / steps_per_second

@@ -165,7 +165,7 @@ std::string comparison_text(const ErrorStudy& study) {
   std::string text = table.text();
   const std::vector<std::string> sentences = shortfalls(study);
   if (sentences.empty()) return text + "Ours is ahead of SUNDIALS at all of these errors.\n";
-  text += "Ours is ahead of SUNDIALS, but:\n";
+  text += "Where ours is not as wished beside SUNDIALS:\n";
   for (const std::string& sentence : sentences) text += list_item(sentence);
   return text;
 }

@@ -36,19 +36,28 @@ std::string icosphere(int subdivisions) {
       subdivisions, k, 20.0 / vertices);
 }
 
-/// Two that meet at 4 m/s. Their material stays the same, so that the step shrinks with the edges.
-std::string icospheres_in_contact(int subdivisions) {
+/// Two that meet at 4 m/s. Their material stays the same.
+std::string icospheres_in_contact(int subdivisions, const std::string& simulation) {
   const auto ball = [&](int side) {
     return fmt::format(
         "[[body]]\nshape = \"icosphere\"\nsubdivisions = {}\nposition = [{}, 0, 0]\nvelocity = "
         "[{}, 0, 0]\ninflation = 1.1\nk = 50\nvertex_mass = {}\n",
         subdivisions, 3.01 * side, -2 * side, 20.0 / icosphere_vertices(subdivisions));
   };
-  return fmt::format(
-             "[simulation]\ngravity = [0, 0, 0]\nsteps_per_second = {}\n[ground]\npresent = "
-             "false\n",
-             30 << subdivisions) +
+  return "[simulation]\ngravity = [0, 0, 0]\n" + simulation + "[ground]\npresent = false\n" +
          ball(-1) + ball(1);
+}
+
+/// The step shrinks with the edges.
+std::string icospheres_by_rk4(int subdivisions) {
+  return icospheres_in_contact(subdivisions,
+                               fmt::format("steps_per_second = {}\n", 30 << subdivisions));
+}
+
+std::string icospheres_by_potential(int subdivisions) {
+  return icospheres_in_contact(
+      subdivisions,
+      "steps_per_second = 60\nintegrator = \"implicit_euler\"\ncontact = \"potential\"\n");
 }
 
 std::string spheres(int along) {
@@ -118,7 +127,9 @@ std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
   return {measure("vertices", few ? Steps{2, 3} : Steps{2, 3, 4, 5, 6}, icosphere_vertices,
                   icosphere, {}, options, say),
           measure("vertices in contact", few ? Steps{1, 2} : Steps{3, 4, 5, 6}, both,
-                  icospheres_in_contact, until_pressed, options, say),
+                  icospheres_by_rk4, until_pressed, options, say),
+          measure("vertices in contact, by potential", few ? Steps{1, 2} : Steps{3, 4, 5}, both,
+                  icospheres_by_potential, until_pressed, options, say),
           measure("soft spheres", few ? Steps{1, 3} : Steps{1, 3, 10, 18, 32}, square, spheres, {},
                   options, say),
           measure("cubes", few ? Steps{1, 3} : Steps{1, 2, 4, 8, 14}, stacked, stacks, {}, options,

@@ -27,9 +27,9 @@ struct GrowthOptions {
   double seconds_per_point = 1.0;  // of measuring, and never less than one run
 };
 
-/// Vertices of one icosphere on the ground and of two that meet, soft spheres side by side on the
-/// ground, stacks of five cubes. Of each the same part of its motion, again and again. Throws
-/// DivergenceError and Interrupted.
+/// Vertices of one icosphere on the ground and of two that meet, by swept contacts and by the
+/// contact potential, soft spheres side by side on the ground, stacks of five cubes. Of each the
+/// same part of its motion, again and again. Throws DivergenceError and Interrupted.
 std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
                                        const std::function<void(const std::string&)>& say);
 

@@ -66,8 +66,9 @@ TEST(ExtraWords, AreListedAsTyped) {
 }
 
 TEST(Study, ThatDoesNotExistIsAnsweredWithThoseThatDo) {
-  EXPECT_SAYS(complaint_about("study eror one_sphere"),
-              "there is no study 'eror'; did you mean 'error'? allowed: error, choices, ");
+  EXPECT_SAYS(
+      complaint_about("study eror one_sphere"),
+      "there is no study 'eror'; did you mean 'error'? allowed: error, accuracy, choices, ");
   EXPECT_SAYS(complaint_about("study"), "pneuma study needs a study; allowed: error, ");
   EXPECT_SAYS(complaint_about(""), "pneuma needs a command; allowed: render, ");
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <random>
 
 #include "sim/potential/continuous_collision.h"
+#include "sim/potential/kept_pairs.h"
 #include "sim/potential/lagged_terms.h"
 #include "tests/support/worlds.h"
 
@@ -72,6 +74,47 @@ World near_world() {
 double energy_at(Scattered& s, const VertexArray& positions) {
   s.finder.find(positions, positions, 0.0, s.pairs);
   return contact_energy(s.surfaces, positions, s.pairs);
+}
+
+/// m, of all vertices each for itself.
+VertexArray scattered(const VertexArray& from, const VertexArray& to, double beside,
+                      std::mt19937_64& random) {
+  std::uniform_real_distribution<double> along(0.0, 1.0), coordinate(-1.0, 1.0);
+  VertexArray positions(from.size());
+  for (int v = 0; v < from.size(); ++v) {
+    const Vec3 way = Vec3(to[v]) - Vec3(from[v]);
+    const Vec3 aside(coordinate(random), coordinate(random), coordinate(random));
+    positions[v] = Vec3(from[v]) + along(random) * way + beside * aside.normalized();
+  }
+  return positions;
+}
+
+// Wherever on its way each vertex is, nothing is missed that a search there finds within reach.
+TEST(KeptPairs, HoldAroundTheWaysOfAllVertices) {
+  Scattered s(near_world());
+  VertexArray to = s.positions;
+  for (int v = 0; v < to.size(); ++v) to[v] += Vec3(0.02, -0.03, 0.05 * std::sin(1.0 * v));
+  constexpr double margin = 0.01;
+  KeptPairs kept(s.surfaces);
+  EXPECT_FALSE(kept.cover(s.positions)) << "before a search";
+  kept.find(s.positions, to, margin);
+  std::mt19937_64 random(3);
+  std::vector<ActiveContact> active;
+  std::size_t met = 0;
+  for (int i = 0; i < 200; ++i) {
+    const VertexArray x = scattered(s.positions, to, 0.999 * margin, random);
+    ASSERT_TRUE(kept.cover(x));
+    s.finder.find(x, x, 0.0, s.pairs);
+    find_active(s.surfaces, x, s.pairs, active);
+    const std::size_t expected = active.size();
+    find_active(s.surfaces, x, kept.pairs(), active);
+    ASSERT_EQ(active.size(), expected);
+    met += expected;
+  }
+  EXPECT_GT(met, 2000U);
+  EXPECT_FALSE(kept.cover(scattered(s.positions, to, 1.1 * margin, random)));
+  EXPECT_TRUE(kept.cover(to, 0.9 * margin));
+  EXPECT_FALSE(kept.cover(to, 1.1 * margin));
 }
 
 TEST(ContactPotential, HasItsDifferencesAsForces) {

@@ -168,7 +168,7 @@ TEST(FreeBoxEnergy, ProductsAreThoseOfTheCorners) {
   for (WorldMatrix* matrix : {&with_box, &of_corners}) {
     matrix->clear();
     for (int v = 0; v < 4; ++v) matrix->add_diagonal(v, 2.0);
-    matrix->add_whole({1, 5, 9, 11}, whole);
+    matrix->add({1, 5, 9, 11}, whole);
     matrix->blocks().push_back(
         {{0, 2, 6, 7}, 4, {0.7, 0.3, -0.4, -0.6}, Mat3(whole.topLeftCorner<3, 3>())});
   }
@@ -185,9 +185,29 @@ TEST(FreeBoxEnergy, ProductsAreThoseOfTheCorners) {
   EXPECT_LT((product.rows() - expected.rows()).norm(), 1e-13 * expected.rows().norm());
 
   VertexArray solution(count);
-  ASSERT_EQ(with_box.solve(product, 0.0, solution), WorldMatrix::End::solved);
+  ASSERT_EQ(with_box.solve(product, 0.0, 1e-3, solution), WorldMatrix::End::solved);
   // What conjugate gradients leave: a thousandth of the residual.
   EXPECT_LT((solution.rows() - values.rows()).norm(), 1e-2 * values.rows().norm());
+}
+
+// Of a matrix with the eigenvalues -1, 2 and 5: the quadratic falls along the direction.
+TEST(WorldMatrix, GoesOnAlongNegativeCurvature) {
+  constexpr int count = 3;
+  WorldMatrix matrix(std::vector<std::uint8_t>(at(count), 1));
+  matrix.clear();
+  for (int v = 0; v < count; ++v) matrix.add_diagonal(v, 2.0);
+  Mat3 coupling = Mat3::Zero();
+  coupling(2, 2) = 3.0;
+  matrix.add_between(0, 1, coupling);
+  VertexArray right(count), direction(count), product(count);
+  right[0] = Vec3(0.3, 0.0, 0.5);
+  right[1] = Vec3(0.0, 0.1, -0.4);
+  right[2] = Vec3(1.0, 0.0, 0.0);
+  ASSERT_EQ(matrix.solve(right, 0.0, 1e-3, direction), WorldMatrix::End::negative_curvature);
+  EXPECT_GT(dot(direction, right), 0.0);
+  matrix.multiply(direction, product);
+  EXPECT_GT(dot(direction, right), 0.5 * dot(direction, product)) << "the quadratic falls";
+  EXPECT_EQ(matrix.solve(right, 2.0, 1e-3, direction), WorldMatrix::End::solved);
 }
 
 // What contacts push bodies with adds up to nothing, and neither does its torque, of boxes taken
