@@ -26,7 +26,7 @@ constexpr double kept_distance = 0.1;
 /// The same of poses beside straight ways that keep it.
 constexpr double kept_beside = 0.05;
 /// How much shorter than a way that is free a turn beside it is tried.
-constexpr double beside = 0.7;
+constexpr double shortened = 0.7;
 constexpr int max_besides = 30;
 /// How far around ways pairs are looked for, as the next iteration's end near: of the longest way,
 /// and of the greatest reach, which is a fraction of the edges, at least and at most.
@@ -176,7 +176,7 @@ double WorldMinimiser::allowed_fraction(double fraction) {
     const WayLimit limit =
         limit_ways(surfaces_, kept_.pairs(), point_.positions, trial_.positions, kept_beside);
     if (!limit.is_limited) return fraction;
-    fraction *= std::min(beside, limit.fraction);
+    fraction *= std::min(shortened, limit.fraction);
   }
   return 0.0;
 }
