@@ -7,6 +7,7 @@
 #include "sim/joints/body_springs.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/hash_vertices.h"
+#include "sim/potential/box_inertia.h"
 #include "sim/potential/contact_potential.h"
 #include "sim/rigid/inertia.h"
 #include "sim/soft/bending.h"
@@ -59,8 +60,7 @@ Energy energy(const RigidBox& box, const Vec3& gravity) {
 Energy energy(const RigidBox& box, const RigidState& state, const Vec3& gravity) {
   Energy result;
   if (box.is_kinematic) return result;  // likewise
-  result.kinetic = 0.5 * box.mass * state.velocity.squaredNorm() +
-                   0.5 * state.angular_velocity.dot(spin(box, state));
+  result.kinetic = kinetic_energy(box, state);
   result.gravity = -box.mass * gravity.dot(state.position);
   return result;
 }

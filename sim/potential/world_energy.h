@@ -34,7 +34,7 @@ struct WorldPoint {
 /// Which form of the contacts' second derivative.
 enum class ContactHessian {
   along_normals,  // without the curvature of the distance: positive
-  whole,
+  whole,          // may be negative
 };
 
 class WorldEnergy {

@@ -17,11 +17,16 @@ constexpr double fraction_of_motion = 0.02;
 /// Slower than this fraction of what a fall gains in a step, all motion counts as rest.
 constexpr double quiet_speed = 0.2;
 
+/// What bears an island without being moved by impulses: the ground and bodies that nothing moves,
+/// or bodies that keep their velocities, and pins.
+enum class Holder { none, at_rest, moved };
+
 /// J, that an island gives up.
 struct Due {
   double must = 0.0;   // as its energy has grown
   double may = 0.0;    // besides, as its contacts have done work
   double quiet = 0.0;  // of motion that counts as rest
+  Holder holder = Holder::none;
 
   double all() const { return must + may; }
   /// Of a motion with so much energy, J.
@@ -166,10 +171,11 @@ class ReturnedEnergy {
   double tolerance_;  // m/s
 };
 
+/// Of an island, by their place in the world.
 template <class Visit>
-void for_each_soft_body(World& world, SweptMemory& memory, int island, const Visit& visit) {
+void for_each_soft_body(const World& world, SweptMemory& memory, int island, const Visit& visit) {
   for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
-    if (memory.solver.island_of(i) == island) visit(world.soft[at(i)]);
+    if (memory.solver.island_of(i) == island) visit(at(i));
   }
 }
 
@@ -177,11 +183,12 @@ void for_each_soft_body(World& world, SweptMemory& memory, int island, const Vis
 double slow_vibrations(World& world, SweptMemory& memory, int island, const Due& due) {
   double there_is = 0.0;
   for_each_soft_body(world, memory, island,
-                     [&](const SoftBody& body) { there_is += energy_of_vibration(body); });
+                     [&](std::size_t i) { there_is += energy_of_vibration(world.soft[i]); });
   const double taken = due.of(there_is);
   if (!(taken > 0.0)) return 0.0;
   const double factor = std::sqrt(1.0 - taken / there_is);
-  for_each_soft_body(world, memory, island, [&](SoftBody& body) { slow_vibration(body, factor); });
+  for_each_soft_body(world, memory, island,
+                     [&](std::size_t i) { slow_vibration(world.soft[i], factor); });
   return taken;
 }
 
@@ -200,10 +207,6 @@ bool has_pins(const World& world, SweptMemory& memory, int island) {
   }
   return false;
 }
-
-/// What bears an island without being moved by impulses: the ground and bodies that nothing moves,
-/// or bodies that keep their velocities, and pins.
-enum class Holder { none, at_rest, moved };
 
 Holder holder_of(const World& world, SweptMemory& memory, int island) {
   Holder holder = Holder::none;
@@ -226,8 +229,8 @@ double energy_of_fall(const Settings& settings, double mass) {
 
 double spring_energy_of_island(World& world, SweptMemory& memory, int island) {
   double sum = 0.0;
-  for_each_soft_body(world, memory, island, [&](const SoftBody& body) {
-    sum += energy(body, world.settings.gravity).spring;
+  for_each_soft_body(world, memory, island, [&](std::size_t i) {
+    sum += energy(world.soft[i], world.settings.gravity).spring;
   });
   return sum;
 }
@@ -246,29 +249,30 @@ class EnergyAccount {
   /// Of boxes alone, which nothing damps, all that contacts added.
   Due due(int island) {
     const double work = m_.work_of_islands[at(island)];
-    double growth = 0.0, before = 0.0, mass = 0.0;
+    const Holder holder = holder_of(world_, m_, island);
     int count = 0;
-    for_each_soft_body(island, [&](std::size_t i) {
-      mass += world_.soft[i].material.vertex_mass * world_.soft[i].positions.size();
+    for_each_soft_body(world_, m_, island, [&](std::size_t) { ++count; });
+    if (count == 0 || holder == Holder::none) return {.must = work, .holder = holder};
+    double growth = 0.0, before = 0.0;
+    for_each_soft_body(world_, m_, island, [&](std::size_t i) {
       growth += growth_of(world_.soft[i], start_.soft[i]);
       before += m_.lost_energy[i];
-      ++count;
     });
-    if (count == 0 || holder_of(world_, m_, island) == Holder::none)
-      return {.must = work, .may = 0.0, .quiet = 0.0};
     for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
       const int body = m_.bodies.of_box(static_cast<int>(i));
       if (m_.solver.island_of(body) != island) continue;
-      mass += world_.rigid[i].mass;
       growth += growth_of(world_.rigid[i], start_.rigid[i]);
     }
     const double must = std::max(0.0, std::min(work, growth - before)), kept = growth - must;
     const double lost =
         kept_of_loss * std::max(0.0, before - std::max(0.0, kept)) + std::max(0.0, -kept);
-    for_each_soft_body(island, [&](std::size_t i) { world_.lost_energy[i] = lost / count; });
+    for_each_soft_body(world_, m_, island,
+                       [&](std::size_t i) { world_.lost_energy[i] = lost / count; });
+    const double mass = motion_of_island(world_, m_, island).mass();
     return {.must = must,
             .may = work - must,
-            .quiet = quiet_speed * quiet_speed * energy_of_fall(world_.settings, mass)};
+            .quiet = quiet_speed * quiet_speed * energy_of_fall(world_.settings, mass),
+            .holder = holder};
   }
 
  private:
@@ -276,13 +280,6 @@ class EnergyAccount {
   double growth_of(const Body& body, const State& start) const {
     const Vec3& gravity = world_.settings.gravity;
     return energy(body, gravity).total() - energy(body, start, gravity).total();
-  }
-
-  template <class Visit>
-  void for_each_soft_body(int island, const Visit& visit) const {
-    for (std::size_t i = 0; i < world_.soft.size(); ++i) {
-      if (m_.solver.island_of(static_cast<int>(i)) == island) visit(i);
-    }
   }
 
   World& world_;
@@ -304,7 +301,7 @@ constexpr double max_added_work = 1e-9;
 /// and the `tolerance` (m/s) to which velocities are solved for.
 Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, Due due,
                                  double tolerance) {
-  const Holder holder = holder_of(world, memory, island);
+  const Holder holder = due.holder;
   if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
   if (holder == Holder::none) {
