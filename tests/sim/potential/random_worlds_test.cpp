@@ -4,6 +4,7 @@
 #include <random>
 
 #include "sim/inspect/crossings.h"
+#include "sim/rigid/rigid_motion.h"
 #include "tests/sim/potential/potential_worlds.h"
 
 namespace pneuma::sim {
@@ -22,7 +23,36 @@ TriangleMesh random_mesh(std::mt19937_64& random) {
   }
 }
 
-/// One to four soft bodies that fly at each other over the ground or a static box.
+SoftBody random_soft_body(std::mt19937_64& random, const Vec3& place, const Vec3& velocity) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  SoftBody body = make_body(random_mesh(random), place);
+  body.material.k = std::pow(10.0, uniform(1.0, 4.0));
+  body.material.k_max = 2.0 * body.material.k;
+  body.material.n = uniform(0.0, 0.1);
+  body.material.vertex_mass = std::pow(10.0, uniform(-2.0, 0.0));
+  body.material.surface = {uniform(0.0, 1.0), uniform(0.0, 1.0)};
+  for (int v = 0; v < body.velocities.size(); ++v) body.velocities[v] = velocity;
+  return body;
+}
+
+/// A thousand times as heavy as another at most.
+RigidBox random_box(std::mt19937_64& random, const Vec3& place, const Vec3& velocity) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const Vec3 size(uniform(0.3, 1.4), uniform(0.3, 1.4), uniform(0.3, 1.4));
+  RigidBox box = make_rigid(size, place, std::pow(10.0, uniform(-1.0, 2.0)));
+  box.surface = {uniform(0.0, 1.0), uniform(0.0, 1.0)};
+  box.orientation = turned(box.orientation, {uniform(-3, 3), uniform(-3, 3), uniform(-3, 3)});
+  box.velocity = velocity;
+  box.angular_velocity = {uniform(-8, 8), uniform(-8, 8), uniform(-8, 8)};
+  return box;
+}
+
+/// Soft bodies and free boxes that fly at each other over the ground or a static box, 1 to 4 of
+/// them, in every tenth world up to 20.
 World random_world(unsigned seed) {
   std::mt19937_64 random(seed);
   const auto uniform = [&](double low, double high) {
@@ -31,21 +61,22 @@ World random_world(unsigned seed) {
   const std::array rates = {30, 60, 240};
   World world = potential_world(seed % 2 == 0 ? Integrator::implicit_euler : Integrator::sdirk2,
                                 rates[seed % 3]);
-  const int count = 1 + static_cast<int>(seed % 4);
+  const int count = 1 + static_cast<int>(seed % 10 == 9 ? random() % 20 : random() % 4);
+  const int side = count <= 4 ? 2 : 3;
+  const double spacing = 2.7;
+  const Vec3 middle(0.5 * spacing * (side - 1), 0.5 * spacing * (side - 1), 1.0);
   for (int i = 0; i < count; ++i) {
-    const Vec3 place(2.7 * (i % 2), 2.7 * (i / 2), uniform(1.4, 2.5));
-    SoftBody body = make_body(random_mesh(random), place);
-    body.material.k = std::pow(10.0, uniform(1.0, 4.0));
-    body.material.k_max = 2.0 * body.material.k;
-    body.material.n = uniform(0.0, 0.1);
-    body.material.vertex_mass = std::pow(10.0, uniform(-2.0, 0.0));
-    body.material.surface = {uniform(0.0, 1.0), uniform(0.0, 1.0)};
-    const Vec3 velocity = uniform(0.0, 15.0) * (Vec3(1.35, 1.35, 1.0) - place).normalized();
-    for (int v = 0; v < body.velocities.size(); ++v) body.velocities[v] = velocity;
-    world.soft.push_back(std::move(body));
+    const Vec3 place(spacing * (i % side), spacing * (i / side % side),
+                     spacing * (i / (side * side)) + uniform(1.4, 1.8));
+    const Vec3 velocity = uniform(0.0, 15.0) * (middle - place).normalized();
+    if (random() % 3 == 0) {
+      world.rigid.push_back(random_box(random, place, velocity));
+    } else {
+      world.soft.push_back(random_soft_body(random, place, velocity));
+    }
   }
   if (seed % 3 == 0) {
-    world.rigid.push_back(make_rigid({8, 8, 0.3}, {1, 1, 0.2}));
+    world.rigid.push_back(make_rigid({12, 12, 0.3}, {2, 2, 0.2}));
     world.rigid.back().is_kinematic = true;
   }
   return world;
