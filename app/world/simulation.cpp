@@ -31,13 +31,13 @@ std::string cause_and_remedy(const sim::World& world, const sim::Divergence& div
   if (shorter_steps_failed(world, divergence)) return "";
   for (const sim::SoftBody& body : world.soft) {
     if (body.name != divergence.body || sim::is_implicit(world.settings.integrator)) continue;
-    const StepAdvice advice = step_advice(world, body);
+    const StepAdvice advice = step_advice_in_contact(world, body);
     const std::string cause =
         advice.too_long()
-            ? fmt::format(
-                  "the step of {:.3g} s is too long: its small motions stay stable up to "
-                  "{:.3g} s",
-                  advice.step, advice.limit)
+            ? fmt::format("the step of {:.3g} s is too long: {} stay stable up to {:.3g} s",
+                          advice.step,
+                          advice.of_contact ? "small motions of what touches" : "its small motions",
+                          advice.limit)
             : fmt::format(
                   "the step of {:.3g} s would do for small motions, but it was hit, "
                   "stretched or pressed too hard for it",

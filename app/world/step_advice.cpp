@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 #include <string_view>
 
 #include "app/world/distinct_bodies.h"
 #include "scenes/loader/integrator_names.h"
+#include "sim/potential/world_vibration.h"
 #include "sim/soft/stability_limit.h"
 
 namespace pneuma::app {
@@ -32,6 +35,25 @@ std::string reason(const sim::World& world, const sim::SoftBody& body,
                      material.vertex_mass, by);
 }
 
+/// s; infinite where nothing touches, and where bodies are in each other.
+double contact_limit(const sim::World& world) {
+  try {
+    sim::WorldVibration motions(world);
+    if (motions.in_contact()) {
+      return sim::stability_limit(motions, world.settings.integrator).step;
+    }
+  } catch (const std::invalid_argument&) {
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+void choose_steps(const sim::World& world, StepAdvice& advice) {
+  const double factor =
+      advice.too_long() ? std::ceil(advice.step / (safe_share * advice.limit)) : blind_factor;
+  const double rate = factor * world.settings.steps_per_second;
+  advice.steps_per_second = rate <= most_steps_per_second ? static_cast<int>(rate) : 0;
+}
+
 }  // namespace
 
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
@@ -43,10 +65,21 @@ StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
   advice.why = reason(world, body, limit.motion);
   advice.implicit_can = !sim::is_implicit(world.settings.integrator) &&
                         sim::can_integrate(sim::Integrator::implicit_euler, body.material);
-  const double factor =
-      advice.too_long() ? std::ceil(advice.step / (safe_share * limit.step)) : blind_factor;
-  const double rate = factor * world.settings.steps_per_second;
-  if (rate <= most_steps_per_second) advice.steps_per_second = static_cast<int>(rate);
+  choose_steps(world, advice);
+  return advice;
+}
+
+StepAdvice step_advice_in_contact(const sim::World& world, const sim::SoftBody& body) {
+  StepAdvice advice = step_advice(world, body);
+  if (world.settings.contact != sim::ContactMethod::potential) return advice;
+  if (sim::is_implicit(world.settings.integrator)) return advice;
+  const double limit = contact_limit(world);
+  if (limit >= advice.limit) return advice;
+  advice.limit = limit;
+  advice.of_contact = true;
+  advice.why = fmt::format("contact by potential with {}",
+                           scenes::integrator_name(world.settings.integrator));
+  choose_steps(world, advice);
   return advice;
 }
 

@@ -16,6 +16,7 @@ struct StepAdvice {
   int steps_per_second = 0;   // to try again with, a multiple of the scene's; 0: none is allowed
   std::string why;            // "k = 1e+06 N/m, n = 1 mol, vertex_mass = 0.35 kg with rk4"
   bool implicit_can = false;  // take over
+  bool of_contact = false;    // the limit
 
   bool too_long() const { return step > limit; }
 };
@@ -24,6 +25,10 @@ struct StepAdvice {
 /// try again with: steps within nine tenths of the limit; where they already are, a quarter as
 /// long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
+
+/// The same of a world in which something diverged: where contact is a potential and bodies touch,
+/// with the limit of all of them together (sim/potential/world_vibration.h), if that is less.
+StepAdvice step_advice_in_contact(const sim::World& world, const sim::SoftBody& body);
 
 /// "a step of 0.00185 s for k = 90000 N/m ... with rk4 (--set
 /// simulation.steps_per_second=540), or --set simulation.integrator=implicit_euler".

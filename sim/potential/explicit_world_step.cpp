@@ -29,12 +29,12 @@ int find_fast_box(const std::vector<RigidState>& start, const std::vector<RigidS
   return -1;
 }
 
-BoxCoordinates::Form form_for(Integrator integrator) {
+}  // namespace
+
+BoxCoordinates::Form box_form_for(Integrator integrator) {
   return integrator == Integrator::rk4 ? BoxCoordinates::Form::quaternion
                                        : BoxCoordinates::Form::momentum;
 }
-
-}  // namespace
 
 WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& surfaces,
                                      BoxCoordinates::Form form)
@@ -216,7 +216,7 @@ class WatchedStages {
 
 ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
     : surfaces_(surfaces),
-      acceleration_(world, surfaces, form_for(world.settings.integrator)),
+      acceleration_(world, surfaces, box_form_for(world.settings.integrator)),
       scratch_(surfaces.vertex_count()),
       start_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())} {}
 

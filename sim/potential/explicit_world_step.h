@@ -14,6 +14,9 @@
 
 namespace pneuma::sim {
 
+/// The coordinates of boxes that an integrator takes.
+BoxCoordinates::Form box_form_for(Integrator integrator);
+
 /// The model's equation of all bodies of a world with contact (acceleration.h,
 /// contact_potential.h), for explicit_step and for reference solvers. What forces do not move has
 /// no acceleration. Free boxes have coordinates in the places of their corners (box_coordinates.h).

@@ -74,15 +74,13 @@ double stability_limit(Integrator integrator, const Oscillation& motion, double 
   return low;
 }
 
-StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
-                               const SoftMaterial& material, const VertexArray& positions) {
+StabilityLimit stability_limit(Integrator integrator, double kept,
+                               const std::function<Oscillation(double weight)>& fastest) {
   StabilityLimit limit{infinite, {}};
   if (is_implicit(integrator)) return limit;
-  const VibrationMode motions(mesh, material, positions);
-  const double kept = 1.0 - literal_fraction(material);
   double weight = 0.0;
   for (int round = 0; round <= weight_rounds; ++round) {
-    const Oscillation motion = motions.along(motions.fastest(weight));
+    const Oscillation motion = fastest(weight);
     const double step = stability_limit(integrator, motion, kept);
     if (step < limit.step) limit = {step, motion};
     if (!std::isfinite(limit.step)) break;
@@ -90,6 +88,13 @@ StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
     weight = 2.0 / limit.step;
   }
   return limit;
+}
+
+StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
+                               const SoftMaterial& material, const VertexArray& positions) {
+  const VibrationMode motions(mesh, material, positions);
+  return stability_limit(integrator, 1.0 - literal_fraction(material),
+                         [&](double weight) { return motions.along(motions.fastest(weight)); });
 }
 
 namespace {

@@ -11,6 +11,8 @@
 // many times their length, or that presses its gas together, is stiffer.
 #pragma once
 
+#include <functional>
+
 #include "sim/mesh/soft_mesh.h"
 #include "sim/soft/vibration_mode.h"
 #include "sim/world/settings.h"
@@ -24,6 +26,11 @@ struct StabilityLimit {
 
 /// Of one motion. `kept`: the fraction of velocity that `literal` damping leaves after each step.
 double stability_limit(Integrator integrator, const Oscillation& motion, double kept = 1.0);
+
+/// The least over motions that `fastest` finds, each that of the largest squared_frequency + weight
+/// * decay.
+StabilityLimit stability_limit(Integrator integrator, double kept,
+                               const std::function<Oscillation(double weight)>& fastest);
 
 /// Of a body whose springs and gas are as at these positions.
 StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,

@@ -1,58 +1,17 @@
 #include "sim/soft/vibration_mode.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
+#include "sim/base/max_eigenvector.h"
 #include "sim/soft/bending.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/incremental_potential.h"
 #include "sim/soft/pressure_force.h"
 
 namespace pneuma::sim {
-namespace {
 
 using Eigen::VectorXd;
-
-/// Lanczos vectors. The largest eigenvalue, at the end of a spectrum that thins out there, is then
-/// known to a fraction of a percent.
-constexpr int max_subspace = 40;
-
-VectorXd random_direction(Eigen::Index size) {
-  std::mt19937_64 random(1);
-  VectorXd result(size);
-  for (double& value : result) value = static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
-  return result.normalized();
-}
-
-/// The eigenvector of the largest eigenvalue of a symmetric operator, by Lanczos' method with all
-/// vectors kept orthogonal.
-template <class Operator>
-VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
-  const auto count = std::min<Eigen::Index>(size, max_subspace);
-  Eigen::MatrixXd basis(size, count);
-  VectorXd diagonal(count), off_diagonal(count);
-  VectorXd next = random_direction(size);
-  Eigen::Index used = 0;
-  while (used < count) {
-    basis.col(used) = next;
-    next = apply(VectorXd(basis.col(used)));
-    diagonal[used] = basis.col(used).dot(next);
-    ++used;
-    for (int twice = 0; twice < 2; ++twice) {
-      next -= basis.leftCols(used) * (basis.leftCols(used).transpose() * next);
-    }
-    off_diagonal[used - 1] = next.norm();
-    if (!(off_diagonal[used - 1] > 1e-12 * std::abs(diagonal.head(used).maxCoeff()))) break;
-    next /= off_diagonal[used - 1];
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal.head(used), off_diagonal.head(used - 1));
-  return basis.leftCols(used) * solver.eigenvectors().col(used - 1);
-}
-
-}  // namespace
 
 VibrationMode::VibrationMode(const SoftMesh& mesh, const SoftMaterial& material,
                              const VertexArray& positions)
@@ -134,7 +93,7 @@ void VibrationMode::add_gas(const VectorXd& u, VectorXd& result) const {
 }
 
 VectorXd VibrationMode::fastest(double weight) const {
-  return max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
+  return base::max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
     VectorXd result = weight * drag_ * u;
     add_springs(u, weight, result);
     add_hinges(u, weight, result);

@@ -46,8 +46,7 @@ struct StepWorkspace;
 /// identically. Results do not depend on the number of threads.
 class Stepper {
  public:
-  /// Throws std::invalid_argument for a body that the integrator cannot step (can_integrate), or,
-  /// where contact is a potential, for a box that moves freely.
+  /// Throws std::invalid_argument for a body that the integrator cannot step (can_integrate).
   explicit Stepper(const World& world, StepperOptions options = {});
   ~Stepper();
   Stepper(Stepper&&) noexcept;

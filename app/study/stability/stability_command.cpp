@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/record/provenance.h"
+#include "app/study/stability/contact_stability.h"
 #include "app/study/stability/stability_parts.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
@@ -65,7 +66,16 @@ nlohmann::json measure_costs(const StabilityArguments& typed, const Say& say) {
                            step_cost_text(costs), typed.scenes.front(), stiffness_text(choices))}};
 }
 
-/// Every scene's integrators one by one, then the costs.
+/// Of the first scene: what lies on the ground, by potential.
+nlohmann::json measure_contact(const StabilityArguments& typed, const scenes::Scene& scene,
+                               const Say& say) {
+  const std::vector<ContactStabilityPoint> points = study_contact_stability(
+      scene, typed.is_short ? short_contact_sweep() : full_contact_sweep(), say);
+  return {{"csv", {{"contact", contact_stability_csv(points)}}},
+          {"text", contact_stability_text(scene.name, points)}};
+}
+
+/// Every scene's integrators one by one, then contact and the costs.
 std::vector<StudyPart> parts_of(const StabilityArguments& typed,
                                 const std::vector<scenes::Scene>& scenes,
                                 const StabilityOptions& options, const Say& say) {
@@ -81,6 +91,7 @@ std::vector<StudyPart> parts_of(const StabilityArguments& typed,
                        }});
     }
   }
+  parts.push_back({"contact", [&] { return measure_contact(typed, scenes.front(), say); }});
   parts.push_back({"costs", [&] { return measure_costs(typed, say); }});
   return parts;
 }
@@ -106,12 +117,15 @@ ExitCode run_stability_study(const StabilityArguments& typed) {
     fmt::print("{}\n", stability_text(study));
   }
   folder.write("stability.json", json.dump(2) + '\n');
-  if (left.front()["machine"]["cpu"] != machine().cpu) {
+  if (left.back()["machine"]["cpu"] != machine().cpu) {
     fmt::print(stderr, "costs were measured on another machine: {}\n",
-               left.front()["machine"]["cpu"].get<std::string>());
+               left.back()["machine"]["cpu"].get<std::string>());
   }
-  for (const auto& [file, text] : left.front()["csv"].items()) folder.write(file + ".csv", text);
-  fmt::print("{}{}\n", left.front()["text"].get<std::string>(), folder.path().string());
+  for (const nlohmann::json& part : left) {
+    for (const auto& [file, text] : part["csv"].items()) folder.write(file + ".csv", text);
+    fmt::print("{}\n", part["text"].get<std::string>());
+  }
+  fmt::print("{}\n", folder.path().string());
   return ExitCode::done;
 }
 

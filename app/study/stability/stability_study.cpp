@@ -19,17 +19,6 @@ using sim::Integrator;
 constexpr double k_precision = 1.05;
 constexpr int usual_rate = 60;  // steps/s
 
-sim::SoftBody first_soft_body(const scenes::Scene& scene) {
-  sim::World world = build_world(scene);
-  if (world.soft.empty()) {
-    throw UsageError(fmt::format(
-        "{} has no soft body, whose stability could be studied; choose another scene, such as "
-        "one_sphere",
-        scene.name));
-  }
-  return std::move(world.soft.front());
-}
-
 std::vector<Integrator> integrators_for(const sim::SoftBody& body) {
   std::vector<Integrator> integrators;
   for (const auto& [integrator, name] : scenes::integrator_names()) {
@@ -180,6 +169,17 @@ StabilityOptions short_stability_sweep() {
           .subdivisions = {1, 2},
           .map_rates = doubled_rates(7),
           .most_map_steps = 200};
+}
+
+sim::SoftBody first_soft_body(const scenes::Scene& scene) {
+  sim::World world = build_world(scene);
+  if (world.soft.empty()) {
+    throw UsageError(fmt::format(
+        "{} has no soft body, whose stability could be studied; choose another scene, such as "
+        "one_sphere",
+        scene.name));
+  }
+  return std::move(world.soft.front());
 }
 
 std::vector<Integrator> integrators_of(const scenes::Scene& scene) {

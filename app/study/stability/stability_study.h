@@ -70,6 +70,9 @@ struct StabilityStudy {
   std::vector<StabilityCell> map;
 };
 
+/// Throws as study_stability does.
+sim::SoftBody first_soft_body(const scenes::Scene& scene);
+
 /// Those that can integrate the scene's first soft body. Throws as study_stability does.
 std::vector<sim::Integrator> integrators_of(const scenes::Scene& scene);
 

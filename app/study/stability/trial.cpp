@@ -14,7 +14,6 @@
 namespace pneuma::app {
 namespace {
 
-constexpr double start_speed = 0.01;     // m/s
 constexpr double greatest_rise = 100.0;  // of the kinetic energy at the start
 constexpr double rate_precision = 1.02;
 
@@ -41,6 +40,13 @@ void settle(sim::World& world) {
   world.soft.front().positions = still.soft.front().positions;
 }
 
+}  // namespace
+
+std::string to_string(Verdict verdict) {
+  static constexpr auto names = std::to_array<std::string_view>({"stable", "diverged", "inverted"});
+  return std::string(base::enum_name(names, verdict));
+}
+
 void disturb(sim::SoftBody& body) {
   std::mt19937_64 random(1);
   for (int v = 0; v < body.velocities.size(); ++v) {
@@ -49,13 +55,6 @@ void disturb(sim::SoftBody& body) {
       body.velocities[v][axis] = start_speed * share;
     }
   }
-}
-
-}  // namespace
-
-std::string to_string(Verdict verdict) {
-  static constexpr auto names = std::to_array<std::string_view>({"stable", "diverged", "inverted"});
-  return std::string(base::enum_name(names, verdict));
 }
 
 sim::World body_at_rest(const sim::Settings& settings, sim::SoftBody body) {

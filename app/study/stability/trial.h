@@ -30,8 +30,12 @@ struct Trial {
   std::string reason = {};  // when it is not stable
 };
 
-/// A free body at rest under its own springs and gas, moving a little: every vertex with up to
-/// 0.01 m/s in each direction, so that every small motion is in it.
+inline constexpr double start_speed = 0.01;  // m/s
+/// Lets every vertex move with up to start_speed along each axis, so that every small motion is in
+/// it.
+void disturb(sim::SoftBody& body);
+
+/// A free body at rest under its own springs and gas, disturbed.
 sim::World body_at_rest(const sim::Settings& settings, sim::SoftBody body);
 
 /// Runs a copy of a body at rest with this step. It is stable when no step fails and its energy has

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/study/stability/contact_stability.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
 #include "app/world/find_scene.h"
@@ -155,6 +156,36 @@ TEST_F(SmallStudy, HasARowPerPointAndPerTrial) {
   EXPECT_NO_THROW(gnuplot_script(stability_map(study_, sim::Integrator::rk4), "map"));
 }
 
+TEST(ContactStability, FindsWhatIsPredicted) {
+  const scenes::Scene scene = scenes::load_scene(find_scene("one_sphere"));
+  ContactStabilityOptions options;
+  options.stiffness = {10.0};
+  options.mass_ratio = {0.1};
+  options.rates = {120};
+  options.seconds = 0.5;
+  const std::vector<ContactStabilityPoint> points =
+      study_contact_stability(scene, options, [](const std::string&) {});
+  ASSERT_EQ(points.size(), 2U * integrators_of(scene).size());
+  for (const ContactStabilityPoint& point : points) {
+    EXPECT_EQ(point.predicted_step.has_value(), !sim::is_implicit(point.integrator));
+    EXPECT_EQ(point.own.front().failure, "");
+    EXPECT_GE(point.own.front().parts, 1.0);
+    if (sim::is_implicit(point.integrator)) {
+      EXPECT_LT(point.own.front().trembling, 2.0 * start_speed);
+      continue;
+    }
+    // Lanczos' vectors, bisection to 1 %, and a motion that grows too slowly for 400 steps.
+    ASSERT_TRUE(point.stable_step) << point.varied;
+    const double ratio = *point.stable_step / *point.predicted_step;
+    EXPECT_GT(ratio, 0.97) << point.varied;
+    // A plate creeps, and friction is less stiff then than at rest.
+    if (point.varied != "mass ratio") {
+      EXPECT_LT(ratio, 1.03);
+    }
+  }
+  EXPECT_NE(contact_stability_text("one_sphere", points).find("mass ratio"), std::string::npos);
+}
+
 ErrorRun run_of(const std::string& method, double error, double run_time) {
   ErrorRun run;
   run.method = method;
@@ -183,7 +214,7 @@ TEST(StabilityCommand, LeavesItsFiles) {
   EXPECT_NE(result.output.find("at 1/60 s: martin up to k = "), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("Processor time of a step"), std::string::npos);
   for (const char* file : {"one_sphere_limits.csv", "one_sphere_trials.csv", "one_sphere_rk4.gp",
-                           "step_cost.csv", "stiffness.csv", "stability.json"}) {
+                           "contact.csv", "step_cost.csv", "stiffness.csv", "stability.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
   }
 }

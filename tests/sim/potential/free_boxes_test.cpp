@@ -107,6 +107,38 @@ TEST(FreeBoxes, NeverCrossAndGainNoEnergy) {
   }
 }
 
+// A hundred thousand times as heavy as what it falls on: a ball of gas is pressed flat, boxes are
+// pressed together, and nothing is entered.
+TEST(FreeBoxes, RestOnWhatIsFarLighter) {
+  for (const bool on_ball : {true, false}) {
+    World world = potential_world(Integrator::implicit_euler, 60);
+    double least = 1.0;
+    if (on_ball) {
+      world.soft.push_back(soft_ball({0, 0, 1.02}, Vec3::Zero()));
+      least = world.soft[0].material.vertex_mass * world.soft[0].positions.size();
+    } else {
+      world.rigid.push_back(make_rigid({2, 2, 0.5}, {0, 0, 0.3}, least));
+    }
+    const double bottom = on_ball ? 2.2 : 0.7;
+    world.rigid.push_back(make_rigid({2, 2, 0.5}, {0, 0, bottom + 0.25}, 1e5 * least));
+    Stepper stepper(world);
+    double before = energy(world).total();
+    for (int i = 0; i < 600; ++i) {
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->body << ": " << divergence->what;
+      const Crossings found = crossings(world);
+      ASSERT_EQ(found.between_bodies + found.within_bodies, 0) << "step " << i;
+      const double after = energy(world).total();
+      // Rounding of the energies' terms, which are far greater than their sum.
+      EXPECT_LE(after, before + 1e-9 * (std::abs(before) + 1.0)) << "step " << i;
+      before = after;
+    }
+    EXPECT_LT(world.rigid.back().velocity.norm(), 1e-3);
+    EXPECT_LT(world.rigid.back().angular_velocity.norm(), 1e-3);
+    EXPECT_GT(world.rigid.back().position.z(), 0.25);
+  }
+}
+
 // A plank that spins by more than a radian in a step strikes another.
 TEST(FreeBoxes, FastTurnsCrossNothing) {
   World world = world_of_boxes(

@@ -1,0 +1,53 @@
+#include "app/world/step_advice.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/step/stepper.h"
+#include "tests/support/worlds.h"
+
+namespace pneuma::app {
+namespace {
+
+/// A ball that lies on the ground, its contact a potential.
+sim::World lying_ball() {
+  sim::World world;
+  world.settings.contact = sim::ContactMethod::potential;
+  world.settings.integrator = sim::Integrator::implicit_euler;
+  world.settings.steps_per_second = 60;
+  world.settings.ground = sim::ContactMaterial{0.2, 0.5};
+  world.soft.push_back(sim::make_body(sim::make_icosphere(1.0, 1), {0.0, 0.0, 1.02}));
+  world.soft[0].material.k = 200.0;
+  world.soft[0].material.n = 0.05;
+  world.soft[0].material.vertex_mass = 0.1;
+  EXPECT_FALSE(sim::run(world, 3.0));
+  world.settings.integrator = sim::Integrator::rk4;
+  return world;
+}
+
+TEST(StepAdviceInContact, IsThatOfWhatIsStiffest) {
+  sim::World world = lying_ball();
+  const sim::SoftBody& ball = world.soft[0];
+  const StepAdvice alone = step_advice(world, ball);
+  const StepAdvice touching = step_advice_in_contact(world, ball);
+  EXPECT_FALSE(alone.of_contact);
+  EXPECT_TRUE(touching.of_contact);
+  // A vertex that carries a good part of the ball, 2 mu lambda / v_0 against its mass.
+  EXPECT_LT(touching.limit, 0.2 * alone.limit);
+  EXPECT_GT(touching.steps_per_second, 1.0 / touching.limit);
+  EXPECT_NE(remedy(touching).find("contact by potential with rk4"), std::string::npos);
+
+  world.soft[0].positions.rows().row(2).array() += 1.0;  // in the air
+  EXPECT_FALSE(step_advice_in_contact(world, ball).of_contact);
+  world.soft[0].positions.rows().row(2).array() -= 2.0;  // in the ground
+  EXPECT_FALSE(step_advice_in_contact(world, ball).of_contact);
+}
+
+TEST(StepAdviceInContact, IsThatOfTheBodyForOtherContacts) {
+  sim::World world = lying_ball();
+  world.settings.contact = sim::ContactMethod::swept;
+  EXPECT_EQ(step_advice_in_contact(world, world.soft[0]).limit,
+            step_advice(world, world.soft[0]).limit);
+}
+
+}  // namespace
+}  // namespace pneuma::app
