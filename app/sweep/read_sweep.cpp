@@ -15,8 +15,8 @@
 #include "app/world/open_scene.h"
 #include "assets/model.h"
 #include "scenes/loader/load_scene.h"
-#include "scenes/loader/nearest.h"
 #include "sim/base/file.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 namespace {
@@ -89,11 +89,11 @@ class SweepReader {
         report_.add(
             value->at,
             fmt::format("nothing that is called {} is measured{}; `pneuma sweep --keys` lists all",
-                        scenes::in_quotes(name),
-                        scenes::suggestion(name, {names.begin(), names.end()})));
+                        base::in_quotes(name),
+                        base::suggestion(name, {names.begin(), names.end()})));
       } else if (std::ranges::any_of(sweep_.measures,
                                      [&](const Measure& m) { return m.name == name; })) {
-        report_.add(value->at, fmt::format("{} is measured already", scenes::in_quotes(name)));
+        report_.add(value->at, fmt::format("{} is measured already", base::in_quotes(name)));
       } else {
         sweep_.measures.push_back(found);
       }
@@ -141,8 +141,7 @@ class SweepReader {
       if (std::ranges::any_of(sweep_.parameters, [&](const Parameter& other) {
             return other.key == parameter->key;
           })) {
-        report_.add(table.at,
-                    fmt::format("{} is varied already", scenes::in_quotes(parameter->key)));
+        report_.add(table.at, fmt::format("{} is varied already", base::in_quotes(parameter->key)));
         continue;
       }
       sweep_.parameters.push_back(*parameter);

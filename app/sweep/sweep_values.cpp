@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 
@@ -18,8 +18,8 @@ void SweepValues::refuse_unknown(const scenes::Table& table,
                                  std::string_view where) {
   for (const Member& member : table) {
     if (std::ranges::find(keys, member.key) != keys.end()) continue;
-    report_.add(member.at, fmt::format("no key {} {}{}", scenes::in_quotes(member.key), where,
-                                       scenes::suggestion_and_all(member.key, keys)));
+    report_.add(member.at, fmt::format("no key {} {}{}", base::in_quotes(member.key), where,
+                                       base::suggestion_and_all(member.key, keys)));
   }
 }
 

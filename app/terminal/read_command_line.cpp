@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "app/host/errors.h"
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 namespace {
@@ -61,8 +61,8 @@ std::string unknown_command_complaint(const NamedCommand& named) {
   const std::vector<std::string> names = names_of_commands(*named.command);
   if (names.empty() || !named.next_word) return "";
   return fmt::format("there is no {} {}{}", choice_in(*named.command),
-                     scenes::in_quotes(*named.next_word),
-                     scenes::suggestion_and_all(*named.next_word, views(names)));
+                     base::in_quotes(*named.next_word),
+                     base::suggestion_and_all(*named.next_word, views(names)));
 }
 
 std::string missing_command_complaint(const NamedCommand& named) {
@@ -98,9 +98,8 @@ std::string unknown_option_complaint(const CLI::App& command, const std::string&
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& long_name : option->get_lnames()) known.push_back("--" + long_name);
   }
-  return fmt::format("{} has no option {}{}{}", full_name(command), scenes::in_quotes(name),
-                     scenes::suggestion_and_all(name, views(known)),
-                     where_it_belongs(command, name));
+  return fmt::format("{} has no option {}{}{}", full_name(command), base::in_quotes(name),
+                     base::suggestion_and_all(name, views(known)), where_it_belongs(command, name));
 }
 
 /// What to say of words that the command takes no notice of; empty where there are none. After an

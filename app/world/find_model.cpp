@@ -12,7 +12,7 @@
 #include "app/world/refuse_body.h"
 #include "assets/load_model.h"
 #include "assets/model_file.h"
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 
@@ -42,7 +42,7 @@ std::string near_name(const std::string& name, const std::vector<fs::path>& fold
     if (goes_on && longer.size() < most_models) longer.push_back(file);
   }
   if (!longer.empty()) return fmt::format("; there are: {}", fmt::join(longer, ", "));
-  return scenes::suggestion(name, {files.begin(), files.end()});
+  return base::suggestion(name, {files.begin(), files.end()});
 }
 
 /// Each folder once, however it is written.

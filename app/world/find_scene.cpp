@@ -7,7 +7,7 @@
 
 #include "app/world/data_folders.h"
 #include "scenes/loader/load_scene.h"
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 namespace {
@@ -41,7 +41,7 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
   diagnostic.message =
       fmt::format("no such file, and no scene of that name in {}; `pneuma list` shows all scenes{}",
                   searched.empty() ? "./scenes" : fmt::format("{}", fmt::join(searched, " or ")),
-                  scenes::suggestion(fs::path(name).stem().string(), candidates));
+                  base::suggestion(fs::path(name).stem().string(), candidates));
   throw scenes::SceneError({diagnostic});
 }
 

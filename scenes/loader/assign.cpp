@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -86,8 +86,8 @@ class Assignment {
     if (given == nullptr) refuse_type(value_, key_.name, "a word in quotes");
     const auto found = std::find(word.words.begin(), word.words.end(), *given);
     if (found == word.words.end()) {
-      refuse(value_, fmt::format("{}: unknown word {}{}", key_.name, in_quotes(*given),
-                                 suggestion_and_all(*given, word.words)));
+      refuse(value_, fmt::format("{}: unknown word {}{}", key_.name, base::in_quotes(*given),
+                                 base::suggestion_and_all(*given, word.words)));
     }
     word.set(static_cast<std::size_t>(found - word.words.begin()));
   }
@@ -152,7 +152,7 @@ class Assignment {
     }
     const std::string reason = key_.check == nullptr ? std::string() : key_.check(*result);
     if (!reason.empty())
-      refuse(value, fmt::format("{}: {} {}", key_.name, in_quotes(*result), reason));
+      refuse(value, fmt::format("{}: {} {}", key_.name, base::in_quotes(*result), reason));
     return *result;
   }
 

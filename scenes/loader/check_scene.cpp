@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -110,8 +110,8 @@ class Checks {
     for (const BodyScene& body : scene_.bodies) names.push_back(body.name);
     if (std::ranges::find(names, follow) != names.end()) return;
     report_.add(reader_.origin({&follow}, whole_file),
-                fmt::format("follow: there is no body {}{}", in_quotes(follow),
-                            suggestion_and_all(follow, names)));
+                fmt::format("follow: there is no body {}{}", base::in_quotes(follow),
+                            base::suggestion_and_all(follow, names)));
   }
 
   void check_names() {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "scenes/loader/guard.h"
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 namespace {
 /// toml++ asserts its own state while it parses, and not every text keeps it (guard.h). Its checks
@@ -92,7 +92,7 @@ struct Describe {
   std::string operator()(std::int64_t integer) const { return fmt::format("integer {}", integer); }
   std::string operator()(double number) const { return fmt::format("number {}", number); }
   std::string operator()(const std::string& text) const {
-    const std::string result = in_quotes(text);
+    const std::string result = base::in_quotes(text);
     return fmt::format("string \"{}\"", result.substr(1, result.size() - 2));
   }
   std::string operator()(Moment) const { return "a date or time"; }
@@ -120,7 +120,8 @@ Table parse_document(std::string_view text, int override_index) {
   try {
     return Converter(override_index).table(toml::parse(ascii));
   } catch (const toml::parse_error& error) {
-    throw SyntaxError(origin_of(error.source(), override_index), printable(error.description()));
+    throw SyntaxError(origin_of(error.source(), override_index),
+                      base::printable(error.description()));
   } catch (const std::logic_error&) {
     throw SyntaxError({1, 1, override_index}, "this is not TOML, and the parser cannot tell where");
   }

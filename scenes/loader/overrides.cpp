@@ -7,9 +7,9 @@
 #include <charconv>
 #include <optional>
 
-#include "scenes/loader/nearest.h"
 #include "scenes/loader/sections.h"
 #include "scenes/loader/tables.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -117,7 +117,8 @@ class Override {
       if (!is_table(name)) {
         if (!last) {
           throw RefusedOverride{fmt::format("{} is no table, and has no keys of its own{}",
-                                            in_quotes(name), suggestion(name, table_names()))};
+                                            base::in_quotes(name),
+                                            base::suggestion(name, table_names()))};
         }
         put(*table, path[i], value_, false);
         return;
@@ -163,7 +164,7 @@ class Override {
     if (error != std::errc() || stop != end || number < 1 || number > count) {
       throw RefusedOverride{
           fmt::format("there is no {} number {}; the scene has {}, counted from 1", path[0],
-                      in_quotes(path[1]), count)};
+                      base::in_quotes(path[1]), count)};
     }
     put_into((*list)[number - 1], *key, false);
   }
@@ -181,9 +182,9 @@ class Override {
       const auto end =
           names.begin() + static_cast<std::ptrdiff_t>(std::min(names.size(), most_named));
       throw RefusedOverride{
-          fmt::format("there is no table or body {}{}; bodies: {}{}", in_quotes(path[0]),
-                      suggestion(path[0], candidates),
-                      printable(fmt::format("{}", fmt::join(names.begin(), end, ", "))),
+          fmt::format("there is no table or body {}{}; bodies: {}{}", base::in_quotes(path[0]),
+                      base::suggestion(path[0], candidates),
+                      base::printable(fmt::format("{}", fmt::join(names.begin(), end, ", "))),
                       names.size() > most_named ? ", ..." : "")};
     }
     const auto key = key_at(path, 1);

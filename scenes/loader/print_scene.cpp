@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "scenes/loader/nearest.h"
 #include "scenes/loader/sections.h"
 #include "sim/base/hash.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -108,7 +108,7 @@ std::string key_reference(const Key& key) {
 
 std::string print_scene(const Scene& scene) {
   return fmt::format("# The effective scene {}. * marks values that are not the default.\n{}",
-                     in_quotes(scene.name), scene_text(scene, true));
+                     base::in_quotes(scene.name), scene_text(scene, true));
 }
 
 std::uint64_t scene_fingerprint(const Scene& scene) {

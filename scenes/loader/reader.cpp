@@ -6,10 +6,10 @@
 #include <array>
 
 #include "scenes/loader/assign.h"
-#include "scenes/loader/nearest.h"
 #include "scenes/loader/other_names.h"
 #include "scenes/loader/sections.h"
 #include "scenes/loader/tables.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -129,7 +129,7 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
   }
   with_unknown_.insert(section.table);
   if (section.table.empty() && holds_tables(member.value)) {
-    report_.add(member.at, fmt::format("unknown table {}{}", in_quotes(member.key),
+    report_.add(member.at, fmt::format("unknown table {}{}", base::in_quotes(member.key),
                                        table_suggestion(member.key)));
     return;
   }
@@ -146,8 +146,8 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
                        member.key);
   }
   if (hint.empty()) hint = meant_key(member.key);
-  if (hint.empty()) hint = suggestion_and_all(member.key, allowed);
-  report_.add(member.at, fmt::format("unknown key {} {}{}", in_quotes(member.key),
+  if (hint.empty()) hint = base::suggestion_and_all(member.key, allowed);
+  report_.add(member.at, fmt::format("unknown key {} {}{}", base::in_quotes(member.key),
                                      place_of(section.table), hint));
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "scenes/loader/nearest.h"
 #include "scenes/loader/sections.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
 namespace {
@@ -100,7 +100,7 @@ std::optional<std::string_view> nearest_table(std::string_view name,
                                               const std::vector<std::string_view>& names) {
   const std::string one = singular(name);
   for (const std::string_view meant : {name, std::string_view(one)}) {
-    if (const auto found = nearest(meant, names)) return found;
+    if (const auto found = base::nearest(meant, names)) return found;
   }
   if (name.size() < fewest_letters) return std::nullopt;
   const auto begun =

@@ -1,4 +1,4 @@
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 
-namespace pneuma::scenes {
+namespace pneuma::base {
 namespace {
 
 constexpr std::size_t longest_name = 40;  // longer ones are no slip of the pen
@@ -88,4 +88,4 @@ std::string in_quotes(std::string_view text) {
                      length < text.size() ? "..." : "");
 }
 
-}  // namespace pneuma::scenes
+}  // namespace pneuma::base

@@ -1,11 +1,11 @@
-#include "scenes/loader/nearest.h"
+#include "sim/base/nearest.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 
-namespace pneuma::scenes {
+namespace pneuma::base {
 namespace {
 
 /// The definition, without a table: the least of the three or four ways to end.
@@ -71,4 +71,4 @@ TEST(Nearest, QuotesAreFitForATerminal) {
 }
 
 }  // namespace
-}  // namespace pneuma::scenes
+}  // namespace pneuma::base

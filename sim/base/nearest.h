@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pneuma::scenes {
+namespace pneuma::base {
 
 /// How many letters must be inserted, deleted, replaced or swapped with their neighbour to turn one
 /// name into the other (optimal string alignment distance). Upper and lower case count as equal.
@@ -30,4 +30,4 @@ std::string printable(std::string_view text);
 /// The same in single quotes, long text cut.
 std::string in_quotes(std::string_view text);
 
-}  // namespace pneuma::scenes
+}  // namespace pneuma::base
