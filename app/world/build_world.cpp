@@ -16,6 +16,7 @@
 #include "app/world/step_advice.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "scenes/loader/report.h"
 #include "sim/base/text.h"
 #include "sim/mesh/hash_vertices.h"
 #include "sim/mesh/measure.h"
@@ -132,40 +133,48 @@ class Builder {
   }
 
   sim::World build() {
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < scene_.bodies.size() && is_within_limits(); ++i) {
       const BodyScene& body = scene_.bodies[i];
-      const auto starts = place_copies(body, Random(scene_.settings.seed, i));
-      check_turns(scene_, body);
-      if (scenes::is_box(body)) {
-        vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
-        for (const Start& start : starts) add_rigid(body, start);
-      } else {
-        const auto mesh = shared_mesh(body);
-        count(body, mesh->topology.vertex_count());
-        if (body.kind != BodyKind::soft) {
-          for (const Start& start : starts) add_obstacle(body, start, mesh);
-          continue;
-        }
-        check_gas(body, *mesh);
-        const sim::SoftMaterial material = filled_material(scene_, body, mesh);
-        const auto held =
-            body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
-        for (const Start& start : starts) add_soft(body, start, held, material);
-        for (sim::SoftBody& copy : std::span(world_.soft).last(starts.size())) {
-          copy.supply = gas_supply(body);
-        }
-        if (!body.pinned.empty()) pin_copies(body, starts);
-      }
+      refusals_.attempt([&] { check_turns(scene_, body); });
+      refusals_.attempt([&] { add(body, place_copies(body, Random(scene_.settings.seed, i))); });
     }
-    join_bodies(scene_, world_);
+    join_bodies(scene_, world_, refusals_);
+    refusals_.throw_errors();
     return std::move(world_);
   }
 
  private:
+  void add(const BodyScene& body, const std::vector<Start>& starts) {
+    if (scenes::is_box(body)) {
+      vertices_ += scenes::vertex_count(body) * scenes::copy_count(body);
+      for (const Start& start : starts) add_rigid(body, start);
+      return;
+    }
+    const auto mesh = shared_mesh(body);
+    if (!mesh) return;
+    count(body, mesh->topology.vertex_count());
+    if (body.kind != BodyKind::soft) {
+      for (const Start& start : starts) add_obstacle(body, start, mesh);
+      return;
+    }
+    check_gas(body, *mesh);
+    const sim::SoftMaterial material = filled_material(scene_, body, mesh);
+    const auto held =
+        body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
+    for (const Start& start : starts) add_soft(body, start, held, material);
+    for (sim::SoftBody& copy : std::span(world_.soft).last(starts.size())) {
+      copy.supply = gas_supply(body);
+    }
+    if (!body.pinned.empty()) pin_copies(body, starts);
+  }
+
+  /// Null if it was refused before, of another body.
   std::shared_ptr<const sim::SoftMesh> shared_mesh(const BodyScene& body) {
     const bool bends = body.kind == BodyKind::soft && body.material.bending > 0.0;
-    auto& mesh = meshes_[scenes::shape_text(body) + (bends ? " bending" : "")];
-    if (mesh) return mesh;
+    const auto [found, is_new] =
+        meshes_.try_emplace(scenes::shape_text(body) + (bends ? " bending" : ""));
+    auto& mesh = found->second;
+    if (!is_new) return mesh;
     try {
       mesh = sim::make_soft_mesh(make_mesh(scene_, body));
       if (bends) mesh = sim::with_hinges(*mesh);
@@ -209,6 +218,10 @@ class Builder {
                                                            const sim::SoftMaterial& material) {
     return sim::make_soft_mesh(
         mesh, sim::find_equilibrium(mesh.topology, mesh.rest_positions, material).rest_lengths);
+  }
+
+  bool is_within_limits() const {
+    return vertices_ <= scene_.limits.vertices && memory_gib_ <= scene_.limits.memory_gib;
   }
 
   /// The scene was checked without its models.
@@ -268,7 +281,7 @@ class Builder {
 
   void pin_copies(const BodyScene& body, const std::vector<Start>& starts) {
     const std::span copies = std::span(world_.soft).last(starts.size());
-    check_regions(scene_, body, copies);
+    check_regions(scene_, body, copies, refusals_);
     for (std::size_t i = 0; i < starts.size(); ++i) pin(body, starts[i].position, copies[i]);
   }
 
@@ -307,6 +320,7 @@ class Builder {
   const scenes::Scene& scene_;
   sim::World world_;
   std::map<std::string, std::shared_ptr<const sim::SoftMesh>> meshes_;  // by shape_text
+  scenes::Refusals refusals_;
   std::int64_t vertices_ = 0;
   double memory_gib_;
 };

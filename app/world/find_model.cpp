@@ -77,7 +77,10 @@ fs::path find_model(const std::string& file, const fs::path& scene_folder) {
                                        near_name(path.filename().string(), folders)));
 }
 
-sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body) {
+namespace {
+
+/// Throws assets::ModelError.
+sim::TriangleMesh load_mesh(const scenes::Scene& scene, const scenes::BodyScene& body) {
   assets::CleanOptions options;
   options.component = body.model.component;
   options.scale = body.model.scale;
@@ -88,9 +91,28 @@ sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::Body
   const auto most_bytes = static_cast<std::size_t>(scene.limits.model_file_mib * 1024.0 * 1024.0);
   try {
     return assets::load_model(find_model(body.model.file, scene.folder), options, most_bytes).mesh;
-  } catch (const assets::ModelError& error) {
+  } catch (const assets::ModelError&) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
+    throw;
+  }
+}
+
+}  // namespace
+
+sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body) {
+  try {
+    return load_mesh(scene, body);
+  } catch (const assets::ModelError& error) {
     refuse_body(scene, body.model_place, body.name, error.what());
+  }
+}
+
+std::string model_error(const scenes::Scene& scene, const scenes::BodyScene& body) {
+  try {
+    load_mesh(scene, body);
+    return {};
+  } catch (const assets::ModelError& error) {
+    return error.what();
   }
 }
 

@@ -19,4 +19,7 @@ std::filesystem::path find_model(const std::string& file,
 /// model.file; Interrupted when the process was asked to stop during the import.
 sim::TriangleMesh load_model_mesh(const scenes::Scene& scene, const scenes::BodyScene& body);
 
+/// Why there is no such mesh, or nothing: a scenes::ModelCheck.
+std::string model_error(const scenes::Scene& scene, const scenes::BodyScene& body);
+
 }  // namespace pneuma::app

@@ -82,7 +82,7 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
         "--repair, --component and --up are of a model file; for a model in a scene use --set "
         "body.model.repair=true, body.model.component=NAME and body.model.rotation=[90,0,0]");
   }
-  scenes::Scene scene = scenes::load_scene(find_scene(name), overrides);
+  scenes::Scene scene = scenes::load_scene(find_scene(name), overrides, model_error);
   choose_step(scene);
   return scene;
 }

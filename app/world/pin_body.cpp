@@ -29,18 +29,15 @@ bool has_vertex_in(std::span<const sim::SoftBody> copies, const Region& region) 
 }
 
 void check(const scenes::Scene& scene, const BodyScene& body, const scenes::Place& place,
-           std::string_view key, const std::vector<Region>& regions,
-           std::span<const sim::SoftBody> copies) {
-  for (const Region& region : regions) {
-    if (has_vertex_in(copies, region)) continue;
-    sim::Bounds all;
-    for (const sim::SoftBody& copy : copies) all.include(sim::bounds(copy.positions));
-    refuse_body(scene, place, body.name,
-                fmt::format("{}: no vertex starts in the box [{}]; at the start they lie from "
-                            "[{:.4g}, {:.4g}, {:.4g}] m to [{:.4g}, {:.4g}, {:.4g}] m",
-                            key, fmt::join(region, ", "), all.low.x(), all.low.y(), all.low.z(),
-                            all.high.x(), all.high.y(), all.high.z()));
-  }
+           std::string_view key, const Region& region, std::span<const sim::SoftBody> copies) {
+  if (has_vertex_in(copies, region)) return;
+  sim::Bounds all;
+  for (const sim::SoftBody& copy : copies) all.include(sim::bounds(copy.positions));
+  refuse_body(scene, place, body.name,
+              fmt::format("{}: no vertex starts in the box [{}]; at the start they lie from "
+                          "[{:.4g}, {:.4g}, {:.4g}] m to [{:.4g}, {:.4g}, {:.4g}] m",
+                          key, fmt::join(region, ", "), all.low.x(), all.low.y(), all.low.z(),
+                          all.high.x(), all.high.y(), all.high.z()));
 }
 
 sim::GivenMotion motion_about(const BodyScene& scene, const Vec3& position) {
@@ -63,9 +60,15 @@ void set_pins(std::vector<std::uint8_t> is_pinned, std::vector<std::uint8_t> fol
 }  // namespace
 
 void check_regions(const scenes::Scene& scene, const BodyScene& body,
-                   std::span<const sim::SoftBody> copies) {
-  check(scene, body, body.pinned_place, "pinned", body.pinned, copies);
-  check(scene, body, body.still_place, "motion.still", body.still, copies);
+                   std::span<const sim::SoftBody> copies, scenes::Refusals& refusals) {
+  const auto check_all = [&](const scenes::Place& place, std::string_view key,
+                             const std::vector<Region>& regions) {
+    for (const Region& region : regions) {
+      refusals.attempt([&] { check(scene, body, place, key, region, copies); });
+    }
+  };
+  check_all(body.pinned_place, "pinned", body.pinned);
+  check_all(body.still_place, "motion.still", body.still);
 }
 
 void pin(const BodyScene& scene, const Vec3& position, sim::SoftBody& body) {

@@ -3,14 +3,15 @@
 
 #include <span>
 
+#include "scenes/loader/report.h"
 #include "scenes/loader/scene.h"
 #include "sim/world/world.h"
 
 namespace pneuma::app {
 
-/// Throws SceneError if in a region of the body there is no vertex of its copies.
+/// Refuses each region of the body in which there is no vertex of its copies.
 void check_regions(const scenes::Scene& scene, const scenes::BodyScene& body,
-                   std::span<const sim::SoftBody> copies);
+                   std::span<const sim::SoftBody> copies, scenes::Refusals& refusals);
 
 /// Pins the vertices of a copy that are in the body's regions now. Those that follow its motion
 /// turn about `position`, at which the copy starts.

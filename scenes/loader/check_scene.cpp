@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "scenes/loader/check_joints.h"
 #include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
@@ -27,7 +28,8 @@ class Checks {
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
       check_body(scene_.bodies[i], headers_[i]);
     }
-    check_joints();
+    check_forms_of_joints();
+    check_joints(scene_, reader_, report_);
     check_counts();
     check_memory();
   }
@@ -254,7 +256,7 @@ class Checks {
         at, fmt::format("simulation.method = \"paper\" has no {}; leave out one of the two", what));
   }
 
-  void check_joints() {
+  void check_forms_of_joints() {
     if (!scene_.springs.empty() && scene_.settings.contact == sim::ContactMethod::potential) {
       report_.add(reader_.origin({&scene_.settings.contact}, whole_file),
                   "springs between bodies are not part of the equation that contact = "

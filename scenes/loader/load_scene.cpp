@@ -24,7 +24,7 @@ class Loader {
   Loader(const Table& document, Scene& scene, Report& report)
       : document_(document), scene_(scene), report_(report), reader_(report) {}
 
-  void load() {
+  void load(const ModelCheck& check_model) {
     for (const SectionMaker make : section_makers()) read_section(make);
     const std::vector<Origin> headers = read_bodies();
     read_list("valve", scene_.valves, valve_section);
@@ -33,6 +33,7 @@ class Loader {
     apply_method(scene_, reader_, report_);
     fit_step_to_frames();
     check_scene(scene_, reader_, headers, report_);
+    if (!report_.empty() && check_model) check_models(check_model);
   }
 
  private:
@@ -146,6 +147,21 @@ class Loader {
     }
   }
 
+  void check_models(const ModelCheck& check_model) {
+    for (const BodyScene& body : scene_.bodies) {
+      const ModelScene& model = body.model;
+      if (is_box(body) || body.shape != Shape::model || model.file.empty()) continue;
+      if (!reader_.valid({&body.kind, &model.file, &model.component, &model.scale, &model.rotation,
+                          &model.centre, &model.repair})) {
+        continue;
+      }
+      const std::string reason = check_model(scene_, body);
+      if (reason.empty()) continue;
+      report_.add(reader_.origin({&model.file}, whole_file),
+                  fmt::format("body '{}': {}", body.name, reason));
+    }
+  }
+
   void read_body(const Table& table, BodyScene& body, Origin header) {
     reader_.read_selectors(table, body_section(body));
     if (body.kind != BodyKind::soft) make_box(table, body, header);
@@ -243,7 +259,7 @@ std::string read_scene_file(const std::filesystem::path& path, double limit) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
-                  std::span<const std::string> overrides) {
+                  std::span<const std::string> overrides, const ModelCheck& check_model) {
   check_size(file, text.size(), most_mib(overrides));
   Report report(file.string(), text, overrides);
   Scene scene;
@@ -253,7 +269,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
     Table document = parse_document(text, -1);
     flatten_bodies(document, report);
     apply_overrides(overrides, document, report);
-    Loader(document, scene, report).load();
+    Loader(document, scene, report).load(check_model);
     check_size(file, text.size(), scene.limits.scene_file_mib);
   } catch (const SyntaxError& error) {
     report.add(error.at, error.what());
@@ -263,8 +279,9 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file,
   return scene;
 }
 
-Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
-  return parse_scene(read_scene_file(path, most_mib(overrides)), path, overrides);
+Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides,
+                 const ModelCheck& check_model) {
+  return parse_scene(read_scene_file(path, most_mib(overrides)), path, overrides, check_model);
 }
 
 std::vector<SceneInfo> list_scenes(const std::filesystem::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -43,6 +44,9 @@ class SceneError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
+/// Why a body's model cannot be used, or nothing. The loader itself reads no models.
+using ModelCheck = std::function<std::string(const Scene&, const BodyScene&)>;
+
 /// Reads and checks a scene. Each override is "PATH=VALUE", where PATH is
 ///   duration, simulation.integrator, ...   a key of the file
 ///   body.k                                 of every body to which the key applies
@@ -53,12 +57,14 @@ class SceneError : public std::runtime_error {
 /// is no error once it is overridden, and checks across keys see the final values. An override of a
 /// key that decides which others apply (kind, shape, gas, ground.present, camera.eye, colours,
 /// contact) makes the file's keys that then do not apply be ignored; without it they are errors,
-/// but warnings where they are idle under the default contact. Throws SceneError.
-Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+/// but warnings where they are idle under the default contact. Throws SceneError, and of a scene
+/// with errors asks `check_model` for those of its models, so that they come at once.
+Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
+                 const ModelCheck& check_model = {});
 
 /// The same from text. `file` is what diagnostics name and gives the scene's name.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file,
-                  std::span<const std::string> overrides = {});
+                  std::span<const std::string> overrides = {}, const ModelCheck& check_model = {});
 
 /// What a list of scenes shows of one.
 struct SceneInfo {

@@ -12,6 +12,10 @@ constexpr std::size_t most_diagnostics = 100;
 constexpr std::size_t longest_shown_line = 100;
 constexpr std::string_view file_mark = "\xef\xbb\xbf";
 
+Diagnostic more_errors(std::string file, std::size_t count) {
+  return {std::move(file), 0, 0, fmt::format("{} more errors are not shown", count)};
+}
+
 std::string joined(const std::vector<Diagnostic>& diagnostics) {
   std::string text;
   for (const Diagnostic& diagnostic : diagnostics) {
@@ -122,8 +126,7 @@ void Report::throw_errors() {
   std::vector<Diagnostic> diagnostics;
   for (const Entry& entry : entries_) {
     if (diagnostics.size() == most_diagnostics) {
-      const std::size_t more = entries_.size() - most_diagnostics;
-      diagnostics.push_back({file_, 0, 0, fmt::format("{} more errors are not shown", more)});
+      diagnostics.push_back(more_errors(file_, entries_.size() - most_diagnostics));
       break;
     }
     diagnostics.push_back(diagnostic_at(place(entry.origin), entry.message));
@@ -136,6 +139,23 @@ Place Report::place(const Origin& at) const {
     return {file_, at.line, at.column, at.of_whole_file ? "" : line_of(text_, at.line)};
   }
   return {"--set " + overrides_[static_cast<std::size_t>(at.override_index)], 0, 0, ""};
+}
+
+void Refusals::add(const SceneError& error) {
+  diagnostics_.insert(diagnostics_.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+void Refusals::throw_errors() {
+  if (diagnostics_.empty()) return;
+  std::ranges::stable_sort(diagnostics_, {}, [](const Diagnostic& at) {
+    return std::tuple(at.line == 0, at.line, at.column);  // those of overrides last
+  });
+  if (diagnostics_.size() > most_diagnostics) {
+    const std::size_t more = diagnostics_.size() - most_diagnostics;
+    diagnostics_.resize(most_diagnostics);
+    diagnostics_.push_back(more_errors(diagnostics_.front().file, more));
+  }
+  throw SceneError(std::move(diagnostics_));
 }
 
 }  // namespace pneuma::scenes

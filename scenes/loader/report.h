@@ -60,4 +60,26 @@ class Report {
   std::vector<std::string> warnings_;
 };
 
+/// Errors that come up one by one after a scene was loaded, such as those of its models.
+class Refusals {
+ public:
+  /// Does the work, and keeps what it throws as SceneError.
+  template <class Work>
+  void attempt(const Work& work) {
+    try {
+      work();
+    } catch (const SceneError& error) {
+      add(error);
+    }
+  }
+
+  /// Throws SceneError with all of them in the order of the file, if there are any.
+  void throw_errors();
+
+ private:
+  void add(const SceneError& error);
+
+  std::vector<Diagnostic> diagnostics_;
+};
+
 }  // namespace pneuma::scenes

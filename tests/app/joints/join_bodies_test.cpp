@@ -67,7 +67,7 @@ TEST(JoinBodies, RefusesWhatCannotBeJoined) {
       "[[body]]\nname = \"s\"\nkind = \"static\"\nshape = \"sphere\"\n"
       "position = [0, -9, 5]\n";
   expect_in(refusal(balls + "[[valve]]\nfrom = \"a\"\nto = \"b\"\n"),
-            {"joined.toml:15:1", "valve 1", "no soft body", "a.1, a.2, b"});
+            {"joined.toml:16:8", "valve 1", "no soft body", "a.1, a.2, b"});
   expect_in(refusal(balls + "[[valve]]\nfrom = \"b\"\nto = \"cube\"\n"), {"is a box", "no gas"});
   expect_in(refusal(balls + "[[spring]]\nfrom = \"b\"\nto = \"cube\"\nk = 1\n"),
             {"is a box", "no vertices", "icosphere"});
@@ -79,6 +79,25 @@ TEST(JoinBodies, RefusesWhatCannotBeJoined) {
   expect_in(refusal(balls + "[[spring]]\nfrom = \"b\"\nto = \"a.1\"\n"
                             "from_region = [[50, 0, 0, 60, 1, 1]]\n"),
             {"spring 1", "from_region: no vertex of 'b'"});
+}
+
+TEST(JoinBodies, SaysAllErrorsOfASceneAtOnce) {
+  const std::string region = "[[spring]]\nfrom = \"b\"\nto = \"a.1\"\nfrom_region = ";
+  expect_in(
+      refusal(balls + region + "[[50, 0, 0, 60, 1, 1]]\n" + region + "[[70, 0, 0, 80, 1, 1]]\n"),
+      {"joined.toml:15:1: spring 1", "joined.toml:19:1: spring 2"});
+  expect_in(refusal(balls + "[[valve]]\nfrom = \"c\"\nto = \"a.3\"\n"
+                            "[[spring]]\nfrom = \"a.0\"\nto = \"cube\"\n"
+                            "[[body]]\nname = \"b\"\n"),
+            {"joined.toml:16:8: valve 1: from", "joined.toml:17:6: valve 1: to",
+             "joined.toml:19:8: spring 1", "joined.toml:20:6: spring 1", "two bodies are called"});
+}
+
+TEST(JoinBodies, BlamesNoJointForANameThatWasRefused) {
+  const std::string text =
+      refusal("[[body]]\nname = \"5\"\n[[body]]\n[[valve]]\nfrom = \"5\"\nto = \"body2\"\n");
+  expect_in(text, {"joined.toml:2:8"});
+  EXPECT_EQ(text.find("valve"), std::string::npos) << text;
 }
 
 TEST(CheckTurns, RefusesATurnThatAStepWouldTakeTheOtherWay) {

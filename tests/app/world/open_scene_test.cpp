@@ -184,6 +184,33 @@ TEST_F(OpenSceneFile, TakesTheShortestStepOfItsBodies) {
   EXPECT_GT(two.settings.steps_per_second, one.settings.steps_per_second);
 }
 
+TEST_F(OpenSceneFile, SaysAllErrorsAtOnceAlsoThoseOfModels) {
+  const auto errors = [&](const std::string& text) -> std::vector<int> {
+    try {
+      open(text);
+    } catch (const scenes::SceneError& error) {
+      std::vector<int> lines;
+      for (const scenes::Diagnostic& at : error.diagnostics()) lines.push_back(at.line);
+      return lines;
+    }
+    return {};
+  };
+  const std::string models =
+      "[[body]]\nshape = \"model\"\nmodel.file = \"none.obj\"\n"
+      "[[body]]\nshape = \"model\"\nmodel.file = \"it.toml.obj\"\n"
+      "[[body]]\nposition = [0, 0, 99]\npinned = [[0, 0, 0, 1, 1, 1], [1, 1, 1, 2, 2, 2]]\n";
+  EXPECT_EQ(errors(models), (std::vector<int>{3, 6, 9, 9}));
+  EXPECT_EQ(errors("titel = 1\n" + models + "[[valve]]\nfrom = \"a\"\nto = \"b\"\n"),
+            (std::vector<int>{1, 4, 7, 12, 13}));
+  // A model of several bodies is one error, and so is what its refused keys would make of it.
+  EXPECT_EQ(errors("[[body]]\nshape = \"model\"\nmodel.file = \"none.obj\"\n"
+                   "[[body]]\nshape = \"model\"\nmodel.file = \"none.obj\"\n"),
+            (std::vector<int>{3}));
+  EXPECT_EQ(errors("[[body]]\nshape = \"model\"\nmodel.file = \"none.obj\"\n"
+                   "model.scale = -1\n"),
+            (std::vector<int>{4}));
+}
+
 TEST_F(OpenSceneFile, KeepsTheStepWhereDampingIsByIt) {
   const std::string paper = "simulation.method = \"paper\"\n";
   EXPECT_EQ(open(paper + stiff_body).settings.steps_per_second, 60);
