@@ -46,6 +46,7 @@ std::string section(const CommandModel& command) {
 constexpr const char* after_commands = R"(.SH EXIT STATUS
 0 done; 1 an error of the program itself; 2 the command line is wrong; 3 scene or model invalid or not readable;
 4 no OpenGL; 5 the simulation diverged; 6 input or output failed; 7 a check failed; 130 interrupted.
+Of a sweep: that of its first run that failed, after all of them are done.
 .SH FILES
 Scenes are found by name in ./scenes, in share/pneuma/scenes beside the program's folder, and in pneuma/scenes of the
 XDG data folders; their models likewise in assets.

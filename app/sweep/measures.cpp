@@ -104,6 +104,10 @@ std::vector<Measure> default_measures() {
   return measures;
 }
 
+bool is_of_length(const Measure& measure) {
+  return measure.path == "/seconds" || measure.path == "/steps";
+}
+
 nlohmann::ordered_json measured(const Measure& measure, const nlohmann::json& run) {
   const nlohmann::json::json_pointer pointer(measure.path);
   return run.contains(pointer) ? nlohmann::ordered_json(run.at(pointer)) : nlohmann::ordered_json();

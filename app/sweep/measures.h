@@ -25,6 +25,9 @@ std::vector<std::string> measure_names();
 /// Those of a sweep that names none.
 std::vector<Measure> default_measures();
 
+/// Whether it says how far a run came, which means something also where it diverged.
+bool is_of_length(const Measure& measure);
+
 /// The measured value; null where the run has none. `run` is run_statistics_json's.
 nlohmann::ordered_json measured(const Measure& measure, const nlohmann::json& run);
 

@@ -199,8 +199,8 @@ std::optional<Parameter> read_parameter(const Table& table, const scenes::Origin
 std::string sweep_reference() {
   return fmt::format(
       "# A sweep file is TOML. At the top:\n{}\n# [[parameter]], as many as wanted; the last "
-      "changes "
-      "fastest:\n{}\n# What can be measured, as `pneuma check --run --json` has it:\n{}\n",
+      "changes fastest:\n{}\n# What can be measured, as `pneuma check --run --json` has it; of a "
+      "run that diverged only seconds and steps:\n{}\n",
       reference_of(top_keys), reference_of(parameter_keys), fmt::join(measure_names(), "\n"));
 }
 

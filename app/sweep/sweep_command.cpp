@@ -54,7 +54,7 @@ void write_results(const StudyFolder& folder, const Sweep& sweep, const SweepRow
   for (const std::string& plot : write_sweep_plots(folder, sweep, rows))
     fmt::print("{}.svg\n", plot);
   if (const auto sheet = write_sweep_sheet(folder, sweep, rows)) fmt::print("{}\n", *sheet);
-  fmt::print(stderr, "{}\n", sweep_summary(rows));
+  fmt::print(stderr, "{}\n", sweep_summary(sweep, rows));
 }
 
 int cores_of(const SweepArguments& typed) {
@@ -71,8 +71,8 @@ std::string resume_command(std::vector<std::string> command_line) {
   return shell_line(command_line);
 }
 
-void run_here(const SweepArguments& typed, const Sweep& sweep, const std::string& fingerprint,
-              Progress& progress) {
+ExitCode run_here(const SweepArguments& typed, const Sweep& sweep, const std::string& fingerprint,
+                  Progress& progress) {
   const StudyFolder folder(typed.out);
   ExistingRun existing = ExistingRun::refuse;
   if (typed.overwrite) existing = ExistingRun::overwrite;
@@ -85,6 +85,7 @@ void run_here(const SweepArguments& typed, const Sweep& sweep, const std::string
     throw Interrupted("interrupted; continue with: " + resume_command(typed.command_line));
   }
   write_results(folder, sweep, journal.rows(), fingerprint);
+  return exit_code_of(journal.rows());
 }
 
 /// Parts of long renders, of a sweep that has them.
@@ -146,7 +147,7 @@ ExitCode sweep(SweepArguments typed) {
   } else if (typed.gather) {
     gather(sweep, fingerprint, StudyFolder(typed.out));
   } else {
-    run_here(typed, sweep, fingerprint, progress);
+    return run_here(typed, sweep, fingerprint, progress);
   }
   return ExitCode::done;
 }
@@ -155,7 +156,9 @@ ExitCode sweep(SweepArguments typed) {
 
 void add_sweep_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
   CLI::App* command = app.add_subcommand(
-      "sweep", "Many runs from one file: what is varied, what is measured; here or on a cluster");
+      "sweep",
+      "Many runs from one file: what is varied, what is measured; here or on a cluster. Ends with "
+      "the exit code of the first run that failed, if any did, once all runs are done");
   const auto typed = std::make_shared<SweepArguments>();
   typed->command_line.assign(command_line.begin(), command_line.end());
   command->add_option("FILE", typed->file, "A sweep file, or the name of one in scenes/sweeps/")

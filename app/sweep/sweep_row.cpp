@@ -34,7 +34,10 @@ void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::
   refuse_start_overlap(scene, build_world(scene));
   const RunStatistics statistics = run_statistics(scene, 1, OnDivergence::stop);
   const nlohmann::json json = run_statistics_json(statistics);
-  for (const Measure& measure : sweep.measures) row.values[measure.name] = measured(measure, json);
+  for (const Measure& measure : sweep.measures) {
+    const bool counts = !statistics.divergence || is_of_length(measure);
+    if (counts) row.values[measure.name] = measured(measure, json);
+  }
   if (statistics.divergence) throw DivergenceError(*statistics.divergence);
   const RunVerdict verdict = judge_run(scene, statistics);
   row.code = verdict.code;

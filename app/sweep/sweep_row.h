@@ -15,7 +15,9 @@ struct SweepRow {
   std::int64_t run = 0;
   ExitCode code = ExitCode::done;  // what `pneuma check --run` would end with
   std::string words;               // what it would say of an error; empty: nothing
-  nlohmann::ordered_json values;   // of the measures, by their names; null: not measured
+  // Of the measures, by their names; null: not measured. What a run had when it diverged is no
+  // measure of its scene: of that there is only how far it came.
+  nlohmann::ordered_json values;
   double seconds = 0.0;  // that it took; no part of the table, which is the same everywhere
 };
 

@@ -32,6 +32,18 @@ nlohmann::ordered_json json_of(const std::string& toml) {
   return plain(toml);
 }
 
+/// A line: "run 3, the first that is invalid (body.k = -1): ...", of its words the first line.
+std::string reason(const Sweep& sweep, const SweepRow& row) {
+  const SweepRun run = run_of(sweep, row.run);
+  std::string values;
+  for (std::size_t p = 0; p < run.values.size(); ++p) {
+    values += fmt::format("{}{} = {}", p == 0 ? "" : ", ", sweep.parameters[p].key, run.values[p]);
+  }
+  if (!values.empty()) values = fmt::format(" ({})", values);
+  return fmt::format("\nrun {}, the first with verdict \"{}\"{}: {}", row.run,
+                     verdict_text(row.code), values, row.words.substr(0, row.words.find('\n')));
+}
+
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep, const SweepRows& rows) {
@@ -84,14 +96,24 @@ std::string seconds_csv(const SweepRows& rows) {
   return csv.text();
 }
 
-std::string sweep_summary(const SweepRows& rows) {
+std::string sweep_summary(const Sweep& sweep, const SweepRows& rows) {
   std::map<ExitCode, std::int64_t> counts;
-  for (const auto& [number, row] : rows) ++counts[row.code];
+  std::string reasons;
+  for (const auto& [number, row] : rows) {
+    if (++counts[row.code] == 1 && row.code != ExitCode::done) reasons += reason(sweep, row);
+  }
   std::string text = fmt::format("{} runs", grouped(static_cast<long long>(rows.size())));
   for (const auto& [code, count] : counts) {
     text += fmt::format(", {} {}", grouped(count), verdict_text(code));
   }
-  return text;
+  return text + reasons;
+}
+
+ExitCode exit_code_of(const SweepRows& rows) {
+  for (const auto& [number, row] : rows) {
+    if (row.code != ExitCode::done) return row.code;
+  }
+  return ExitCode::done;
 }
 
 double number_of(const std::string& toml) {

@@ -16,8 +16,11 @@ nlohmann::ordered_json sweep_json(const Sweep& sweep, const SweepRows& rows,
 /// Seconds of each run: what a table that is the same everywhere cannot have.
 std::string seconds_csv(const SweepRows& rows);
 
-/// How many runs came to what, for people.
-std::string sweep_summary(const SweepRows& rows);
+/// How many runs came to what, for people, and of each way to fail the first run and its reason.
+std::string sweep_summary(const Sweep& sweep, const SweepRows& rows);
+
+/// Of the first run that failed, or done.
+ExitCode exit_code_of(const SweepRows& rows);
 
 /// A number of a run, of a parameter or a measure; not finite where it is none.
 double number_of(const std::string& toml);
