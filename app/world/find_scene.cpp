@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/world/data_folders.h"
+#include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/nearest.h"
 
@@ -30,19 +31,46 @@ std::vector<std::string> names_in(const std::vector<fs::path>& folders) {
   return names;
 }
 
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw scenes::SceneError({{.file = name, .message = why}});
+}
+
+bool has_other_ending(const fs::path& path) {
+  const std::string ending = path.extension().string();
+  const bool is_scene = ending.empty() || ending == ".toml" || ending == ".TOML";
+  return !is_scene && !assets::has_model_ending(path);
+}
+
+std::string known_endings(const fs::path& path) {
+  return fmt::format("the ending '{}' is neither that of a scene, .toml, nor of a model: {}",
+                     path.extension().string(), assets::model_endings());
+}
+
+/// What exists is meant, also a folder: reading it then says what is wrong with it.
+void check_kind(const std::string& name) {
+  std::error_code ignored;
+  if (fs::is_directory(name, ignored) && fs::exists(fs::path(name) / "run.json", ignored)) {
+    refuse(name,
+           "is the folder of a run; name the scene that it is of, or its file, whose text is "
+           "scene_toml in run.json");
+  }
+  if (fs::is_regular_file(name, ignored) && has_other_ending(name)) {
+    refuse(name, known_endings(name));
+  }
+}
+
 [[noreturn]] void not_found(const std::string& name) {
   const std::vector<fs::path> folders = scene_folders();
   const std::vector<std::string> names = names_in(folders);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
   std::vector<std::string> searched;
   for (const fs::path& folder : folders) searched.push_back(folder.string());
-  scenes::Diagnostic diagnostic;
-  diagnostic.file = name;
-  diagnostic.message =
-      fmt::format("no such file, and no scene of that name in {}; `pneuma list` shows all scenes{}",
-                  searched.empty() ? "./scenes" : fmt::format("{}", fmt::join(searched, " or ")),
-                  base::suggestion(fs::path(name).stem().string(), candidates));
-  throw scenes::SceneError({diagnostic});
+  refuse(name,
+         fmt::format("no such file, and no scene of that name in {}; `pneuma list` shows all "
+                     "scenes{}{}",
+                     searched.empty() ? "./scenes" : fmt::format("{}", fmt::join(searched, " or ")),
+                     base::suggestion(fs::path(name).stem().string(), candidates),
+                     has_other_ending(name) ? "; " + known_endings(name) : ""));
 }
 
 }  // namespace
@@ -55,9 +83,11 @@ std::vector<fs::path> scene_folders() {
 }
 
 fs::path find_scene(const std::string& name_or_path) {
-  // What exists is meant, also a folder: reading it then says what is wrong with it.
   std::error_code ignored;
-  if (fs::exists(name_or_path, ignored)) return name_or_path;
+  if (fs::exists(name_or_path, ignored)) {
+    check_kind(name_or_path);
+    return name_or_path;
+  }
   const fs::path given(name_or_path);
   if (!given.has_parent_path()) {
     for (const fs::path& folder : scene_folders()) {

@@ -11,8 +11,10 @@
 #include "app/world/find_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/step_advice.h"
+#include "assets/model.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
+#include "scenes/loader/text_checks.h"
 
 namespace pneuma::app {
 namespace {
@@ -70,12 +72,21 @@ scenes::Scene model_scene(const std::filesystem::path& model, ModelChoice choice
   return parse();
 }
 
+/// The scene made of a model names the file.
+void check_path(const std::filesystem::path& model) {
+  const std::string path = std::filesystem::absolute(model).string();
+  const std::string reason = scenes::check_file(path);
+  if (!reason.empty()) throw assets::ModelError(fmt::format("{}: the path {}", path, reason));
+}
+
 }  // namespace
 
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice) {
   if (assets::has_model_ending(name)) {
-    return model_scene(find_model(name, ""), choice, overrides);
+    const std::filesystem::path model = find_model(name, "");
+    check_path(model);
+    return model_scene(model, choice, overrides);
   }
   if (choice.repair || choice.rotation || !choice.component.empty()) {
     throw UsageError(

@@ -51,6 +51,26 @@ TEST_F(RenderTest, SaysThatThereIsNoSuchScene) {
   expect_failure(result, 3, {"one_spere", "'one_sphere'", "pneuma list"});
 }
 
+TEST_F(RenderTest, SaysWhichEndingsThereAre) {
+  const std::vector<std::string> endings = {"'.foo'", ".toml", "obj, ply, stl"};
+  expect_failure(run_pneuma("render x.foo 2>&1"), 3, endings);
+  write_text(folder_ / "x.foo", falling_ball);
+  expect_failure(run_pneuma("render '" + (folder_ / "x.foo").string() + "' 2>&1"), 3, endings);
+}
+
+TEST_F(RenderTest, SaysThatAFolderOfARunIsNoScene) {
+  ASSERT_EQ(render("--frames 1").exit_code, 0);
+  expect_failure(run_pneuma("render '" + out().string() + "' 2>&1"), 3, {"folder of a run"});
+}
+
+TEST_F(RenderTest, RefusesAModelWhosePathNoSceneCanSay) {
+  const fs::path model = folder_ / "k\xc3\xa4tzchen.ply";
+  write_text(model, "ply\n");
+  const ProgramResult result = run_pneuma("render '" + model.string() + "' 2>&1");
+  expect_failure(result, 3, {model.string() + ": the path ", "another name or a link"});
+  EXPECT_EQ(result.output.find(".toml"), std::string::npos) << result.output;
+}
+
 TEST_F(RenderTest, SaysThatASceneCannotBeRead) {
   expect_failure(run_pneuma("render '" + folder_.path().string() + "' 2>&1"), 3,
                  {folder_.path().string()});
