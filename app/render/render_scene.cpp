@@ -102,6 +102,10 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
       folder, request.existing,
       {scene, start, frames, request.pictures, request.on_divergence, renderer.description()});
   if (log.finished() && log.lost().empty()) return progress.say("the run is finished already");
+  if (log.is_new() && request.existing == ExistingRun::resume) {
+    progress.say(fmt::format("{} holds no run to continue: this one starts from the beginning",
+                             folder.path().string()));
+  }
 
   const FrameBuilder builder(scene, start);
   RunCamera camera(scene, start, request.threads, request.on_divergence,
@@ -131,7 +135,10 @@ void check_video(const scenes::Scene& scene, const std::string& video, Progress&
   if (const auto ffmpeg = find_program("ffmpeg")) {
     try_video(*ffmpeg, scene.picture.width, scene.picture.height, video);
   } else {
-    progress.say("ffmpeg is not installed; after the run, the command for the video is printed");
+    check_video_ending(video);
+    progress.say(
+        "ffmpeg is not installed; after the run, the command for the video is printed. An animated "
+        "picture, NAME.apng, is made without it");
   }
 }
 

@@ -1,11 +1,15 @@
 #include "app/render/video.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "app/host/run_command.h"
@@ -13,6 +17,9 @@
 
 namespace pneuma::app {
 namespace {
+
+constexpr std::array<std::string_view, 11> usual_endings = {
+    ".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi", ".gif", ".webp", ".ogv", ".mpg", ".wmv"};
 
 /// ffmpeg counts the frames by a pattern, in which a folder's own % must be doubled.
 std::string frame_pattern(const RunFolder& folder) {
@@ -62,6 +69,16 @@ void check_video_place(const std::string& video) {
   if (access(exists ? video.c_str() : folder.c_str(), W_OK) != 0) {
     refuse(fmt::format("{}; name another file", std::strerror(errno)));
   }
+}
+
+void check_video_ending(const std::string& video) {
+  const std::string ending = std::filesystem::path(video).extension().string();
+  if (std::ranges::find(usual_endings, ending) != usual_endings.end()) return;
+  throw base::IoError(fmt::format(
+      "cannot make the video {}: {}; name a file that ends in one of {}, or in .apng: an animated "
+      "picture, which needs no ffmpeg",
+      video, ending.empty() ? "it has no ending" : "no video is known by that ending",
+      fmt::join(usual_endings, ", ")));
 }
 
 void try_video(const std::string& ffmpeg, int width, int height, const std::string& video) {

@@ -17,6 +17,10 @@ std::vector<std::string> video_command(const RunFolder& folder, std::int64_t fir
 /// permission.
 void check_video_place(const std::string& video);
 
+/// Throws base::IoError for an ending by which ffmpeg, which is not here to be asked, would hardly
+/// choose a video's format.
+void check_video_ending(const std::string& video);
+
 /// Makes a video of one frame of so many pixels beside where the video will be, with the same
 /// options, and removes it: whatever ffmpeg lacks, it lacks before the run. Throws base::IoError
 /// with what it said.

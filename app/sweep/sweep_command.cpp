@@ -79,6 +79,10 @@ ExitCode run_here(const SweepArguments& typed, const Sweep& sweep, const std::st
   if (typed.resume) existing = ExistingRun::resume;
   SweepJournal journal(folder.path() / (sweep.name + ".journal"), fingerprint, existing);
   if (typed.overwrite) std::filesystem::remove_all(folder.path() / "pictures");
+  if (typed.resume && journal.rows().empty()) {
+    progress.say(fmt::format("{} holds no run of this sweep: it starts from the beginning",
+                             folder.path().string()));
+  }
   try {
     run_sweep(sweep, {0, run_count(sweep) - 1}, cores_of(typed), folder.path(), journal, progress);
   } catch (const Interrupted&) {

@@ -19,6 +19,7 @@ RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity&
   }
 
   const auto& old = opened.unfinished;
+  is_new_ = !old;
   const Json header = old ? old->header : run_header(identity, run.scene);
   const int steps_per_frame = scenes::steps_per_frame(run.scene);
   Continuation from =

@@ -24,6 +24,9 @@ class RunLog {
   /// Of a finished run: the record's lines of frames whose pictures are gone, in their order.
   const std::vector<Json>& lost() const { return lost_; }
 
+  /// Nothing of it was there before.
+  bool is_new() const { return is_new_; }
+
   const RunFolder& folder() const { return folder_; }
   /// The first frame that is still to be drawn, and the world at the one before it or at the start.
   std::int64_t next_frame() const { return next_frame_; }
@@ -44,6 +47,7 @@ class RunLog {
 
  private:
   RunFolder folder_;
+  bool is_new_ = false;
   std::int64_t next_frame_ = 0;
   sim::World world_;
   std::optional<render::ViewFit::Seen> seen_;

@@ -89,6 +89,18 @@ TEST_F(ResumeTest, AKilledRunLeavesWholePicturesAndEndsLikeAnother) {
   EXPECT_GT(in_the_middle, 0);
 }
 
+TEST_F(ResumeTest, SaysThatThereIsNothingToContinue) {
+  const std::string said = out().string() + " holds no run to continue";
+  const ProgramResult begun = render("--frames 2 --resume");
+  EXPECT_EQ(begun.exit_code, 0);
+  EXPECT_NE(begun.output.find(said), std::string::npos) << begun.output;
+  for (const char* more : {"--frames 3 --resume", "--frames 3 --resume"}) {
+    const ProgramResult result = render(more);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.output.find(said), std::string::npos) << result.output;
+  }
+}
+
 TEST_F(ResumeTest, AnInterruptedRunSaysHowToGoOn) {
   const ProgramResult result = render(longer, signalled_at(out() / "fall_00010.png", "INT"));
   ASSERT_EQ(result.exit_code, 130) << result.output;

@@ -251,6 +251,16 @@ TEST_F(RenderTest, PrintsTheVideoCommandWithoutFfmpeg) {
   EXPECT_NE(result.output.find("file:" + video), std::string::npos) << result.output;
 }
 
+TEST_F(RenderTest, WithoutFfmpegRefusesAVideoOfNoKnownKindBeforeTheRun) {
+  for (const char* video : {"film.xyz", "film"}) {
+    const ProgramResult result =
+        render("--frames 2 --video '" + (folder_ / video).string() + "'", "PATH=");
+    EXPECT_EQ(result.exit_code, 6) << result.output;
+    EXPECT_NE(result.output.find(".mp4, "), std::string::npos) << result.output;
+    EXPECT_FALSE(fs::exists(out()));
+  }
+}
+
 /// Makes a shell script stand in for ffmpeg, which need not be installed. Returns the setting of
 /// the environment with which it is found.
 std::string stand_in_for_ffmpeg(const fs::path& folder, const std::string& script) {

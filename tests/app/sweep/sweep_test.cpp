@@ -82,6 +82,14 @@ TEST_F(SweepTest, AResumedSweepRunsOnlyWhatIsMissing) {
   EXPECT_EQ(std::ranges::count(resumed, '\n'), 7);
 }
 
+TEST_F(SweepTest, SaysThatThereIsNothingToContinue) {
+  const std::string command =
+      fmt::format("sweep '{}' --resume --out '{}' 2>&1", file().string(), out().string());
+  const std::string said = out().string() + " holds no run of this sweep";
+  EXPECT_NE(run_pneuma(command).output.find(said), std::string::npos);
+  EXPECT_EQ(run_pneuma(command).output.find(said), std::string::npos);
+}
+
 TEST_F(SweepTest, AKilledSweepLosesNothing) {
   write_text(file(), std::string(six_runs) +
                          "[[parameter]]\nkey = \"body.rho_g\"\nrange = [0, 0.1]\ncount = 40\n");
