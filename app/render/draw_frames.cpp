@@ -47,8 +47,11 @@ class FrameWriter {
   /// What is needed to draw the present state. On one thread at a time, also beside write().
   TakenFrame take(const Simulation& simulation) {
     TakenFrame frame;
-    const render::Camera camera = output_.camera.at(simulation.world());
     Stopwatch watch;
+    const render::Camera camera = output_.camera.at(simulation.world());
+    const double look_ahead = watch.lap();
+    const bool is_first = std::exchange(none_taken_, false);
+    if (is_first && output_.camera.seen()) frame.seconds.look_ahead = look_ahead;
     frame.picture = build(simulation, camera, output_.pictures.show);
     if (output_.pictures.overlay) {
       frame.overlay = build(simulation, camera, *output_.pictures.overlay);
@@ -66,7 +69,7 @@ class FrameWriter {
     output_.renderer.draw(taken.picture, frame->picture);
     if (taken.overlay) output_.renderer.draw(*taken.overlay, frame->overlay.emplace());
     taken.seconds.draw = watch.lap();
-    taken.seconds.total = since_last_frame_.lap();
+    taken.seconds.total = since_last_frame_.lap() - taken.seconds.look_ahead.value_or(0.0);
     frame->of = std::move(taken);
     finishing_.submit([this, frame] { finish(*frame); });
   }
@@ -102,6 +105,7 @@ class FrameWriter {
 
   FrameOutput output_;
   FrameRecorder recorder_;
+  bool none_taken_ = true;
   Stopwatch since_last_frame_;
   Background finishing_{1};  // the last member: it ends before what its jobs use
 };
@@ -167,6 +171,9 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
       });
     }
     if (frame) {
+      const double look_ahead = frame->seconds.look_ahead.value_or(0.0);
+      state.look_ahead += look_ahead;
+      state.elapsed -= look_ahead;
       writer.write(std::move(*frame));
       ++state.drawn;
     }

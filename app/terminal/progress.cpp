@@ -38,9 +38,14 @@ std::string fitted_line(const std::string& text, int columns) {
 }
 
 std::string summary_line(const ProgressState& state) {
-  return fmt::format("{} frame{} in {:.1f} s: {:.3g} frames/s, {}", state.drawn,
+  constexpr double worth_a_word = 0.05;  // s
+  const std::string before =
+      state.look_ahead < worth_a_word
+          ? ""
+          : fmt::format(", after {:.1f} s of looking ahead for the camera", state.look_ahead);
+  return fmt::format("{} frame{} in {:.1f} s: {:.3g} frames/s, {}{}", state.drawn,
                      state.drawn == 1 ? "" : "s", state.elapsed,
-                     static_cast<double>(state.drawn) / state.elapsed, pace(state));
+                     static_cast<double>(state.drawn) / state.elapsed, pace(state), before);
 }
 
 std::string progress_line(const ProgressState& state) {

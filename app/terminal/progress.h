@@ -14,7 +14,8 @@ struct ProgressState {
   std::int64_t frame = 0;  // finished
   std::int64_t last = 0;
   double time = 0.0;         // simulated so far, s
-  double elapsed = 0.0;      // s since the launch
+  double elapsed = 0.0;      // s since the launch, without the next
+  double look_ahead = 0.0;   // s for which the first frame waited until its camera was known
   double simulated = 0.0;    // s of the scene's time since the launch
   std::int64_t drawn = 0;    // frames since the launch
   std::int64_t crossed = 0;  // of these, in which bodies pass through each other

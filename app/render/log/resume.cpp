@@ -170,6 +170,7 @@ JournalContents journal_of(Json record) {
     record.erase(kind);
   }
   record.erase("wall_seconds");
+  record.erase("look_ahead_seconds");
   journal.header = std::move(record);
   return journal;
 }

@@ -177,6 +177,7 @@ Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds&
   line["png_bytes"] = bytes.frame;
   line["seconds"] = std::move(times);
   if (bytes.overlay) line["overlay_png_bytes"] = *bytes.overlay;
+  if (seconds.look_ahead) line["look_ahead_seconds"] = *seconds.look_ahead;
   return line;
 }
 
@@ -185,17 +186,19 @@ Json whole_record(const JournalContents& journal) {
   Json launches = Json::array();
   Json changes = Json::array();
   Json frames = Json::array();
-  double wall_seconds = 0.0;
+  double wall_seconds = 0.0, look_ahead_seconds = 0.0;
   for (const Json& line : journal.lines) {
     if (line.contains("launch")) launches.push_back(line["launch"]);
     if (line.contains("change")) changes.push_back(line);
     if (!line.contains("frame")) continue;
     frames.push_back(line);
     wall_seconds += line["seconds"]["total"].get<double>();
+    look_ahead_seconds += line.value("look_ahead_seconds", 0.0);
   }
   record["launches"] = launches;
   if (!changes.empty()) record["changes"] = changes;
   record["wall_seconds"] = wall_seconds;
+  record["look_ahead_seconds"] = look_ahead_seconds;
   record["frames"] = frames;
   return record;
 }

@@ -24,6 +24,9 @@ struct FrameSeconds {
   double png = 0.0;
   double write = 0.0;
   double total = 0.0;  // since the frame before was drawn; the last frame's png and write go on
+  // For which the first frame of a launch waited until an automatic camera had looked ahead; not in
+  // the total.
+  std::optional<double> look_ahead;
 };
 
 /// Sizes of a frame's files, by which a run that is continued knows them to be whole.

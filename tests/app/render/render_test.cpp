@@ -182,6 +182,10 @@ TEST_F(RenderTest, RecordsWhatMadeTheRun) {
   EXPECT_TRUE(run["program"]["libraries"].contains("Eigen"));
   EXPECT_NE(run["run"]["gl"].get<std::string>().find("OpenGL"), std::string::npos);
   EXPECT_GT(run["wall_seconds"], 0.0);
+  // Of the camera, which looks ahead before the first frame: no time of a frame.
+  EXPECT_GT(run["look_ahead_seconds"], 0.0);
+  EXPECT_EQ(run["frames"][0]["look_ahead_seconds"], run["look_ahead_seconds"]);
+  EXPECT_FALSE(run["frames"][1].contains("look_ahead_seconds"));
   ASSERT_EQ(run["launches"].size(), 1u);
   const json& launch = run["launches"][0];
   EXPECT_EQ(launch["threads"], 2);

@@ -40,9 +40,13 @@ TEST(ProgressLine, SaysNothingThatItDoesNotKnow) {
 }
 
 TEST(SummaryLine, SaysWhatItTook) {
-  const ProgressState state{
+  ProgressState state{
       .frame = 300, .last = 300, .time = 10.0, .elapsed = 40.0, .simulated = 10.0, .drawn = 301};
   EXPECT_EQ(summary_line(state), "301 frames in 40.0 s: 7.53 frames/s, 0.25 x real time");
+  state.look_ahead = 1.26;
+  EXPECT_EQ(summary_line(state),
+            "301 frames in 40.0 s: 7.53 frames/s, 0.25 x real time, after 1.3 s of looking ahead "
+            "for the camera");
 }
 
 TEST(FittedLine, LeavesTheLastColumnFree) {
