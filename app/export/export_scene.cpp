@@ -71,6 +71,15 @@ void run_frames(Simulation& simulation, const Frames& frames, FrameSink& sink, P
   progress.say(summary_line(state));
 }
 
+/// One who names a file of the format means it, and not a folder.
+void check_folder(const fs::path& folder, const ExportFormat& format) {
+  if (folder.extension() != fmt::format(".{}", format.name) || fs::is_directory(folder)) return;
+  throw UsageError(fmt::format(
+      "--out {}: this names a file, and --out takes the folder for files called as the scene; "
+      "name a folder, such as {}",
+      folder.string(), fs::path(folder).replace_extension().string()));
+}
+
 void print_path(const fs::path& path) { fmt::print("{}\n", path.string()); }
 
 void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
@@ -108,6 +117,7 @@ ExitCode export_scene(const ExportRequest& request) {
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);
+  check_folder(folder, request.format);
   RunFolder(folder, scene.name).make();
   write_frames(scene, frames, folder, request);
   return ExitCode::done;

@@ -154,7 +154,7 @@ std::optional<StartOverlap> find_potential_start(const sim::World& world) {
 
 std::string what_parts_copies(const scenes::BodyScene& body) {
   std::string text = "more spacing";
-  if (body.jitter > 0.0) text += ", or less jitter,";
+  if (body.jitter > 0.0) text += " or less jitter";
   if (body.tumble) text += ", enough for their diagonals as they tumble,";
   return text + " parts them all";
 }

@@ -41,9 +41,11 @@ class Checks {
     if (!reader_.valid({&frames})) return;
     if (reader_.valid({&steps}) && steps % frames != 0) {
       report_.add(reader_.origin({&frames, &steps}, whole_file),
-                  fmt::format("frames_per_second = {} does not divide steps_per_second = {}; "
-                              "nearest that does: {}",
-                              frames, steps, nearest_divisor(steps, frames)));
+                  fmt::format("frames_per_second = {} does not divide steps_per_second = {}, but a "
+                              "frame takes a whole number of steps; set frames_per_second = {} or "
+                              "steps_per_second = {}",
+                              frames, steps, nearest_divisor(steps, frames),
+                              (steps / frames + 1) * frames));
     }
     if (reader_.valid({&scene_.duration})) check_duration();
   }

@@ -171,6 +171,12 @@ TEST_F(ExportTest, DoesNotReplaceASequenceUnasked) {
 TEST_F(ExportTest, NeedsNoGlAndSaysWhatIsWrong) {
   EXPECT_EQ(run_export("--frames 1", "PNEUMA_GL=none").exit_code, 0);
   EXPECT_EQ(run_export("--format stl").exit_code, 2);
+  const fs::path page = folder_ / "page.html";
+  const ProgramResult file = run_pneuma(
+      fmt::format("export '{}' --format html --out '{}' 2>&1", scene().string(), page.string()));
+  EXPECT_EQ(file.exit_code, 2);
+  EXPECT_NE(file.output.find("name a folder, such as "), std::string::npos) << file.output;
+  EXPECT_FALSE(fs::exists(page));
   EXPECT_EQ(run_export("--frames 100-").exit_code, 2);
   EXPECT_EQ(run_export("--set body.k=-1").exit_code, 3);
   EXPECT_EQ(

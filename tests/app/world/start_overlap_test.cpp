@@ -53,6 +53,13 @@ TEST(StartOverlap, OfCopiesIsPartedByTheirSpacing) {
       "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\ncopies = [2, 1, 1]\nspacing = [1, 0, 0]\n");
   EXPECT_NE(copies.find("they are copies: more spacing parts them all"), std::string::npos)
       << copies;
+  const std::string tumbling = refusal_of(
+      "[[body]]\nkind = \"rigid\"\nposition = [0, 0, 4]\ncopies = [2, 1, 1]\nspacing = [1, 0, 0]\n"
+      "jitter = 0.1\ntumble = true\n");
+  EXPECT_NE(tumbling.find("copies: more spacing or less jitter, enough for their diagonals as they "
+                          "tumble, parts them all"),
+            std::string::npos)
+      << tumbling;
   const std::string others = refusal_of(
       "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = [1, 0, 4]\ncopies = [1, 1, 1]\n");
   EXPECT_NE(others.find("deep in body"), std::string::npos) << others;
