@@ -265,6 +265,18 @@ ApartLimits sandbox_limits(std::size_t bytes, const ImportLimits& import) {
   return limits;
 }
 
+Model import_apart(const std::filesystem::path& path, Format format, const std::string& bytes,
+                   const ImportLimits& limits) {
+  try {
+    return deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
+                                      sandbox_limits(bytes.size(), limits)));
+  } catch (const ModelError& error) {
+    const std::string mistake = format == Format::obj ? obj_mistake(bytes) : std::string();
+    if (mistake.empty()) throw;
+    throw ModelError(fmt::format("{} ({})", mistake, error.what()));
+  }
+}
+
 }  // namespace
 
 Model import_model(const std::filesystem::path& path, const ImportLimits& limits) {
@@ -273,9 +285,7 @@ Model import_model(const std::filesystem::path& path, const ImportLimits& limits
     std::string bytes = read_model_file(path, limits.bytes);
     if (format == Format::off) bytes = without_comments(bytes);
     check_model_header(format, bytes, limits.vertices, limits.triangles);
-    Model model =
-        deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
-                                   sandbox_limits(bytes.size(), limits)));
+    Model model = import_apart(path, format, bytes, limits);
     if (format == Format::obj) {
       number_as_in_obj(bytes, model);
       // The importer's name for faces before the first object.

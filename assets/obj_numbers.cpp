@@ -1,5 +1,7 @@
 #include "assets/obj_numbers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,17 +18,28 @@ namespace {
 /// Of the extent: the importer reads single precision.
 constexpr double same_place = 1e-6;
 
-/// The lines "v x y z".
-std::vector<Vec3> vertices_of(std::string_view file) {
-  std::vector<Vec3> vertices;
+/// Calls with the letter, the rest and the number of each line "v ..." and "f ...".
+template <class Visit>
+void for_each_line(std::string_view file, const Visit& visit) {
+  int number = 0;
   for (std::size_t begin = 0; begin < file.size();) {
     const std::size_t end = std::min(file.find('\n', begin), file.size());
     const std::string line(file.substr(begin, end - begin));
     begin = end + 1;
+    ++number;
     const std::size_t first = line.find_first_not_of(" \t");
-    if (first == line.npos || line[first] != 'v' || first + 1 == line.size()) continue;
-    if (line[first + 1] != ' ' && line[first + 1] != '\t') continue;
-    const char* text = line.c_str() + first + 1;
+    if (first == line.npos || first + 1 == line.size()) continue;
+    const bool is_one = line[first] == 'v' || line[first] == 'f';
+    if (!is_one || (line[first + 1] != ' ' && line[first + 1] != '\t')) continue;
+    visit(line[first], line.c_str() + first + 1, number);
+  }
+}
+
+/// The lines "v x y z".
+std::vector<Vec3> vertices_of(std::string_view file) {
+  std::vector<Vec3> vertices;
+  for_each_line(file, [&](char letter, const char* text, int) {
+    if (letter != 'v') return;
     Vec3 vertex;
     for (int axis = 0; axis < 3; ++axis) {
       char* after = nullptr;
@@ -34,8 +47,37 @@ std::vector<Vec3> vertices_of(std::string_view file) {
       text = after;
     }
     vertices.push_back(vertex);
-  }
+  });
   return vertices;
+}
+
+/// What is wrong with "x y z", if anything.
+std::string vertex_mistake(const char* text) {
+  for (int axis = 0; axis < 3; ++axis) {
+    char* after = nullptr;
+    const double value = std::strtod(text, &after);
+    if (after == text) return "v needs three numbers";
+    if (!std::isfinite(value)) return "v has a number that is not finite";
+    text = after;
+  }
+  return {};
+}
+
+/// What is wrong with "1 2/1 3//1", if anything; a number below 0 counts back from the last of
+/// those so far.
+std::string face_mistake(const char* text, int so_far, int all) {
+  for (;;) {
+    while (*text == ' ' || *text == '\t') ++text;
+    if (*text == '\0' || *text == '\r' || *text == '#' || *text == '\\') return {};
+    char* after = nullptr;
+    const long named = std::strtol(text, &after, 10);
+    if (after == text) return "f holds what is no number of a vertex";
+    if (named == 0) return "f names vertex 0, but the first is 1";
+    if (named > all) return fmt::format("f names vertex {} of {}", named, all);
+    if (named < -so_far) return fmt::format("f names vertex {} after {}", named, so_far);
+    text = after;
+    while (*text != '\0' && *text != ' ' && *text != '\t' && *text != '\r') ++text;
+  }
 }
 
 }  // namespace
@@ -60,6 +102,20 @@ void number_as_in_obj(std::string_view file, Model& model) {
   }
   model.vertices_in_file = static_cast<int>(in_file);
   model.vertex_numbers = std::move(numbers);
+}
+
+std::string obj_mistake(std::string_view file) {
+  int all = 0, so_far = 0;
+  for_each_line(file, [&](char letter, const char*, int) { all += letter == 'v' ? 1 : 0; });
+  std::string first;
+  for_each_line(file, [&](char letter, const char* text, int number) {
+    if (!first.empty()) return;
+    so_far += letter == 'v' ? 1 : 0;
+    const std::string mistake =
+        letter == 'v' ? vertex_mistake(text) : face_mistake(text, so_far, all);
+    if (!mistake.empty()) first = fmt::format("line {}: {}", number, mistake);
+  });
+  return first;
 }
 
 }  // namespace pneuma::assets
