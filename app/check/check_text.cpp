@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "app/check/check_report.h"
 #include "app/record/world_json.h"
@@ -160,12 +161,18 @@ std::string contacts_text(const ContactTally& contacts) {
   std::string text = named_line(
       "contacts", fmt::format("{} per step in the mean, {} at most",
                               readable(contacts.mean(contacts.all)), grouped(contacts.all.most)));
+  const auto kind_text = [&](std::string_view kind, const ContactTally::Count& count) {
+    return named_line("", fmt::format("{} {} in the mean, {} at most", kind,
+                                      readable(contacts.mean(count)), grouped(count.most)));
+  };
   for (int k = 0; k < sim::contact_kind_count; ++k) {
     const auto kind = static_cast<sim::ContactKind>(k);
     const ContactTally::Count& count = contacts.of(kind);
     if (count.most == 0) continue;
-    text += named_line("", fmt::format("{} {} in the mean, {} at most", sim::to_string(kind),
-                                       readable(contacts.mean(count)), grouped(count.most)));
+    text += kind_text(sim::to_string(kind), count);
+  }
+  if (contacts.with_obstacles.most > 0) {
+    text += kind_text("soft bodies with static or moved ones", contacts.with_obstacles);
   }
   return text;
 }
@@ -173,6 +180,7 @@ std::string contacts_text(const ContactTally& contacts) {
 std::string volumes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
+    if (range.is_obstacle) continue;
     text += named_line(text.empty() ? "volume" : "",
                        fmt::format("{}: {} to {} m^3, {} at the start, {} at the end", range.body,
                                    readable(range.least), readable(range.greatest),
@@ -184,6 +192,7 @@ std::string volumes_text(const RunStatistics& run) {
 std::string shapes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
+    if (range.is_obstacle) continue;
     text += named_line(text.empty() ? "shape at the end" : "",
                        fmt::format("{}: at most {:.2g} % of its diagonal off its rigid rest shape",
                                    range.body, 100.0 * range.shape_deviation));

@@ -83,16 +83,20 @@ class Observer {
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
-      result_.volumes.push_back({body.name, now, now, now, now, 0.0});
+      const bool is_obstacle = body.pins && body.pins->are_all;
+      result_.volumes.push_back({body.name, now, now, now, now, 0.0, is_obstacle});
     }
   }
 
   void after_step(const Simulation& simulation) {
     const auto contacts = simulation.contacts();
-    result_.contacts.add(contacts);
+    const std::int64_t with_obstacles = count_with_obstacles(contacts, simulation.world());
+    result_.contacts.add(contacts, with_obstacles);
     if (result_.driven_work) *result_.driven_work += simulation.driven_work();
     if (result_.gas_work) *result_.gas_work += simulation.gas_work();
-    if (2 * simulation.world().steps > all_steps_) result_.settled_contacts.add(contacts);
+    if (2 * simulation.world().steps > all_steps_) {
+      result_.settled_contacts.add(contacts, with_obstacles);
+    }
     for (const int parts : simulation.step_parts()) {
       ++result_.divided_steps;
       result_.most_parts = std::max(result_.most_parts, parts);

@@ -27,6 +27,7 @@ struct VolumeRange {
   double greatest = 0.0;
   double end = 0.0;              // m^3
   double shape_deviation = 0.0;  // at the end (app/record/shape_deviation.h)
+  bool is_obstacle = false;      // static or moved: it keeps volume and shape
 };
 
 /// How often and how much surfaces passed through each other, in the frames of a run.
@@ -77,7 +78,7 @@ struct RunStatistics {
   std::optional<double> gas_work;
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 
-  std::vector<VolumeRange> volumes;  // of the soft bodies
+  std::vector<VolumeRange> volumes;  // of the soft bodies, and of obstacles among them
 
   // "gravity", "the ground", ...: what changes the momentum of all bodies together. Drag, which
   // takes a share of it, is not named.

@@ -8,6 +8,7 @@
 
 #include "sim/collision/contact.h"
 #include "sim/step/plan.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -17,6 +18,10 @@ sim::ContactKind kind_of(const sim::Contact& contact);
 /// How many there are of each kind, by its number.
 using ContactCounts = std::array<std::int64_t, sim::contact_kind_count>;
 ContactCounts count_by_kind(std::span<const sim::Contact> contacts);
+
+/// How many of the soft_soft ones are with a static or moved mesh, which a world has among its soft
+/// bodies.
+std::int64_t count_with_obstacles(std::span<const sim::Contact> contacts, const sim::World& world);
 
 struct ContactTally {
   struct Count {
@@ -28,9 +33,10 @@ struct ContactTally {
   std::int64_t touching_steps = 0;  // steps in which two bodies touched; the ground does not count
   Count all;
   std::array<Count, sim::contact_kind_count> by_kind;
+  Count with_obstacles;  // of soft bodies and static or moved meshes: they are none of by_kind's
 
-  /// The contacts of one step.
-  void add(std::span<const sim::Contact> contacts);
+  /// The contacts of one step, `obstacle_contacts` of which are what count_with_obstacles says.
+  void add(std::span<const sim::Contact> contacts, std::int64_t obstacle_contacts = 0);
 
   /// Per step; 0 before the first.
   double mean(const Count& count) const;

@@ -24,16 +24,20 @@ namespace {
 Json volumes_json(const sim::World& world) {
   Json volumes = Json::object();
   for (const sim::SoftBody& body : world.soft) {
+    if (body.pins && body.pins->are_all) continue;  // an obstacle keeps it
     volumes[body.name] = number_json<Json>(sim::volume(body.mesh->topology, body.positions));
   }
   return volumes;
 }
 
-Json contacts_json(std::span<const sim::Contact> contacts) {
-  const ContactCounts counts = count_by_kind(contacts);
+Json contacts_json(std::span<const sim::Contact> contacts, const sim::World& world) {
+  ContactCounts counts = count_by_kind(contacts);
+  const std::int64_t with_obstacles = count_with_obstacles(contacts, world);
+  counts[static_cast<std::size_t>(sim::ContactKind::soft_soft)] -= with_obstacles;
   Json json = {{"count", contacts.size()}};
   json.update(json_by_contact_kind<Json>(
       [&](sim::ContactKind kind) { return counts[static_cast<std::size_t>(kind)]; }));
+  json["soft_obstacle"] = with_obstacles;
   return json;
 }
 
@@ -152,7 +156,7 @@ FrameState FrameRecorder::state(const Simulation& simulation, const FrameCamera&
                {"momentum", momentum_json<Json>(sim::momentum(world))},
                {"volumes", volumes_json(world)},
                {"gas", gas_of_bodies_json<Json>(world)},
-               {"contacts", contacts_json(simulation.contacts())},
+               {"contacts", contacts_json(simulation.contacts(), world)},
                {"greatest_penetration", number_json<Json>(sim::max_penetration(world))},
                {"crossings", crossings_json(crossings)},
                {"camera", camera_json(camera.camera)}};

@@ -158,7 +158,7 @@ TEST(CheckJson, SaysTheSameForMachines) {
   EXPECT_EQ(json["run"]["steps"], 30);
   EXPECT_EQ(json["run"]["momentum"]["end"]["linear"].size(), 3U);
   EXPECT_TRUE(json["run"]["contacts_per_step"]["soft_ground"]["mean"].is_number());
-  EXPECT_EQ(json["run"]["contacts_per_step"].size(), 3U + sim::contact_kind_count);
+  EXPECT_EQ(json["run"]["contacts_per_step"].size(), 4U + sim::contact_kind_count);
   EXPECT_EQ(json["run"]["units"], std::string(json_units));
   EXPECT_TRUE(check_json(report_of(sphere_text))["run"].is_null());
 }

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "app/check/check_report.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
@@ -68,6 +69,33 @@ position = [0.5, 0.1, 5.2]
   EXPECT_EQ(run.start_overlap.bodies, "left and right");
   EXPECT_EQ(run.crossings.frames, 0);  // what is so from the start is no passing through
   EXPECT_EQ(run.self_crossings.frames, 0);
+}
+
+TEST(RunStatistics, TellObstaclesFromSoftBodies) {
+  const RunStatistics run = statistics_of(R"(
+duration = 0.5
+[ground]
+present = false
+[[body]]
+name = "stone"
+kind = "static"
+shape = "sphere"
+rotation = [10, 20, 30]
+[[body]]
+name = "ball"
+radius = 1.0
+n = 0.05
+rest = "equilibrium"
+position = [0, 0, 4.1]
+)");
+  EXPECT_GT(run.contacts.with_obstacles.most, 0);
+  EXPECT_EQ(run.contacts.with_obstacles.sum, run.contacts.all.sum);
+  EXPECT_EQ(run.contacts.of(sim::ContactKind::soft_soft).sum, 0);
+  const std::string text = run_statistics_text(run, {});
+  EXPECT_NE(text.find("ball: at most"), std::string::npos) << text;
+  EXPECT_EQ(text.find("stone"), std::string::npos) << text;
+  EXPECT_EQ(text.find("soft_soft"), std::string::npos) << text;
+  EXPECT_NE(text.find("soft bodies with static or moved ones"), std::string::npos) << text;
 }
 
 TEST(RunStatistics, BookTheWorkOfMovedBoxes) {

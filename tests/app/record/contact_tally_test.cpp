@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace pneuma::app {
 namespace {
 
@@ -47,6 +49,17 @@ TEST(ContactTally, CountsPerStepAndByKind) {
   EXPECT_DOUBLE_EQ(tally.mean_between_bodies(), 3.0 / 4.0);
   EXPECT_DOUBLE_EQ(tally.touching_share(), 0.5);  // the ground is no body
   EXPECT_EQ(tally.of(ContactKind::rigid_rigid).sum, 0);
+}
+
+TEST(ContactTally, CountsContactsWithObstaclesByThemselves) {
+  const sim::Contact pair = contact(SideKind::soft, SideKind::soft);
+  ContactTally tally;
+  tally.add(std::vector{pair, pair, pair}, 2);
+  EXPECT_EQ(tally.of(ContactKind::soft_soft).most, 1);
+  EXPECT_EQ(tally.with_obstacles.most, 2);
+  EXPECT_EQ(tally.all.most, 3);
+  EXPECT_DOUBLE_EQ(tally.mean_between_bodies(), 3.0);
+  EXPECT_EQ(contacts_per_step_json(tally)["soft_obstacle"]["max"], 2);
 }
 
 TEST(ContactTally, IsZeroBeforeTheFirstStep) {
