@@ -110,8 +110,14 @@ void add_overlays(const sim::World& world, std::span<const sim::Contact> contact
                   render::Frame& frame) {
   if (show.field != ColourField::none) add_field(world, show, frame);
   if (show.ghost) add_ghosts(world, frame);
-  if (show.particles) add_particles(world, contacts, frame);
-  if (show.contacts) add_contacts(contacts, frame);
+  if (show.particles) {
+    add_particles(world, contacts, frame);
+    if (frame.caption) frame.caption->text += particle_legend();
+  }
+  if (show.contacts) {
+    add_contacts(contacts, frame);
+    if (frame.caption) frame.caption->text += contact_legend();
+  }
   if (show.impulses) {
     const double scale = show.arrow_scale.value_or(arrow_scale(contacts, frame.camera));
     add_impulses(contacts, scale, frame);

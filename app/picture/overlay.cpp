@@ -84,6 +84,16 @@ void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame) 
   }
 }
 
+std::string_view particle_legend() {
+  return "\nparticles: a colour for each body, on a white disc where in contact";
+}
+
+std::string_view contact_legend() {
+  return "\ncontacts, 1 m of normal: ground black, soft bodies magenta, soft and rigid orange, "
+         "boxes "
+         "blue";
+}
+
 void add_labels(const sim::World& world, render::Frame& frame) {
   const int count = static_cast<int>(world.soft.size() + world.rigid.size());
   for (int body = 0; body < count; ++body) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "render/frame/frame.h"
 #include "sim/collision/contact.h"
@@ -20,6 +21,10 @@ render::Colour contact_colour(const sim::Contact& contact);
 /// For each contact a disc where the bodies touch and a line along the normal, in a colour of the
 /// kinds of bodies.
 void add_contacts(std::span<const sim::Contact> contacts, render::Frame& frame);
+
+/// Lines of a caption: what these marks mean.
+std::string_view particle_legend();
+std::string_view contact_legend();
 
 /// The bodies' names, over them.
 void add_labels(const sim::World& world, render::Frame& frame);

@@ -116,6 +116,12 @@ TEST(ColourField, ColoursMeshesByTheLegend) {
   EXPECT_FALSE(Made().frame("ghost").legend);
 }
 
+TEST(Caption, SaysWhatMarksMean) {
+  EXPECT_NE(Made().frame("particles").caption->text.find("\nparticles: "), std::string::npos);
+  EXPECT_NE(Made().frame("contacts").caption->text.find("\ncontacts, "), std::string::npos);
+  EXPECT_EQ(Made().frame("wireframe").caption->text.find("contacts"), std::string::npos);
+}
+
 TEST(RoundEnd, IsTheNextOfOneTwoFive) {
   for (const auto& [value, end] : {std::pair(0.0, 1.0),
                                    {1.0, 1.0},
