@@ -88,29 +88,22 @@ std::string title_of(ColourField field) {
   return "";
 }
 
-render::Legend legend_of(ColourField field, double end) {
+render::Legend legend_of(const Show& show, double end) {
   constexpr int colours = 64;
   constexpr int ticks = 4;
   render::Legend legend;
-  legend.title = title_of(field);
+  legend.title = title_of(show.field) + (show.field_end_grows ? ", run so far" : "");
   for (int i = 0; i < colours; ++i) {
     legend.colours.push_back(viridis(static_cast<double>(i) / (colours - 1)));
   }
   for (int i = 0; i <= ticks; ++i) {
     const double at = static_cast<double>(i) / ticks;
-    const std::string text = field == ColourField::strain ? fmt::format("{:g} %", 100.0 * at * end)
-                                                          : fmt::format("{:g}", at * end);
+    const std::string text = show.field == ColourField::strain
+                                 ? fmt::format("{:g} %", 100.0 * at * end)
+                                 : fmt::format("{:g}", at * end);
     legend.ticks.push_back({static_cast<float>(at), text});
   }
   return legend;
-}
-
-double greatest(const std::vector<std::vector<double>>& values) {
-  double result = 0.0;
-  for (const std::vector<double>& body : values) {
-    for (const double value : body) result = std::max(result, value);
-  }
-  return result;
 }
 
 }  // namespace
@@ -147,6 +140,14 @@ std::vector<std::vector<double>> field_values(const sim::World& world, ColourFie
   return result;
 }
 
+double greatest(const std::vector<std::vector<double>>& values) {
+  double result = 0.0;
+  for (const std::vector<double>& body : values) {
+    for (const double value : body) result = std::max(result, value);
+  }
+  return result;
+}
+
 double round_end(double value) {
   if (!(value > 0.0)) return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -168,7 +169,7 @@ void add_field(const sim::World& world, const Show& show, render::Frame& frame) 
     }
     for (const double value : values[i]) mesh.colours.push_back(viridis(value / end));
   }
-  frame.legend = legend_of(show.field, end);
+  frame.legend = legend_of(show, end);
 }
 
 }  // namespace pneuma::app

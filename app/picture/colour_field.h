@@ -17,6 +17,9 @@ render::Colour viridis(double part);
 /// velocities only.
 std::vector<std::vector<double>> field_values(const sim::World& world, ColourField field);
 
+/// Of all bodies and vertices; 0 where there is none.
+double greatest(const std::vector<std::vector<double>>& values);
+
 /// 1, 2 or 5 times a power of ten: the first that is not below `value`; 1 for 0.
 double round_end(double value);
 

@@ -82,6 +82,11 @@ std::vector<std::string> shown_names(const Show& show) {
   return names;
 }
 
+std::string field_name(ColourField field) {
+  const auto found = std::ranges::find(field_names, field, &FieldName::second);
+  return found == field_names.end() ? "" : std::string(found->first);
+}
+
 Show parse_show(const std::string& option, const std::string& list) {
   Show show;
   for (std::size_t begin = 0; begin <= list.size();) {

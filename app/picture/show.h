@@ -26,6 +26,7 @@ struct Show {
   std::optional<double> arrow_scale = std::nullopt;  // N s per metre; none: of each picture its own
   ColourField field = ColourField::none;
   std::optional<double> field_end = std::nullopt;  // of its colours; none: of each picture its own
+  bool field_end_grows = false;                    // in a run: see FieldScale
 };
 
 /// What pictures of a run show. With an overlay each frame is drawn twice, in two files.
@@ -36,6 +37,9 @@ struct Pictures {
 
 /// The names of what is shown, as in `--show`.
 std::vector<std::string> shown_names(const Show& show);
+
+/// "strain", "velocity" or "pressure"; "" for none.
+std::string field_name(ColourField field);
 
 /// Reads the list of `option`, --show or --overlay: names separated by commas; a field may have the
 /// end of its colours, as velocity=5, and impulses the N s of an arrow of one metre. Throws

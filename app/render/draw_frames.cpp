@@ -52,13 +52,15 @@ class FrameWriter {
     const double look_ahead = watch.lap();
     const bool is_first = std::exchange(none_taken_, false);
     if (is_first && output_.camera.seen()) frame.seconds.look_ahead = look_ahead;
+    output_.fields.see(simulation.world());
     frame.picture = build(simulation, camera, output_.pictures.show);
     if (output_.pictures.overlay) {
       frame.overlay = build(simulation, camera, *output_.pictures.overlay);
     }
     frame.seconds.mesh = watch.lap();
     frame.number = simulation.frame();
-    frame.state = recorder_.state(simulation, {camera, output_.camera.seen()});
+    frame.state =
+        recorder_.state(simulation, {camera, output_.camera.seen(), output_.fields.seen()});
     frame.checkpoint = sim::save_state(simulation.world());
     return frame;
   }
@@ -80,7 +82,8 @@ class FrameWriter {
  private:
   render::Frame build(const Simulation& simulation, const render::Camera& camera,
                       const Show& show) const {
-    return output_.builder.build(simulation.world(), camera, simulation.contacts(), show);
+    return output_.builder.build(simulation.world(), camera, simulation.contacts(),
+                                 output_.fields.with_end(show));
   }
 
   void finish(DrawnFrame& frame) const {
@@ -143,6 +146,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
       next = writer.take(simulation);
     } else {
       output.camera.see(simulation.world());
+      output.fields.see(simulation.world());
     }
   };
   Background making(1);

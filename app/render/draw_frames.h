@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "app/picture/build_frame.h"
+#include "app/picture/field_scale.h"
 #include "app/picture/run_camera.h"
 #include "app/render/log/run_log.h"
 #include "app/terminal/progress.h"
@@ -16,6 +17,7 @@ namespace pneuma::app {
 struct FrameOutput {
   const FrameBuilder& builder;
   RunCamera& camera;
+  FieldScale& fields;
   const Pictures& pictures;
   render::Renderer& renderer;
   RunLog& log;

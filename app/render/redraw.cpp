@@ -16,8 +16,9 @@ namespace {
 void draw(const Simulation& simulation, const render::Camera& camera, const Show& show,
           const FrameOutput& output, const std::filesystem::path& file) {
   render::Image image;
-  output.renderer.draw(
-      output.builder.build(simulation.world(), camera, simulation.contacts(), show), image);
+  output.renderer.draw(output.builder.build(simulation.world(), camera, simulation.contacts(),
+                                            output.fields.with_end(show)),
+                       image);
   base::write_file_atomically(file.string(), render::encode_png(image));
 }
 
@@ -40,10 +41,12 @@ void redraw_lost(Simulation& simulation, const FrameOutput& output, Progress& pr
       progress.show(fmt::format("stepping to the lost frame {}: t = {:.2f} s", frame,
                                 sim::time(simulation.world())));
       output.camera.see(simulation.world());
+      output.fields.see(simulation.world());
       simulation.advance_frame();
     }
     require_state(simulation, line, folder);
     const render::Camera camera = output.camera.at(simulation.world());
+    output.fields.see(simulation.world());
     draw(simulation, camera, output.pictures.show, output, folder.frame(frame));
     if (output.pictures.overlay) {
       draw(simulation, camera, *output.pictures.overlay, output, folder.overlay(frame));

@@ -77,7 +77,7 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
                    "bodies that sleep; "
                    "impulses=0.5: of 0.5 N s a metre), ghost (rest shapes), labels, "
                    "scale; one of strain, velocity, pressure as colours, which end at the "
-                   "picture's largest value or, as velocity=5, at a number")
+                   "largest value of the run so far or, as velocity=5, at a number")
       ->type_name("LIST");
   command
       ->add_option("--overlay", typed->overlay,

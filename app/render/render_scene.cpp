@@ -110,12 +110,14 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   const FrameBuilder builder(scene, start);
   RunCamera camera(scene, start, request.threads, request.on_divergence,
                    camera_events(scene, progress));
-  const FrameOutput output = {builder, camera, request.pictures, renderer, log};
+  FieldScale fields(request.pictures);
+  const FrameOutput output = {builder, camera, fields, request.pictures, renderer, log};
   if (log.finished()) {
     Simulation again(scene, start, request.threads, request.on_divergence);
     return redraw_lost(again, output, progress);
   }
   if (log.seen()) camera.go_on(*log.seen());
+  fields.go_on(log.fields_seen());
   log.append_launch(request.command_line, request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenes/loader/load_scene.h"
+#include "sim/inspect/closed_surface.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/potential/start_distance.h"

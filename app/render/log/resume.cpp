@@ -274,7 +274,8 @@ Continuation find_continuation(const RunFolder& folder, const JournalContents& j
     // The state is written after the line, so later lines may exist but no state for them.
     if (line.value("step", std::int64_t{-1}) != world->steps) continue;
     if (line.value("state_hash", "") != hex(sim::state_hash(*world))) break;
-    Continuation found{frame, *world, journal.ends[i], change(i + 1), seen_in(line)};
+    Continuation found{frame,         *world,        journal.ends[i],
+                       change(i + 1), seen_in(line), fields_in(line)};
     found.world.steps = (frame - 1) * steps_per_frame;
     return found;
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/picture/field_scale.h"
 #include "app/render/log/journal.h"
 #include "app/render/log/run_folder.h"
 #include "render/frame/camera.h"
@@ -38,7 +39,9 @@ struct Continuation {
   sim::World world;                 // at the frame before, or at the start
   std::uint64_t journal_bytes = 0;  // of the journal that hold
   std::string change;               // why the settings change here; empty: they do not
-  std::optional<render::ViewFit::Seen> seen = {};  // of the run up to `world`: see RunCamera
+  // Of the run up to `world`: see RunCamera and FieldScale.
+  std::optional<render::ViewFit::Seen> seen = {};
+  FieldScale::Seen fields_seen = {};
 };
 
 /// The last frame for which picture, journal and saved state agree, with all frames before it

@@ -28,6 +28,7 @@ RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity&
   next_frame_ = from.next_frame;
   world_ = std::move(from.world);
   seen_ = from.seen;
+  fields_seen_ = from.fields_seen;
 
   journal_.emplace(folder.journal(), from.journal_bytes);
   if (!old) journal_->append(header);

@@ -33,6 +33,8 @@ class RunLog {
   const sim::World& world() const { return world_; }
   /// What an automatic camera has seen of the run up to there; none: nothing but the start.
   const std::optional<render::ViewFit::Seen>& seen() const { return seen_; }
+  /// The greatest values up to there of what its pictures show as colours.
+  const FieldScale::Seen& fields_seen() const { return fields_seen_; }
 
   /// Each appends its line. They throw base::IoError.
   void append_launch(const std::vector<std::string>& command_line, int threads);
@@ -51,6 +53,7 @@ class RunLog {
   std::int64_t next_frame_ = 0;
   sim::World world_;
   std::optional<render::ViewFit::Seen> seen_;
+  FieldScale::Seen fields_seen_;
   std::vector<Json> lost_;
   std::optional<Journal> journal_;  // none: the run is finished
 };

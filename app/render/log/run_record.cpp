@@ -15,6 +15,7 @@
 #include "app/world/touch.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
+#include "sim/inspect/closed_surface.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 
@@ -107,6 +108,15 @@ std::optional<render::ViewFit::Seen> seen_in(const Json& line) {
   }
 }
 
+FieldScale::Seen fields_in(const Json& line) {
+  FieldScale::Seen seen;
+  const Json greatest = line.value("greatest_so_far", Json::object());
+  for (const auto& [field, value] : greatest.items()) {
+    if (value.is_number()) seen[field] = value.get<double>();
+  }
+  return seen;
+}
+
 Json divergence_line(const std::string& message) { return {{"diverged", message}}; }
 
 Json change_line(const Json& identity, const scenes::Scene& scene, std::int64_t from,
@@ -161,6 +171,7 @@ FrameState FrameRecorder::state(const Simulation& simulation, const FrameCamera&
                {"crossings", crossings_json(crossings)},
                {"camera", camera_json(camera.camera)}};
   if (camera.seen) line["seen"] = *camera.seen;
+  if (!camera.fields.empty()) line["greatest_so_far"] = camera.fields;
   if (!simulation.step_parts().empty()) line["step_parts"] = simulation.step_parts();
   const std::vector<sim::CrossingPair> deep = crossings_beyond_touch(world, crossings);
   const auto of_itself = [](const sim::CrossingPair& pair) { return pair.first == pair.second; };

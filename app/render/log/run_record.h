@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/picture/build_frame.h"
+#include "app/picture/field_scale.h"
 #include "app/render/log/journal.h"
 #include "app/terminal/frame_range.h"
 #include "app/world/simulation.h"
@@ -55,11 +56,15 @@ Json run_header(const Json& identity, const scenes::Scene& scene);
 struct FrameCamera {
   render::Camera camera;
   std::optional<render::ViewFit::Seen> seen;  // see RunCamera
+  FieldScale::Seen fields = {};
 };
 
 /// What an automatic camera had seen up to a frame's line, exactly as it was; none of another
 /// camera. Throws base::IoError when it cannot be read.
 std::optional<render::ViewFit::Seen> seen_in(const Json& line);
+
+/// The greatest values up to a frame's line of what its pictures show as colours.
+FieldScale::Seen fields_in(const Json& line);
 
 /// A line per time that the run is started or continued: where, when and how.
 Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);

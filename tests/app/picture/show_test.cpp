@@ -8,6 +8,7 @@
 #include "app/host/errors.h"
 #include "app/picture/build_frame.h"
 #include "app/picture/colour_field.h"
+#include "app/picture/field_scale.h"
 #include "app/picture/ghost.h"
 #include "app/world/build_world.h"
 #include "render/frame/check_frame.h"
@@ -114,6 +115,32 @@ TEST(ColourField, ColoursMeshesByTheLegend) {
   const render::Frame pressure = Made().frame("pressure");
   EXPECT_EQ(pressure.meshes[1].colours.at(0), pressure.meshes[1].colours.at(7));
   EXPECT_FALSE(Made().frame("ghost").legend);
+}
+
+TEST(FieldScale, OnlyGrowsAndIsThatOfTheRunSoFar) {
+  const Pictures pictures = {.show = parse_show("--show", "velocity"), .overlay = std::nullopt};
+  FieldScale whole(pictures), resumed(pictures);
+  Made made;
+  const auto tick = [&](const FieldScale& scale) {
+    return FrameBuilder(made.scene, made.world)
+        .build(made.world, {}, {}, scale.with_end(pictures.show))
+        .legend.value();
+  };
+  whole.see(made.world);
+  EXPECT_EQ(tick(whole).ticks.back().text, "5");
+  EXPECT_EQ(tick(whole).title, "speed, m/s, run so far");
+  for (const double factor : {3.0, 0.1}) {
+    sim::VertexArray& velocities = made.world.soft[0].velocities;
+    for (int v = 0; v < velocities.size(); ++v) velocities[v] = factor * Vec3(velocities[v]);
+    resumed.go_on(whole.seen());
+    whole.see(made.world);
+    resumed.see(made.world);
+    EXPECT_EQ(tick(whole).ticks.back().text, "20") << factor;
+    EXPECT_EQ(tick(resumed).ticks.back().text, "20") << factor;
+  }
+  // An end of its own stays.
+  const Show fixed = parse_show("--show", "velocity=7");
+  EXPECT_EQ(FieldScale({.show = fixed, .overlay = std::nullopt}).with_end(fixed).field_end, 7.0);
 }
 
 TEST(Caption, SaysWhatMarksMean) {

@@ -101,6 +101,19 @@ TEST_F(ResumeTest, SaysThatThereIsNothingToContinue) {
   }
 }
 
+TEST_F(ResumeTest, ColoursKeepTheScaleOfTheRunSoFar) {
+  ASSERT_EQ(render_into("whole", "--show velocity").exit_code, 0);
+  // The ball is fastest before it lands, at frame 6.
+  ASSERT_EQ(render("--show velocity", signalled_at(out() / "fall_00010.png", "INT")).exit_code,
+            130);
+  ASSERT_EQ(render("--show velocity --resume").exit_code, 0);
+  EXPECT_TRUE(pictures() == pictures("whole"));
+  ASSERT_EQ(render_into("part", "--show velocity --frames 12-14").exit_code, 0);
+  for (const auto& [name, bytes] : pictures("part")) {
+    EXPECT_TRUE(bytes == pictures("whole")[name]) << name;
+  }
+}
+
 TEST_F(ResumeTest, AnInterruptedRunSaysHowToGoOn) {
   const ProgramResult result = render(longer, signalled_at(out() / "fall_00010.png", "INT"));
   ASSERT_EQ(result.exit_code, 130) << result.output;
