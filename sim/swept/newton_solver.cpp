@@ -13,6 +13,8 @@ constexpr int max_shortenings = 12;
 constexpr double converged = 1e-12;
 /// Multiplications of a factorisation. A stack of some hundred boxes has fewer, a heap of 50 more.
 constexpr double most_work = 1e5;
+/// In place of its work: of a heap with so many impulses it is greater.
+constexpr std::size_t most_impulses = 1000;
 
 Mat3 inertia_of(const BoxChange& box) {
   Mat3 inverse;
@@ -30,6 +32,7 @@ LeverJacobian jacobian(const ContactLever& lever) {
 }  // namespace
 
 bool NewtonSolver::begin(std::span<SweptImpulse* const> impulses) {
+  if (impulses.size() > most_impulses) return false;
   impulses_ = impulses;
   nodes_.find(impulses);
   if (!is_small()) return false;
