@@ -23,6 +23,7 @@ RigidState SweptWarmStart::state(int box, Moment moment) const {
 }
 
 void SweptWarmStart::apply(Moment moment, double fraction) {
+  first_of_pair_ = m_.contacts.size();
   for (const WarmStartImpulse& kept : world_.warm_start_impulses) {
     if (kept.is_of_start != (moment == Moment::start)) continue;
     if (SweptImpulse* impulse = find(kept, moment)) impulse->warm_start(fraction * kept.impulse);
@@ -35,12 +36,17 @@ SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& kept, Moment moment) 
   double nearest = same_contact * world_.rigid[at(kept.first)].size.minCoeff();
   SweptImpulse* found = nullptr;
   const auto pair = in_order(m_.bodies.of_box(kept.first), m_.bodies.of_box(kept.second));
-  for (auto i = std::ranges::lower_bound(m_.contacts, pair, {}, bodies_of);
-       i != m_.contacts.end() && bodies_of(*i) == pair; ++i) {
-    const double distance = (i->first.point - point).norm();
+  // The impulses of a pair come one after the other.
+  if (first_of_pair_ >= m_.contacts.size() || bodies_of(m_.contacts[first_of_pair_]) != pair) {
+    const auto first = std::ranges::lower_bound(m_.contacts, pair, {}, bodies_of);
+    first_of_pair_ = static_cast<std::size_t>(first - m_.contacts.begin());
+  }
+  for (std::size_t i = first_of_pair_; i < m_.contacts.size() && bodies_of(m_.contacts[i]) == pair;
+       ++i) {
+    const double distance = (m_.contacts[i].first.point - point).norm();
     if (distance >= nearest) continue;
     nearest = distance;
-    found = &m_.impulses[static_cast<std::size_t>(i - m_.contacts.begin())];
+    found = &m_.impulses[i];
   }
   return found;
 }

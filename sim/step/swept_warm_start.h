@@ -32,6 +32,7 @@ class SweptWarmStart {
   World& world_;
   const MotionStart& start_;
   SweptMemory& m_;
+  std::size_t first_of_pair_ = 0;  // contact of the pair that was last looked for
 };
 
 }  // namespace pneuma::sim
