@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/collision/box_contact.h"
+#include "sim/collision/separating_axis.h"
 #include "sim/step/swept_search.h"
 
 namespace pneuma::sim {
@@ -43,16 +44,25 @@ double SweptSearch::greatest_relative_way(int first, int second) const {
   return of_first + of_second;
 }
 
+/// Boxes that are further apart than this (m), but too slow to meet.
+bool SweptSearch::stay_apart(const BodyPair& bodies, double near_boxes, const OrientedBox& one,
+                             const OrientedBox& other) const {
+  const auto [first, second] = bodies;
+  const double reach = near_distance(first, second) + bodies_.allowance(first) +
+                       bodies_.allowance(second) + greatest_relative_way(first, second);
+  return reach <= near_boxes && !find_min_overlap(one, other, near_boxes);
+}
+
 /// Whether the bodies are boxes that lie in each other, or are near each other and stay so: their
 /// contact says how deep they lie in each other, which features that have passed through each other
-/// cannot.
+/// cannot. Nothing is offered of boxes that stay apart.
 bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   const auto [first, second] = bodies;
   if (!bodies_.is_rigid(first) || !bodies_.is_rigid(second)) return false;
   const OrientedBox one = start_box(first), other = start_box(second);
   const double near_boxes = reach_of(one, other);
   const auto contact = find_box_contact_within(near_boxes, one, other);
-  if (!contact) return false;
+  if (!contact) return stay_apart(bodies, near_boxes, one, other);
   if (contact->depth < 0.0 && greatest_relative_way(first, second) > near_boxes) return false;
   for (int i = 0; i < contact->count; ++i) {
     const auto& [point, depth] = contact->all[at(i)];

@@ -184,6 +184,8 @@ class SweptSearch {
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);
+  bool stay_apart(const BodyPair& bodies, double near_boxes, const OrientedBox& one,
+                  const OrientedBox& other) const;
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;
   bool turn_into_each_other(SweptCandidate& first_point);
