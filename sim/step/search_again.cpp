@@ -115,12 +115,18 @@ void SweptSearch::search_beside_obstacles() {
   m_.candidates.insert(m_.candidates.end(), from, earlier.end());
 }
 
+/// Candidates of an earlier search know their contacts.
+bool SweptSearch::is_kept(const BodyPair& bodies) const {
+  return bodies.second != swept_ground && bodies_.is_as_searched(bodies);
+}
+
 /// The time is that of the candidates and contacts, times the logarithm of their number.
 void SweptSearch::recall_contacts() {
   if (m_.contacts.empty()) return;
   list_recalled();
   const auto key = [&](const RecalledContact& one) { return key_of(m_.contacts[at(one.first)]); };
   for (SweptCandidate& candidate : m_.candidates) {
+    if (is_kept(candidate.bodies)) continue;
     const auto found = std::ranges::lower_bound(m_.recalled, key_of(candidate), {}, key);
     if (found == m_.recalled.end() || key(*found) != key_of(candidate)) continue;
     candidate.contact = found->last;
@@ -129,14 +135,18 @@ void SweptSearch::recall_contacts() {
   put_back_missing();
 }
 
-/// The contacts that the same features have made are one entry, sorted by their names.
+/// Of the others the contacts that the same features have made are one entry, sorted by their
+/// names.
 void SweptSearch::list_recalled() {
   std::vector<RecalledContact>& all = m_.recalled;
   all.clear();
   m_.entry_of_contact.clear();
   for (int i = 0; i < static_cast<int>(m_.contacts.size()); ++i) {
-    const int previous = m_.contacts[at(i)].previous;
-    if (previous < 0) {
+    const SweptContact& contact = m_.contacts[at(i)];
+    const int previous = contact.previous;
+    if (is_kept({contact.first.body, contact.second.body})) {
+      m_.entry_of_contact.push_back(-1);
+    } else if (previous < 0) {
       m_.entry_of_contact.push_back(static_cast<int>(all.size()));
       all.push_back({i, i, false});
     } else {

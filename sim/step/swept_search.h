@@ -181,6 +181,7 @@ class SweptSearch {
   void wake_if_touched(const BodyPair& bodies);
   void search_ways();
   bool keep_earlier(const BodyPair& bodies);
+  bool is_kept(const BodyPair& bodies) const;
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);
