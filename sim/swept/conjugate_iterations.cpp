@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace pneuma::sim {
 namespace {
@@ -30,51 +29,85 @@ std::size_t next_colour(const SweptImpulse& impulse) {
 }  // namespace
 
 void ConjugateIterations::begin(std::span<SweptImpulse* const> impulses) {
-  sort_by_colour(impulses);
+  find_pairs(impulses);
   put_together();
+  find_moved_boxes(impulses);
 }
 
-/// Counting sort, in which impulses of one colour stay in their order.
-void ConjugateIterations::sort_by_colour(std::span<SweptImpulse* const> impulses) {
+/// Impulses of a pair that do not come one after the other are two pairs.
+void ConjugateIterations::find_pairs(std::span<SweptImpulse* const> impulses) {
   others_.clear();
-  coloured_.clear();
+  between_boxes_.clear();
+  pairs_.clear();
   for (SweptImpulse* impulse : impulses) {
     if (!impulse->is_of_boxes()) {
       others_.push_back(impulse);
       continue;
     }
-    coloured_.push_back({0, impulse});
-    for (BoxChange* box : boxes_of(*impulse)) {
-      if (box) box->colours = 0;
+    const auto boxes = boxes_of(*impulse);
+    if (between_boxes_.empty() || boxes_of(*between_boxes_.back()) != boxes) {
+      pairs_.push_back({.begin = between_boxes_.size()});
+      for (BoxChange* box : boxes) {
+        if (box) box->colours = 0;
+      }
     }
+    between_boxes_.push_back(impulse);
+    ++pairs_.back().count;
   }
-  std::array<std::size_t, max_colours + 2> begin{};
-  for (Coloured& one : coloured_) {
-    one.colour = next_colour(*one.impulse);
-    ++begin[one.colour + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  sorted_.resize(coloured_.size());
-  for (const Coloured& one : coloured_) sorted_[begin[one.colour]++] = one;
+  for (Pair& pair : pairs_) pair.colour = next_colour(*between_boxes_[pair.begin]);
+  std::ranges::sort(pairs_, {}, &Pair::order);
 }
 
 void ConjugateIterations::put_together() {
+  fours_.clear();
   of_boxes_.clear();
   std::size_t lane = 4, colour = 0;
-  for (const Coloured& one : sorted_) {
-    if (lane == 4 || one.colour != colour || colour == max_colours) {
-      of_boxes_.emplace_back();
+  for (const Pair& pair : pairs_) {
+    if (lane == 4 || pair.colour != colour || colour == max_colours) {
+      fours_.push_back({.begin = of_boxes_.size(), .end = of_boxes_.size() + pair.count});
+      fours_.back().first.fill(&nothing_);
+      fours_.back().second.fill(&nothing_);
+      of_boxes_.resize(fours_.back().end);
       lane = 0;
     }
-    colour = one.colour;
-    of_boxes_.back().set(lane++, *one.impulse);
+    colour = pair.colour;
+    add_pair(pair, lane++);
+  }
+}
+
+/// The first pair of four has the most impulses.
+void ConjugateIterations::add_pair(const Pair& pair, std::size_t lane) {
+  FourPairs& four = fours_.back();
+  const auto [first, second] = boxes_of(*between_boxes_[pair.begin]);
+  if (first) four.first[lane] = first;
+  if (second) four.second[lane] = second;
+  for (std::size_t i = 0; i < pair.count; ++i) {
+    of_boxes_[four.begin + i].set(lane, *between_boxes_[pair.begin + i]);
+  }
+}
+
+/// Their colours are not needed any more: they say which are not found yet.
+void ConjugateIterations::find_moved_boxes(std::span<SweptImpulse* const> impulses) {
+  for (const SweptImpulse* impulse : impulses) {
+    for (BoxChange* box : boxes_of(*impulse)) {
+      if (box) box->colours = 1;
+    }
+  }
+  moved_.clear();
+  for (const SweptImpulse* impulse : impulses) {
+    for (BoxChange* box : boxes_of(*impulse)) {
+      if (!box || box->colours == 0) continue;
+      box->colours = 0;
+      moved_.push_back({.box = box});
+    }
   }
 }
 
 double ConjugateIterations::correct(double tolerance, int max_iterations) {
   for (FourBoxImpulses& four : of_boxes_) four.begin();
   ways_.assign(others_.size(), {});
-  squared_before_ = 0.0;
+  for (Moved& moved : moved_) moved.direction = moved.turn = Vec4d{};
+  squared_before_ = ratio_ = 0.0;
   double greatest = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
     greatest = iterate();
@@ -86,8 +119,9 @@ double ConjugateIterations::correct(double tolerance, int max_iterations) {
 }
 
 double ConjugateIterations::iterate() {
+  note_velocities();
   FourBoxImpulses::Change change;
-  for (FourBoxImpulses& four : of_boxes_) four.correct(change);
+  correct_boxes(change);
   double squared = 0.0, greatest = 0.0;
   for (std::size_t lane = 0; lane < 4; ++lane) {
     squared = std::max(squared, change.squared_velocity[lane]);
@@ -103,14 +137,40 @@ double ConjugateIterations::iterate() {
   return std::max(greatest, std::sqrt(squared));
 }
 
-/// Fletcher and Reeves' ratio; where corrections grow, the directions are forgotten.
+void ConjugateIterations::correct_boxes(FourBoxImpulses::Change& change) {
+  for (const FourPairs& four : fours_) {
+    FourMotions first = FourMotions::of(four.first), second = FourMotions::of(four.second);
+    for (std::size_t i = four.begin; i < four.end; ++i) {
+      of_boxes_[i].correct(ratio_, first, second, change);
+    }
+    first.give_back(four.first);
+    second.give_back(four.second);
+  }
+}
+
+void ConjugateIterations::note_velocities() {
+  for (Moved& moved : moved_) {
+    moved.velocity = moved.box->velocity;
+    moved.angular_velocity = moved.box->angular_velocity;
+  }
+}
+
+/// Fletcher and Reeves' ratio; where corrections grow, the directions are forgotten. Boxes go on by
+/// what all impulses give them, so that of these only vertices need their own.
 void ConjugateIterations::go_on() {
   const bool grows = squared_ >= squared_before_;
-  const double ratio = grows ? 0.0 : squared_ / squared_before_;
-  for (FourBoxImpulses& four : of_boxes_) four.go_on(grows, ratio);
+  ratio_ = grows ? 0.0 : squared_ / squared_before_;
+  for (Moved& moved : moved_) {
+    BoxChange& box = *moved.box;
+    const Vec4d faster = ratio_ * moved.direction, turn = ratio_ * moved.turn;
+    moved.direction = faster + (box.velocity - moved.velocity);
+    moved.turn = turn + (box.angular_velocity - moved.angular_velocity);
+    box.velocity += faster;
+    box.angular_velocity += turn;
+  }
   for (std::size_t i = 0; i < others_.size(); ++i) {
-    const Vec4d more = ratio * ways_[i].direction;
-    if (!grows) others_[i]->exceed(more);
+    const Vec4d more = ratio_ * ways_[i].direction;
+    if (!grows) others_[i]->exceed_beside_boxes(more);
     ways_[i].direction = more + ways_[i].correction;
   }
   squared_before_ = squared_;

@@ -21,25 +21,35 @@ Vec3x4 along(const std::array<Vec3x4, 3>& axes, const FourBoxImpulses::ByAxis& p
   return {sum(&Vec3x4::x), sum(&Vec3x4::y), sum(&Vec3x4::z)};
 }
 
-/// Zero of what nothing moves.
-template <class Part>
-Vec3x4 read(const std::array<BoxChange*, 4>& boxes, Part BoxChange::*part) {
-  const auto row = [&](std::size_t i) { return boxes[i] ? boxes[i]->*part : Vec4d{}; };
-  return to_columns(row(0), row(1), row(2), row(3));
+Vec3x4 read(const std::array<BoxChange*, 4>& boxes, Vec4d BoxChange::*part) {
+  return to_columns(boxes[0]->*part, boxes[1]->*part, boxes[2]->*part, boxes[3]->*part);
 }
 
-void add(const Vec3x4& more, const std::array<BoxChange*, 4>& boxes, Vec4d BoxChange::*part) {
-  const std::array<Vec4d, 4> rows = to_rows(more);
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (boxes[i]) boxes[i]->*part += rows[i];
-  }
+void write(const Vec3x4& columns, const std::array<BoxChange*, 4>& boxes, Vec4d BoxChange::*part) {
+  const std::array<Vec4d, 4> rows = to_rows(columns);
+  for (std::size_t i = 0; i < 4; ++i) boxes[i]->*part = rows[i];
+}
+
+void add(const Vec3x4& more, Vec3x4& to) {
+  to.x += more.x;
+  to.y += more.y;
+  to.z += more.z;
 }
 
 }  // namespace
 
+FourMotions FourMotions::of(const std::array<BoxChange*, 4>& boxes) {
+  return {read(boxes, &BoxChange::velocity), read(boxes, &BoxChange::angular_velocity)};
+}
+
+void FourMotions::give_back(const std::array<BoxChange*, 4>& boxes) const {
+  write(velocity, boxes, &BoxChange::velocity);
+  write(angular_velocity, boxes, &BoxChange::angular_velocity);
+}
+
 void FourBoxImpulses::Side::set(std::size_t lane, const SweptSide& side, double sign,
                                 const std::array<Vec4d, 3>& axes) {
-  BoxChange* const box = boxes[lane] = side.box();
+  const BoxChange* const box = side.box();
   if (!box) return;
   inverse_mass[lane] = sign * box->inverse_mass;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -49,16 +59,13 @@ void FourBoxImpulses::Side::set(std::size_t lane, const SweptSide& side, double 
   }
 }
 
-Vec3x4 FourBoxImpulses::Side::velocity() const { return read(boxes, &BoxChange::velocity); }
-
-Vec3x4 FourBoxImpulses::Side::angular_velocity() const {
-  return read(boxes, &BoxChange::angular_velocity);
-}
-
-void FourBoxImpulses::Side::apply(const Vec3x4& whole, const ByAxis& impulse) const {
-  const Vec3x4 faster{inverse_mass * whole.x, inverse_mass * whole.y, inverse_mass * whole.z};
-  add(faster, boxes, &BoxChange::velocity);
-  add(along(turns, impulse), boxes, &BoxChange::angular_velocity);
+void FourBoxImpulses::Side::apply(const Vec3x4& whole, const ByAxis& impulse,
+                                  FourMotions& motions) const {
+  Vec3x4& velocity = motions.velocity;
+  velocity.x = fma(inverse_mass, whole.x, velocity.x);
+  velocity.y = fma(inverse_mass, whole.y, velocity.y);
+  velocity.z = fma(inverse_mass, whole.z, velocity.z);
+  add(along(turns, impulse), motions.angular_velocity);
 }
 
 void FourBoxImpulses::set(std::size_t lane, SweptImpulse& impulse) {
@@ -106,13 +113,14 @@ void FourBoxImpulses::end() const {
 
 /// As SweptImpulse's, with friction in two directions across the normal. What the normal impulse
 /// changes across it is added to what there was, so that friction need not wait for the boxes.
-void FourBoxImpulses::correct(Change& change) {
-  const Vec3x4 one = first_.velocity(), other = second_.velocity();
+void FourBoxImpulses::correct(double ratio, FourMotions& first, FourMotions& second,
+                              Change& change) {
+  go_on(ratio);
+  const Vec3x4 &one = first.velocity, &other = second.velocity;
   const Vec3x4 velocity{one.x - other.x, one.y - other.y, one.z - other.z};
-  const Vec3x4 first_spin = first_.angular_velocity(), second_spin = second_.angular_velocity();
   const auto slides = [&](std::size_t axis) {
-    return dots(axes_[axis], velocity) + dots(first_.levers[axis], first_spin) +
-           dots(second_.levers[axis], second_spin);
+    return dots(axes_[axis], velocity) + dots(first_.levers[axis], first.angular_velocity) +
+           dots(second_.levers[axis], second.angular_velocity);
   };
   const Vec4d tried = fma(parting_ - slides(0), normal_mass_, impulse_[0]);
   const Vec4d normal = min(max(tried, Vec4d{}), max_normal_);
@@ -132,7 +140,9 @@ void FourBoxImpulses::correct(Change& change) {
   }
   for (std::size_t i = 0; i < 3; ++i) correction_[i] = after[i] - impulse_[i];
   impulse_ = after;
-  apply(correction_);
+  const Vec3x4 whole = along(axes_, correction_);
+  first_.apply(whole, correction_, first);
+  second_.apply(whole, correction_, second);
   const Vec4d by_normal = given * mobility_, along_normal = given * given;
   const Vec4d across = fma(correction_[1], correction_[1], correction_[2] * correction_[2]);
   const Vec4d by_friction = across / (min_tangent_mass_ * min_tangent_mass_);
@@ -140,21 +150,12 @@ void FourBoxImpulses::correct(Change& change) {
   change.energy = fma(mobility_, along_normal + across, change.energy);
 }
 
-void FourBoxImpulses::go_on(bool grows, double ratio) {
-  ByAxis more;
+void FourBoxImpulses::go_on(double ratio) {
   for (std::size_t i = 0; i < 3; ++i) {
-    more[i] = ratio * direction_[i];
-    direction_[i] = more[i] + correction_[i];
+    const Vec4d more = ratio * direction_[i];
+    direction_[i] = more + correction_[i];
+    impulse_[i] += more;
   }
-  if (grows) return;
-  for (std::size_t i = 0; i < 3; ++i) impulse_[i] += more[i];
-  apply(more);
-}
-
-void FourBoxImpulses::apply(const ByAxis& impulse) const {
-  const Vec3x4 whole = along(axes_, impulse);
-  first_.apply(whole, impulse);
-  second_.apply(whole, impulse);
 }
 
 }  // namespace pneuma::sim

@@ -9,6 +9,15 @@
 
 namespace pneuma::sim {
 
+/// By how much four boxes have been changed, in lanes.
+struct FourMotions {
+  Vec3x4 velocity{};          // m/s
+  Vec3x4 angular_velocity{};  // rad/s
+
+  static FourMotions of(const std::array<BoxChange*, 4>& boxes);
+  void give_back(const std::array<BoxChange*, 4>& boxes) const;
+};
+
 class FourBoxImpulses {
  public:
   /// One for each axis: along the normal, and two across it.
@@ -20,33 +29,29 @@ class FourBoxImpulses {
     Vec4d energy{};            // J, the sum of the corrections, each by its mobility
   };
 
-  /// Refers to the impulse and to the changes of its boxes.
+  /// Refers to the impulse.
   void set(std::size_t lane, SweptImpulse& impulse);
   /// Takes over what the impulses aim at, their limits and what they are.
   void begin();
-  /// One projected Gauss-Seidel correction of each.
-  void correct(Change& change);
-  /// Goes on in the direction, `ratio` times as far as the last time and by the last correction
-  /// further. Unless `grows`: then the direction is forgotten.
-  void go_on(bool grows, double ratio);
+  /// First goes on in the direction, `ratio` times as far as the last time and by the last
+  /// correction further: the boxes have got their part of it (ConjugateIterations). Then one
+  /// projected Gauss-Seidel correction of each, which changes the motions of both sides.
+  void correct(double ratio, FourMotions& first, FourMotions& second, Change& change);
   /// Gives back what they are.
   void end() const;
 
  private:
   struct Side {
-    std::array<BoxChange*, 4> boxes{};
     Vec4d inverse_mass{};          // 1/kg; < 0 of the second side
     std::array<Vec3x4, 3> levers;  // m, by axes; turned round on the second side
     std::array<Vec3x4, 3> turns;   // rad/s, by one N s along each axis
 
     void set(std::size_t lane, const SweptSide& side, double sign,
              const std::array<Vec4d, 3>& axes);
-    Vec3x4 velocity() const;
-    Vec3x4 angular_velocity() const;
-    void apply(const Vec3x4& whole, const ByAxis& impulse) const;
+    void apply(const Vec3x4& whole, const ByAxis& impulse, FourMotions& motions) const;
   };
 
-  void apply(const ByAxis& impulse) const;
+  void go_on(double ratio);
 
   std::array<Vec3x4, 3> axes_{};
   Side first_{};

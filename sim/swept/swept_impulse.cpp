@@ -164,11 +164,12 @@ void SweptImpulse::replace_given(Vec4d given) {
   friction_impulse_ = friction;
 }
 
-void SweptImpulse::exceed(Vec4d impulse) {
+void SweptImpulse::exceed_beside_boxes(Vec4d impulse) {
   const double along = dot(impulse, normal_);
   normal_impulse_ += along;
   friction_impulse_ += impulse - along * normal_;
-  apply(impulse);
+  first_.apply_beside_boxes(impulse);
+  second_.apply_beside_boxes(-impulse);
 }
 
 void SweptImpulse::apply(Vec4d impulse) const {

@@ -53,6 +53,9 @@ class SweptSide {
     box_->velocity += box_->inverse_mass * impulse;
     box_->angular_velocity += box_->inverse_inertia * cross(arm_, impulse);
   }
+  void apply_beside_boxes(Vec4d impulse) const {
+    if (!box_) apply_to_vertices(impulse);
+  }
   /// The velocity in m/s along one axis that one N s along the other gives to the point, 1/kg.
   double mobility(Vec4d axis, Vec4d other) const;
 
@@ -118,8 +121,9 @@ class SweptImpulse {
   /// One projected Gauss-Seidel correction. Returns by how much the relative velocity changed, m/s.
   double correct();
 
-  /// Adds to the impulse (N s) whatever its limits, which hold again after the next correction.
-  void exceed(Vec4d impulse);
+  /// Adds to the impulse (N s) whatever its limits, which hold again after the next correction. To
+  /// vertices only: boxes are given it by the caller.
+  void exceed_beside_boxes(Vec4d impulse);
   /// N s on the first side, together with what was started from.
   Vec4d impulse() const { return normal_impulse_ * normal_ + friction_impulse_; }
   double mobility() const { return mobility_; }  // 1/kg, along the normal

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <deque>
 #include <random>
+#include <set>
 
 #include "sim/rigid/inertia.h"
 #include "sim/swept/conjugate_iterations.h"
@@ -199,6 +200,23 @@ TEST(ConjugateIterations, EndWithinTheLimits) {
       EXPECT_LE(impulse->friction_impulse().norm(), 0.5 * impulse->normal_impulse() + 1e-12);
     }
   }
+}
+
+/// Boxes go on by themselves, and their impulses too.
+TEST(ConjugateIterations, GiveBoxesTheMomentumOfTheImpulses) {
+  Stack stack(std::vector(20, 1.0));
+  iterate_conjugately(stack, 13);
+  std::set<const BoxChange*> boxes;
+  Vec3 momentum = Vec3::Zero(), given = Vec3::Zero();
+  for (const SweptImpulse* impulse : stack.impulses()) {
+    for (const SweptSide* side : {&impulse->first(), &impulse->second()}) {
+      if (!side->box() || !boxes.insert(side->box()).second) continue;
+      momentum += to_vec3(side->box()->velocity) / side->box()->inverse_mass;
+    }
+  }
+  for (const SweptImpulse* impulse : stack.impulses().first(4)) given += impulse->given();
+  EXPECT_GT(given.z(), 1.0);
+  EXPECT_LT((momentum - given).norm(), 1e-12 * given.z());
 }
 
 TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
