@@ -61,29 +61,33 @@ void ConjugateIterations::find_pairs(std::span<SweptImpulse* const> impulses) {
 void ConjugateIterations::put_together() {
   fours_.clear();
   of_boxes_.clear();
-  std::size_t lane = 4, colour = 0;
-  for (const Pair& pair : pairs_) {
-    if (lane == 4 || pair.colour != colour || colour == max_colours) {
-      fours_.push_back({.begin = of_boxes_.size(), .end = of_boxes_.size() + pair.count});
-      fours_.back().first.fill(&nothing_);
-      fours_.back().second.fill(&nothing_);
-      of_boxes_.resize(fours_.back().end);
-      lane = 0;
-    }
-    colour = pair.colour;
-    add_pair(pair, lane++);
+  for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
+    const std::size_t colour = pairs_[begin].colour, most = colour == max_colours ? 1 : 4;
+    while (end < pairs_.size() && end - begin < most && pairs_[end].colour == colour) ++end;
+    put_together(std::span(pairs_).subspan(begin, end - begin));
   }
 }
 
-/// The first pair of four has the most impulses.
-void ConjugateIterations::add_pair(const Pair& pair, std::size_t lane) {
-  FourPairs& four = fours_.back();
-  const auto [first, second] = boxes_of(*between_boxes_[pair.begin]);
-  if (first) four.first[lane] = first;
-  if (second) four.second[lane] = second;
-  for (std::size_t i = 0; i < pair.count; ++i) {
-    of_boxes_[four.begin + i].set(lane, *between_boxes_[pair.begin + i]);
+/// The first of these has the most impulses.
+void ConjugateIterations::put_together(std::span<const Pair> pairs) {
+  FourPairs& four = fours_.emplace_back();
+  four.first.fill(&nothing_);
+  four.second.fill(&nothing_);
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+    const auto [first, second] = boxes_of(*between_boxes_[pairs[lane].begin]);
+    if (first) four.first[lane] = first;
+    if (second) four.second[lane] = second;
   }
+  four.begin = of_boxes_.size();
+  for (std::size_t i = 0; i < pairs.front().count; ++i) {
+    std::array<SweptImpulse*, 4> impulses{};
+    for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+      const auto& [colour, begin, count] = pairs[lane];
+      if (i < count) impulses[lane] = between_boxes_[begin + i];
+    }
+    of_boxes_.emplace_back().set(impulses);
+  }
+  four.end = of_boxes_.size();
 }
 
 /// Their colours are not needed any more: they say which are not found yet.

@@ -54,7 +54,7 @@ class ConjugateIterations {
 
   void find_pairs(std::span<SweptImpulse* const> impulses);
   void put_together();
-  void add_pair(const Pair& pair, std::size_t lane);
+  void put_together(std::span<const Pair> pairs);
   void find_moved_boxes(std::span<SweptImpulse* const> impulses);
   double iterate();
   void correct_boxes(FourBoxImpulses::Change& change);

@@ -7,10 +7,22 @@ namespace {
 
 Vec4d dots(const Vec3x4& a, const Vec3x4& b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
 
-void set_lane(std::size_t lane, Vec4d vector, Vec3x4& of_all) {
-  of_all.x[lane] = vector[0];
-  of_all.y[lane] = vector[1];
-  of_all.z[lane] = vector[2];
+/// As those of single vectors, to the bit.
+Vec4d plain_dots(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+Vec3x4 crosses(const Vec3x4& a, const Vec3x4& b) {
+  return {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
+}
+
+Vec3x4 operator*(double factor, const Vec3x4& v) {
+  return {factor * v.x, factor * v.y, factor * v.z};
+}
+
+/// `part` of each in its lane, or zero where there is none.
+template <class One, class Part>
+Vec3x4 columns_of(const std::array<One*, 4>& all, const Part& part) {
+  const auto row = [&](std::size_t i) { return all[i] ? part(*all[i]) : Vec4d{}; };
+  return to_columns(row(0), row(1), row(2), row(3));
 }
 
 /// The sum over the axes.
@@ -47,15 +59,21 @@ void FourMotions::give_back(const std::array<BoxChange*, 4>& boxes) const {
   write(angular_velocity, boxes, &BoxChange::angular_velocity);
 }
 
-void FourBoxImpulses::Side::set(std::size_t lane, const SweptSide& side, double sign,
-                                const std::array<Vec4d, 3>& axes) {
-  const BoxChange* const box = side.box();
-  if (!box) return;
-  inverse_mass[lane] = sign * box->inverse_mass;
+void FourBoxImpulses::Side::set(const std::array<const SweptSide*, 4>& sides, double sign,
+                                const std::array<Vec3x4, 3>& axes) {
+  std::array<const BoxChange*, 4> boxes{};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    boxes[lane] = sides[lane] ? sides[lane]->box() : nullptr;
+    inverse_mass[lane] = boxes[lane] ? sign * boxes[lane]->inverse_mass : 0.0;
+  }
+  const auto column = [&](std::size_t k) {
+    return columns_of(boxes, [k](const BoxChange& box) { return box.inverse_inertia.columns[k]; });
+  };
+  const std::array inertia = {column(0), column(1), column(2)};
+  const Vec3x4 arms = columns_of(sides, [](const SweptSide& side) { return side.arm(); });
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec4d lever = sign * cross(side.arm(), axes[i]);
-    set_lane(lane, lever, levers[i]);
-    set_lane(lane, box->inverse_inertia * lever, turns[i]);
+    levers[i] = sign * crosses(arms, axes[i]);
+    turns[i] = along(inertia, {levers[i].x, levers[i].y, levers[i].z});
   }
 }
 
@@ -68,46 +86,60 @@ void FourBoxImpulses::Side::apply(const Vec3x4& whole, const ByAxis& impulse,
   add(along(turns, impulse), motions.angular_velocity);
 }
 
-void FourBoxImpulses::set(std::size_t lane, SweptImpulse& impulse) {
-  const std::array axes = {impulse.normal_, impulse.tangent_,
-                           cross(impulse.normal_, impulse.tangent_)};
-  for (std::size_t i = 0; i < 3; ++i) set_lane(lane, axes[i], axes_[i]);
-  first_.set(lane, impulse.first_, 1.0, axes);
-  second_.set(lane, impulse.second_, -1.0, axes);
-  normal_mass_[lane] = impulse.normal_mass_;
-  min_tangent_mass_[lane] = impulse.min_tangent_mass_;
-  mobility_[lane] = impulse.mobility_;
-  friction_[lane] = impulse.friction_;
-  impulses_[lane] = &impulse;
-}
-
-void FourBoxImpulses::begin() {
+void FourBoxImpulses::set(const std::array<SweptImpulse*, 4>& impulses) {
+  impulses_ = impulses;
+  axes_[0] = columns_of(impulses, [](const SweptImpulse& one) { return one.normal_; });
+  axes_[1] = columns_of(impulses, [](const SweptImpulse& one) { return one.tangent_; });
+  axes_[2] = crosses(axes_[0], axes_[1]);
+  std::array<const SweptSide*, 4> first{}, second{};
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const SweptImpulse* const impulse = impulses[lane];
+    if (!impulse) continue;
+    first[lane] = &impulse->first_;
+    second[lane] = &impulse->second_;
+    normal_mass_[lane] = impulse->normal_mass_;
+    min_tangent_mass_[lane] = impulse->min_tangent_mass_;
+    mobility_[lane] = impulse->mobility_;
+    friction_[lane] = impulse->friction_;
+  }
+  first_.set(first, 1.0, axes_);
+  second_.set(second, -1.0, axes_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     by_normal_[axis] =
         dots(first_.levers[axis], first_.turns[0]) + dots(second_.levers[axis], second_.turns[0]);
-    direction_[axis] = correction_[axis] = Vec4d{};
   }
+}
+
+void FourBoxImpulses::begin() {
+  direction_ = correction_ = ByAxis{};
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const SweptImpulse* const impulse = impulses_[lane];
     if (!impulse) continue;
     parting_[lane] = impulse->parting_;
     max_normal_[lane] = impulse->max_normal_;
     impulse_[0][lane] = impulse->normal_impulse_;
-    const Vec4d tangent = impulse->tangent_, other = cross(impulse->normal_, tangent);
-    sliding_[1][lane] = dot(impulse->sliding_, tangent);
-    sliding_[2][lane] = dot(impulse->sliding_, other);
-    impulse_[1][lane] = dot(impulse->friction_impulse_, tangent);
-    impulse_[2][lane] = dot(impulse->friction_impulse_, other);
+  }
+  const Vec3x4 sliding =
+      columns_of(impulses_, [](const SweptImpulse& one) { return one.sliding_; });
+  const Vec3x4 friction =
+      columns_of(impulses_, [](const SweptImpulse& one) { return one.friction_impulse_; });
+  for (const std::size_t axis : {1, 2}) {
+    sliding_[axis] = plain_dots(sliding, axes_[axis]);
+    impulse_[axis] = plain_dots(friction, axes_[axis]);
   }
 }
 
 void FourBoxImpulses::end() const {
+  const auto part = [&](Vec4d Vec3x4::*k) {
+    return impulse_[1] * axes_[1].*k + impulse_[2] * axes_[2].*k;
+  };
+  const std::array<Vec4d, 4> friction =
+      to_rows({part(&Vec3x4::x), part(&Vec3x4::y), part(&Vec3x4::z)});
   for (std::size_t lane = 0; lane < 4; ++lane) {
     SweptImpulse* const impulse = impulses_[lane];
     if (!impulse) continue;
     impulse->normal_impulse_ = impulse_[0][lane];
-    const Vec4d tangent = impulse->tangent_, other = cross(impulse->normal_, tangent);
-    impulse->friction_impulse_ = impulse_[1][lane] * tangent + impulse_[2][lane] * other;
+    impulse->friction_impulse_ = friction[lane];
   }
 }
 

@@ -29,8 +29,8 @@ class FourBoxImpulses {
     Vec4d energy{};            // J, the sum of the corrections, each by its mobility
   };
 
-  /// Refers to the impulse.
-  void set(std::size_t lane, SweptImpulse& impulse);
+  /// Refers to the impulses; null where there is none.
+  void set(const std::array<SweptImpulse*, 4>& impulses);
   /// Takes over what the impulses aim at, their limits and what they are.
   void begin();
   /// First goes on in the direction, `ratio` times as far as the last time and by the last
@@ -46,8 +46,8 @@ class FourBoxImpulses {
     std::array<Vec3x4, 3> levers;  // m, by axes; turned round on the second side
     std::array<Vec3x4, 3> turns;   // rad/s, by one N s along each axis
 
-    void set(std::size_t lane, const SweptSide& side, double sign,
-             const std::array<Vec4d, 3>& axes);
+    void set(const std::array<const SweptSide*, 4>& sides, double sign,
+             const std::array<Vec3x4, 3>& axes);
     void apply(const Vec3x4& whole, const ByAxis& impulse, FourMotions& motions) const;
   };
 
