@@ -101,6 +101,7 @@ class SweptStep {
       bodies_.set_start(world_, start());
       bodies_.set_end(world_);
       search_.find_candidates();
+      if (!m_.touched_asleep.empty()) return;
       bodies_.begin_at_start(world_, start());
       const bool fell = let_carried_boxes_fall();
       const bool shifted = shift_near_boxes(world_, m_, search_, fraction_);
