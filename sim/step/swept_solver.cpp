@@ -19,6 +19,11 @@ constexpr double penalty_growth = 30.0;
 /// In place of a node: of contacts with what sleeps, which will be woken and the step done again.
 constexpr int nothing_moves = -1;
 
+/// What is left on soft bodies shakes what they carry.
+bool are_all_of_boxes(std::span<SweptImpulse* const> impulses) {
+  return std::ranges::all_of(impulses, &SweptImpulse::is_of_boxes);
+}
+
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
   return impulse.first().moves() ? contact.first.body : contact.second.body;
 }
@@ -104,39 +109,43 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
 }
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-                        double tolerance, std::size_t first_new) {
+                        double tolerance, std::size_t first_new, double left) {
   divide(contacts, impulses, first_new);
   for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
-    if (patches_[i].is_new) solve_patch(i, tolerance);
+    if (patches_[i].is_new) solve_patch(i, tolerance, left);
   }
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {
   for (std::size_t i = island_begin_[at(island)]; i < island_begin_[at(island) + 1]; ++i) {
-    solve_patch(i, tolerance);
+    solve_patch(i, tolerance, 0.0);
   }
 }
 
-void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
+void SweptSolver::solve_patch(std::size_t patch, double tolerance, double left) {
   const auto& [begin, is_new, has_boxes] = patches_[patch];
   const std::size_t size = patches_[patch + 1].begin - begin;
   const std::span<SweptImpulse* const> impulses = std::span(ordered_).subspan(begin, size);
   if (has_boxes) {
-    solve_with_boxes(impulses, tolerance);
+    solve_with_boxes(impulses, tolerance, left);
   } else {
     const std::span<const ImpulseNodes> nodes = std::span(nodes_).subspan(begin, size);
     gauss_seidel_.correct(impulses, nodes, tolerance, many_iterations);
   }
 }
 
-void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
+void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance,
+                                   double left) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);
   if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
+  const bool may_leave = left > 0.0 && are_all_of_boxes(impulses);
+  const double enough =
+      may_leave ? std::max(tolerance, left * iterations_.first_change()) : tolerance;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {
-      iterations_.correct(tolerance, many_iterations - few_iterations);
+      iterations_.correct(enough, many_iterations - few_iterations);
       return;
     }
     if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
