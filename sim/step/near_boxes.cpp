@@ -3,6 +3,7 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/separating_axis.h"
+#include "sim/step/shift_boxes.h"
 #include "sim/step/swept_search.h"
 
 namespace pneuma::sim {
@@ -137,15 +138,34 @@ SweptContact SweptSearch::move_to_end(const SweptCandidate& candidate) const {
   return contact;
 }
 
-void SweptSearch::find_contacts_of_boxes() {
-  m_.contacts.clear();
+template <class Visit>
+void SweptSearch::for_each_of_boxes(const Visit& visit) const {
   for (const SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
     const bool on_ground = second == swept_ground && bodies_.is_rigid(first);
     if (!candidate.is_of_near_boxes && !on_ground) continue;
-    m_.contacts.push_back(on_ground ? place_on_ground(candidate, Moment::start)
-                                    : place(candidate, candidate.start, Moment::start));
+    const double distance = on_ground
+                                ? bodies_.surface(first).start[candidate.features.first.index].z()
+                                : candidate.start.distance;
+    visit(candidate, missing_distance(distance_wanted(first, second), distance));
   }
+}
+
+double SweptSearch::greatest_missing_of_boxes() const {
+  double greatest = 0.0;
+  for_each_of_boxes(
+      [&](const SweptCandidate&, double missing) { greatest = std::max(greatest, missing); });
+  return greatest;
+}
+
+void SweptSearch::find_contacts_of_boxes(double room) {
+  m_.contacts.clear();
+  for_each_of_boxes([&](const SweptCandidate& candidate, double missing) {
+    if (missing < -room) return;
+    m_.contacts.push_back(candidate.is_of_near_boxes
+                              ? place(candidate, candidate.start, Moment::start)
+                              : place_on_ground(candidate, Moment::start));
+  });
 }
 
 /// Of soft bodies the side does not give way: they are not shifted.

@@ -14,22 +14,21 @@ constexpr double max_shift = 0.05;
 constexpr double min_shift = 0.02;
 /// Of the greatest shift: to a hundredth of this they are solved for, as velocities of boxes are.
 constexpr double shift_tolerance = 0.5;
+/// Of the greatest shift: where there is more room no shift of others takes it.
+constexpr double room_for_shifts = 20.0;
 
 /// Solves for the shifts as changes of the boxes. Whether any is worth one.
 bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
-  search.find_contacts_of_boxes();
-  const auto shift = [&](const SweptContact& contact) {
-    return std::min(made_up_per_step * missing_distance(contact), fraction * max_shift);
+  const auto shift = [&](double missing) {
+    return std::min(made_up_per_step * missing, fraction * max_shift);
   };
-  double greatest = 0.0;
-  for (const SweptContact& contact : memory.contacts) {
-    greatest = std::max(greatest, shift(contact));
-  }
+  const double greatest = shift(search.greatest_missing_of_boxes());
   if (greatest < min_shift * memory.bodies.thinnest_skin()) return false;
+  search.find_contacts_of_boxes(room_for_shifts * greatest);
   memory.impulses.clear();
   for (const SweptContact& contact : memory.contacts) {
     memory.impulses.push_back(search.impulse(contact, 0.0));
-    memory.impulses.back().aim(shift(contact), Vec3::Zero());
+    memory.impulses.back().aim(shift(missing_distance(contact)), Vec3::Zero());
   }
   const std::size_t of_boxes = memory.contacts.size();
   search.find_contacts_beside_boxes(fraction * max_shift);

@@ -133,9 +133,11 @@ class SweptSearch {
   void follow_ends();
   /// The contacts that the free motion would use up.
   void start();
-  /// Fills the memory's contacts and impulses with those that keep boxes from being shifted into
-  /// each other or into the ground.
-  void find_contacts_of_boxes();
+  /// m, that near boxes, or a box and the ground, lack at most of the distance that shifts keep.
+  double greatest_missing_of_boxes() const;
+  /// Fills the memory's contacts with those that keep boxes from being shifted into each other or
+  /// into the ground: where there is no more than this `room` (m) between them.
+  void find_contacts_of_boxes(double room);
   /// Adds to these what keeps boxes from being shifted, by `reach` (m) at most, into soft bodies.
   void find_contacts_beside_boxes(double reach);
   /// Adds to the contacts what bodies would pass through on their ways as they came out. Whether
@@ -187,6 +189,10 @@ class SweptSearch {
   bool offer_near_boxes(const BodyPair& bodies);
   bool stay_apart(const BodyPair& bodies, double near_boxes, const OrientedBox& one,
                   const OrientedBox& other) const;
+  /// `visit(candidate, missing)` of near boxes, and of boxes and the ground: with what they lack of
+  /// the distance that shifts keep, m.
+  template <class Visit>
+  void for_each_of_boxes(const Visit& visit) const;
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;
   bool turn_into_each_other(SweptCandidate& first_point);
