@@ -45,13 +45,13 @@ double SweptSearch::greatest_relative_way(int first, int second) const {
   return of_first + of_second;
 }
 
-/// Boxes that are further apart than this (m), but too slow to meet.
-bool SweptSearch::stay_apart(const BodyPair& bodies, double near_boxes, const OrientedBox& one,
+/// Boxes that are too far apart to touch, and too slow.
+bool SweptSearch::stay_apart(const BodyPair& bodies, const OrientedBox& one,
                              const OrientedBox& other) const {
   const auto [first, second] = bodies;
   const double reach = near_distance(first, second) + bodies_.allowance(first) +
                        bodies_.allowance(second) + greatest_relative_way(first, second);
-  return reach <= near_boxes && !find_min_overlap(one, other, near_boxes);
+  return !find_min_overlap(one, other, reach);
 }
 
 /// Whether the bodies are boxes that lie in each other, or are near each other and stay so: their
@@ -63,7 +63,7 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   const OrientedBox one = start_box(first), other = start_box(second);
   const double near_boxes = reach_of(one, other);
   const auto contact = find_box_contact_within(near_boxes, one, other);
-  if (!contact) return stay_apart(bodies, near_boxes, one, other);
+  if (!contact) return stay_apart(bodies, one, other);
   if (contact->depth < 0.0 && greatest_relative_way(first, second) > near_boxes) return false;
   for (int i = 0; i < contact->count; ++i) {
     const auto& [point, depth] = contact->all[at(i)];

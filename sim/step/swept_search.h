@@ -187,8 +187,7 @@ class SweptSearch {
   void find_near_ground();
   bool may_touch(const BodyPair& bodies) const;
   bool offer_near_boxes(const BodyPair& bodies);
-  bool stay_apart(const BodyPair& bodies, double near_boxes, const OrientedBox& one,
-                  const OrientedBox& other) const;
+  bool stay_apart(const BodyPair& bodies, const OrientedBox& one, const OrientedBox& other) const;
   /// `visit(candidate, missing)` of near boxes, and of boxes and the ground: with what they lack of
   /// the distance that shifts keep, m.
   template <class Visit>
