@@ -1,5 +1,7 @@
 // The part of SweptSearch that sees two boxes near each other as boxes, not by their features.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/separating_axis.h"
@@ -30,19 +32,21 @@ OrientedBox SweptSearch::start_box(int body) const {
 
 /// m, of a corner of one box against one of another, at most: the same motion of both is left out.
 double SweptSearch::greatest_relative_way(int first, int second) const {
-  const auto way = [&](int body, int corner) {
-    const MovingSurface& surface = bodies_.surface(body);
-    return Vec3(surface.end[corner] - surface.start[corner]);
-  };
+  const MovingSurface &one = bodies_.surface(first), &other = bodies_.surface(second);
   constexpr int corners = 8;
+  std::array<Vec3, corners> of_one, of_other;
   Vec3 mean = Vec3::Zero();
-  for (int i = 0; i < corners; ++i) mean += (way(first, i) + way(second, i)) / (2.0 * corners);
-  double of_first = 0.0, of_second = 0.0;
   for (int i = 0; i < corners; ++i) {
-    of_first = std::max(of_first, (way(first, i) - mean).norm());
-    of_second = std::max(of_second, (way(second, i) - mean).norm());
+    of_one[at(i)] = one.end[i] - one.start[i];
+    of_other[at(i)] = other.end[i] - other.start[i];
+    mean += (of_one[at(i)] + of_other[at(i)]) / (2.0 * corners);
   }
-  return of_first + of_second;
+  double squared_of_one = 0.0, squared_of_other = 0.0;
+  for (int i = 0; i < corners; ++i) {
+    squared_of_one = std::max(squared_of_one, (of_one[at(i)] - mean).squaredNorm());
+    squared_of_other = std::max(squared_of_other, (of_other[at(i)] - mean).squaredNorm());
+  }
+  return std::sqrt(squared_of_one) + std::sqrt(squared_of_other);
 }
 
 /// Boxes that are too far apart to touch, and too slow.

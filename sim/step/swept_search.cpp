@@ -48,6 +48,7 @@ void SweptSearch::find_candidates() {
 void SweptSearch::search_ways() {
   m_.candidates.clear();
   are_beside_obstacles_ = false;
+  next_earlier_ = 0;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
     if (!may_touch(pair)) continue;
@@ -71,16 +72,19 @@ void SweptSearch::wake_if_touched(const BodyPair& bodies) {
   }
 }
 
-/// Of boxes whose ways still end where an earlier search of the step allowed for.
+/// Of boxes whose ways still end where an earlier search of the step allowed for. Pairs are asked
+/// for in the order of the candidates.
 bool SweptSearch::keep_earlier(const BodyPair& bodies) {
-  if (m_.earlier_candidates.empty() || !bodies_.is_as_searched(bodies)) return false;
-  const auto bodies_of = [](const SweptCandidate& earlier) {
-    return in_order(earlier.bodies.first, earlier.bodies.second);
+  const std::vector<SweptCandidate>& earlier = m_.earlier_candidates;
+  if (earlier.empty() || !bodies_.is_as_searched(bodies)) return false;
+  const auto bodies_of_next = [&] { return earlier[next_earlier_].bodies; };
+  const auto is_before = [&](const BodyPair& one) {
+    return in_order(one.first, one.second) < in_order(bodies.first, bodies.second);
   };
-  const auto key = in_order(bodies.first, bodies.second);
-  m_.candidates.insert(m_.candidates.end(),
-                       std::ranges::lower_bound(m_.earlier_candidates, key, {}, bodies_of),
-                       std::ranges::upper_bound(m_.earlier_candidates, key, {}, bodies_of));
+  while (next_earlier_ < earlier.size() && is_before(bodies_of_next())) ++next_earlier_;
+  while (next_earlier_ < earlier.size() && bodies_of_next() == bodies) {
+    m_.candidates.push_back(earlier[next_earlier_++]);
+  }
   return true;
 }
 

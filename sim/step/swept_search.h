@@ -231,6 +231,7 @@ class SweptSearch {
   std::optional<BodyPair> blocked_;
   bool has_started_ = false;           // the contacts of the start are found
   bool are_beside_obstacles_ = false;  // any candidates
+  std::size_t next_earlier_ = 0;       // of the candidates of the search before
 };
 
 }  // namespace pneuma::sim
