@@ -11,6 +11,8 @@ constexpr int few_iterations = 20;
 constexpr int many_iterations = 50;
 /// What is left makes a stack tremble.
 constexpr double tolerance_of_boxes = 0.01;
+/// Times the tolerance: what is changed by more does not rest yet.
+constexpr double blow = 1000.0;
 /// Each call to Newton's method with so many times the penalty of the one before.
 constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
@@ -138,10 +140,12 @@ void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, doub
                                    double left) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);
-  if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
+  const double change = iterations_.correct(of_boxes, few_iterations);
+  if (change <= of_boxes) return;
+  const double first_change = iterations_.first_change();
   const bool may_leave = left > 0.0 && are_all_of_boxes(impulses);
-  const double enough =
-      may_leave ? std::max(tolerance, left * iterations_.first_change()) : tolerance;
+  const double enough = may_leave ? std::max(tolerance, left * first_change) : tolerance;
+  if (may_leave && first_change > blow * tolerance && change <= enough) return;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/mesh/primitives.h"
 #include "tests/support/worlds.h"
 
@@ -80,6 +82,67 @@ TEST(SweptSolver, SolvesAgainForWhatHasOne) {
   ball.solve(1);
   EXPECT_EQ(ball.impulse(0), 0.0);
   EXPECT_NEAR(ball.impulse(1), 3.0 * ball.vertex_mass(), 1e-9);
+}
+
+/// Cubes on each other and on the ground, all of which fall at 1 m/s.
+class FallingTower {
+ public:
+  explicit FallingTower(int cubes) : world_(make_world(cubes)), bodies_(world_), solver_(bodies_) {
+    bodies_.begin_at_end(world_);
+    for (int i = 0; i < cubes; ++i) {
+      for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) add(i, {x, y, 2.0 * i});
+      }
+    }
+  }
+
+  /// Returns by how much, m/s, a correction more would change a velocity at most.
+  double left_after_solving(double tolerance, double left) {
+    solver_.solve(contacts_, impulses_, tolerance, 0, left);
+    double greatest = 0.0;
+    for (SweptImpulse& impulse : impulses_) greatest = std::max(greatest, impulse.correct());
+    return greatest;
+  }
+
+ private:
+  static World make_world(int cubes) {
+    World world;
+    for (int i = 0; i < cubes; ++i) {
+      world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 1.0 + 2.0 * i}, 1.0));
+    }
+    return world;
+  }
+
+  void add(int cube, const Vec3& point) {
+    SweptContact contact;
+    contact.first = {cube, {}, {}, point};
+    contact.second = {cube == 0 ? swept_ground : cube - 1, {}, {}, point};
+    contact.normal = Vec3::UnitZ();
+    contacts_.push_back(contact);
+    impulses_.emplace_back(bodies_.side(world_, contact.first),
+                           bodies_.side(world_, contact.second), contact.normal, 0.0);
+    impulses_.back().aim(cube == 0 ? 1.0 : 0.0, Vec3::Zero());
+  }
+
+  World world_;
+  SweptBodies bodies_;
+  SweptSolver solver_;
+  std::vector<SweptContact> contacts_;
+  std::vector<SweptImpulse> impulses_;
+};
+
+TEST(SweptSolver, LeavesAPartOfABlowIfItMay) {
+  constexpr double tolerance = 1e-5;
+  EXPECT_LT(FallingTower(30).left_after_solving(tolerance, 0.0), tolerance);
+  const double left = FallingTower(30).left_after_solving(tolerance, 0.5);
+  EXPECT_GT(left, tolerance);
+  EXPECT_LT(left, 0.5);
+}
+
+/// By less than 1000 times the tolerance it is none.
+TEST(SweptSolver, LeavesNothingOfWhatIsNoBlow) {
+  constexpr double tolerance = 2e-3;
+  EXPECT_LT(FallingTower(30).left_after_solving(tolerance, 0.5), 0.1 * tolerance);
 }
 
 }  // namespace
