@@ -106,6 +106,10 @@ TEST(RandomWorldsByPotential, NeverCrossAndGainNoEnergy) {
   for (unsigned seed = 0; seed < 6; ++seed) expect_no_crossing_and_no_energy_gained(seed);
 }
 
+TEST(HundredRandomWorldsByPotential, NeverCrossAndGainNoEnergy) {
+  for (unsigned seed = 6; seed < 100; ++seed) expect_no_crossing_and_no_energy_gained(seed);
+}
+
 TEST(ManyRandomWorldsByPotential, NeverCrossAndGainNoEnergy) {
   for (unsigned seed = 100; seed < 1100; ++seed) expect_no_crossing_and_no_energy_gained(seed);
 }
