@@ -123,7 +123,7 @@ void FourBoxImpulses::begin() {
       columns_of(impulses_, [](const SweptImpulse& one) { return one.sliding_; });
   const Vec3x4 friction =
       columns_of(impulses_, [](const SweptImpulse& one) { return one.friction_impulse_; });
-  for (const std::size_t axis : {1, 2}) {
+  for (std::size_t axis = 1; axis < 3; ++axis) {
     sliding_[axis] = plain_dots(sliding, axes_[axis]);
     impulse_[axis] = plain_dots(friction, axes_[axis]);
   }
