@@ -1,11 +1,12 @@
 // Small motions of all bodies of a world together, of which some touch, with contact as a
 // potential:
 //
-//   M u'' = -K u - D u',   K = d^2(E + B)/dx^2,   D = dashpots, drag, friction and restitution.
+//   M u'' = -K u - D u',   K = d^2(E + B)/dx^2,   D = dashpots, drag and friction.
 //
-// E is the energy of springs, hinges and gas, B the contact potential (contact_potential.h). Within
-// the regularisation speed v_0 friction and restitution act as dashpots: of 2 mu lambda / v_0 along
-// a surface that pushes with lambda. Free boxes move and turn.
+// E is the energy of springs, hinges and gas, B the contact potential (contact_potential.h). Well
+// below the regularisation speed v_0 friction acts as a dashpot of 2 mu lambda / v_0 along a
+// surface that pushes with lambda; restitution acts on what parts, and vanishes with its speed.
+// Free boxes move and turn.
 //
 // Explicit integrators are stable on the fastest of these motions up to a longest step, which
 // stability_limit finds. What is hit hard is stiffer than what lies still.
