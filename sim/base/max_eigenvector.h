@@ -42,6 +42,13 @@ Eigen::VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
     if (!(off_diagonal[used - 1] > 1e-12 * std::abs(diagonal.head(used).maxCoeff()))) break;
     next /= off_diagonal[used - 1];
   }
+  // Scaled: the solver takes an entry for zero whose square is small beside the diagonal, so that
+  // of large numbers none ever is.
+  const double scale = diagonal.head(used).cwiseAbs().maxCoeff();
+  if (scale > 0.0) {
+    diagonal /= scale;
+    off_diagonal /= scale;
+  }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(diagonal.head(used), off_diagonal.head(used - 1));
   return basis.leftCols(used) * solver.eigenvectors().col(used - 1);

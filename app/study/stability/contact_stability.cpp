@@ -24,7 +24,7 @@ constexpr int steps_between_rests = 15;
 /// Of a plate: its thickness over its width, so that it lies on a ball without tipping.
 constexpr double plate_thickness = 0.1;
 
-constexpr double moved_by = 1e-12;  // m
+constexpr double moved_by = 1e-9;  // m
 /// Times that: what grows by 0.6 % a step. What has no friction to hold it rolls over slowly, by a
 /// factor e in some seconds, and takes longer to part.
 constexpr double parted_by = 10.0;

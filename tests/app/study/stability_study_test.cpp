@@ -160,7 +160,7 @@ TEST(ContactStability, FindsWhatIsPredicted) {
   const scenes::Scene scene = scenes::load_scene(find_scene("one_sphere"));
   ContactStabilityOptions options;
   options.stiffness = {10.0};
-  options.mass_ratio = {0.1};
+  options.mass_ratio = {0.01};  // heavier plates creep
   options.rates = {120};
   options.seconds = 0.5;
   const std::vector<ContactStabilityPoint> points =
@@ -175,13 +175,8 @@ TEST(ContactStability, FindsWhatIsPredicted) {
       continue;
     }
     // Lanczos' vectors, bisection to 1 %, and a motion that grows too slowly for 400 steps.
-    ASSERT_TRUE(point.stable_step) << point.varied;
-    const double ratio = *point.stable_step / *point.predicted_step;
-    EXPECT_GT(ratio, 0.97) << point.varied;
-    // A plate creeps, and friction is less stiff then than at rest.
-    if (point.varied != "mass ratio") {
-      EXPECT_LT(ratio, 1.03);
-    }
+    ASSERT_TRUE(point.stable_step) << point.varied << ", " << integrator_name(point.integrator);
+    EXPECT_NEAR(*point.stable_step / *point.predicted_step, 1.0, 0.03) << point.varied;
   }
   EXPECT_NE(contact_stability_text("one_sphere", points).find("mass ratio"), std::string::npos);
 }

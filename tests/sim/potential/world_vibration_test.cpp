@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <vector>
 
 #include "sim/potential/explicit_world_step.h"
 #include "sim/soft/explicit_step.h"
@@ -84,6 +85,22 @@ TEST(WorldVibration, TheFastestIsThatOfTheGreatestEigenvalue) {
     // The regularised friction's slope falls from zero speed on: by 1e-4 where it is differenced.
     const double damped = equation.greatest_eigenvalue(true);
     EXPECT_NEAR(motions.fastest(1e9).decay / damped, 1.0, 0.01) << friction;
+  }
+}
+
+// Of all that are found for other weights, none is faster.
+TEST(WorldVibration, IsTheFastestForEveryWeight) {
+  const World world = resting_balls(0.4);
+  WorldVibration motions(world);
+  std::vector<double> weights;
+  for (int i = 0; i <= 60; ++i) weights.push_back(std::pow(10.0, 0.1 * i));
+  std::vector<Oscillation> found;
+  for (const double weight : weights) found.push_back(motions.fastest(weight));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto rate = [&](const Oscillation& one) {
+      return one.squared_frequency + weights[i] * one.decay;
+    };
+    for (const Oscillation& other : found) EXPECT_GT(rate(found[i]), 0.99 * rate(other));
   }
 }
 
