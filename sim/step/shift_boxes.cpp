@@ -14,7 +14,8 @@ constexpr double max_shift = 0.05;
 constexpr double min_shift = 0.02;
 /// Of the greatest shift: to a hundredth of this they are solved for, as velocities of boxes are.
 constexpr double shift_tolerance = 0.5;
-/// Of the greatest shift: where there is more room no shift of others takes it.
+/// Of the greatest shift: contacts with more room are left out. Only the shifts of a chain of more
+/// boxes than that, all of them sunk alike, could take it.
 constexpr double room_for_shifts = 20.0;
 
 /// Solves for the shifts as changes of the boxes. Whether any is worth one.

@@ -29,6 +29,7 @@ std::size_t next_colour(const SweptImpulse& impulse) {
 }  // namespace
 
 void ConjugateIterations::begin(std::span<SweptImpulse* const> impulses) {
+  nothing_ = {};  // of iterations that were not finite, NaN
   find_pairs(impulses);
   put_together();
   find_moved_boxes(impulses);
