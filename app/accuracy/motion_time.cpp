@@ -33,14 +33,13 @@ double fall_speed(const sim::Settings& settings, double height, double seconds) 
   return std::min(std::sqrt(2.0 * down * std::max(0.0, height)), down * seconds);
 }
 
-bool is_free(const sim::SoftBody& body) { return !body.pins || !body.pins->are_all; }
-
 double highest_speed(const sim::World& world, double seconds) {
   double highest = 0.0;
   for (const sim::SoftBody& body : world.soft) {
     const double fall =
-        is_free(body) ? fall_speed(world.settings, sim::bounds(body.positions).low.z(), seconds)
-                      : 0.0;
+        !sim::is_kinematic(body)
+            ? fall_speed(world.settings, sim::bounds(body.positions).low.z(), seconds)
+            : 0.0;
     highest = std::max(highest, root_mean_square(body.velocities) + fall);
   }
   for (const sim::RigidBox& box : world.rigid) {
@@ -64,7 +63,7 @@ MotionTime motion_time(const sim::World& world, double seconds) {
   MotionTime time{std::numeric_limits<double>::infinity(), ""};
   const double speed = highest_speed(world, seconds);
   for (const sim::SoftBody& body : world.soft) {
-    if (!is_free(body)) continue;
+    if (sim::is_kinematic(body)) continue;
     shorten(time, sim::radius(body.mesh->rest_positions),
             start_acceleration(body, world.settings.gravity), speed, body.name);
   }

@@ -56,7 +56,7 @@ std::vector<std::string> what_pushes(const sim::World& world) {
 
 bool has_moved_obstacles(const sim::World& world) {
   const bool has_moved_meshes = std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
-    return body.pins && body.pins->are_all && body.pins->are_moved;
+    return sim::is_kinematic(body) && body.pins->are_moved;
   });
   return has_moved_meshes || std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
            return box.is_kinematic &&
@@ -83,8 +83,7 @@ class Observer {
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
-      const bool is_obstacle = body.pins && body.pins->are_all;
-      result_.volumes.push_back({body.name, now, now, now, now, 0.0, is_obstacle});
+      result_.volumes.push_back({body.name, now, now, now, now, 0.0, sim::is_kinematic(body)});
     }
   }
 

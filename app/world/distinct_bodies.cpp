@@ -23,7 +23,7 @@ bool alike(const sim::SoftBody& a, const sim::SoftBody& b) {
 std::vector<DistinctBody> distinct_bodies(const sim::World& world) {
   std::vector<DistinctBody> known;
   for (const sim::SoftBody& body : world.soft) {
-    if (body.pins && body.pins->are_all) continue;  // nothing of it moves by itself
+    if (sim::is_kinematic(body)) continue;  // nothing of it moves by itself
     const auto same = std::find_if(known.begin(), known.end(), [&](const DistinctBody& other) {
       return alike(*other.first, body);
     });

@@ -24,7 +24,7 @@ WorldSize world_size(const sim::World& world) {
     size.state_bytes += bytes(body.positions) + bytes(body.velocities);
   }
   size.obstacles = std::ranges::count_if(
-      world.soft, [](const sim::SoftBody& body) { return body.pins && body.pins->are_all; });
+      world.soft, [](const sim::SoftBody& body) { return sim::is_kinematic(body); });
   size.soft_bodies = static_cast<std::int64_t>(world.soft.size()) - size.obstacles;
   size.rigid_boxes = static_cast<std::int64_t>(world.rigid.size());
   size.meshes = static_cast<std::int64_t>(meshes.size());

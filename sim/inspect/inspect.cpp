@@ -34,7 +34,7 @@ Energy energy(const SoftBody& body, const VertexArray& positions, const VertexAr
               const Vec3& gravity) {
   const SoftMaterial& material = body.material;
   Energy result;
-  if (body.pins && body.pins->are_all) return result;  // of no finite mass
+  if (is_kinematic(body)) return result;  // of no finite mass
   result.kinetic = 0.5 * material.vertex_mass * velocities.rows().squaredNorm();
   result.spring = spring_energy(*body.mesh, positions, material.k) +
                   bending_energy(*body.mesh, positions, material.bending);
@@ -76,7 +76,7 @@ Energy energy(const World& world) {
 
 Momentum momentum(const SoftBody& body) {
   Momentum sum;
-  if (body.pins && body.pins->are_all) return sum;
+  if (is_kinematic(body)) return sum;
   for (int v = 0; v < body.positions.size(); ++v) {
     const Vec3 linear = body.material.vertex_mass * body.velocities[v];
     sum.linear += linear;

@@ -97,7 +97,7 @@ double depth_of_pair(const Shapes& shapes, const BodyPair& pair) {
 double depth_in_ground(const World& world) {
   double low = 0.0;
   for (const SoftBody& body : world.soft) {
-    if (!(body.pins && body.pins->are_all)) low = std::min(low, bounds(body.positions).low.z());
+    if (!is_kinematic(body)) low = std::min(low, bounds(body.positions).low.z());
   }
   for (const RigidBox& box : world.rigid) {
     if (!box.is_kinematic) low = std::min(low, placed_box(box).bounds.low.z());

@@ -23,8 +23,6 @@ double value(const std::vector<KeyFrame>& keys, bool smooth, double time) {
   return value_at(keys, smooth, time).x();
 }
 
-bool is_obstacle(const SoftBody& body) { return body.pins && body.pins->are_all; }
-
 }  // namespace
 
 bool has_gas_flow(const World& world) {
@@ -117,7 +115,7 @@ double GasFlow::energy(const World& world) const {
   double sum = 0.0;
   for (const Part& part : parts_) {
     const SoftBody& body = world.soft[at(part.body)];
-    if (!is_obstacle(body) && part.volume > 0.0) sum += gas_energy(body.material, part.volume);
+    if (!is_kinematic(body) && part.volume > 0.0) sum += gas_energy(body.material, part.volume);
   }
   return sum;
 }

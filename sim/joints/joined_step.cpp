@@ -16,7 +16,7 @@ JoinedStep::JoinedStep(const World& world, std::vector<int> bodies) : bodies_(st
     piece_of[at(i)] = pieces_.size();
     Piece& piece = pieces_.emplace_back();
     piece.first = count;
-    piece.is_obstacle = body.pins && body.pins->are_all;
+    piece.is_obstacle = is_kinematic(body);
     const int vertices = body.positions.size();
     piece.state = {VertexArray(vertices), VertexArray(vertices)};
     piece.accelerations = VertexArray(vertices);

@@ -25,7 +25,7 @@ void for_each_followed(const SoftBody& body, double time, const Visit& visit) {
 }  // namespace
 
 bool keeps_shape(const SoftBody& body) {
-  if (!body.pins || !body.pins->are_all) return false;
+  if (!is_kinematic(body)) return false;
   const auto follows = [](std::uint8_t vertex) { return vertex != 0; };
   return !body.pins->are_moved || std::ranges::all_of(body.pins->follows, follows);
 }

@@ -35,7 +35,7 @@ std::optional<Divergence> integrate(const World& world, SoftBody& body, const So
                                     IntegratorScratch& scratch) {
   const Settings& settings = world.settings;
   const Pins* pins = body.pins.get();
-  if (pins && pins->are_all) {
+  if (is_kinematic(body)) {
     hold_pins(body, start, time_step(settings));
     return std::nullopt;
   }

@@ -46,8 +46,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     }
     surfaces_.emplace_back().tree = tree;
     skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
-    const bool is_obstacle = body.pins && body.pins->are_all;
-    changes_.emplace_back(is_obstacle ? 0 : body.positions.size());
+    changes_.emplace_back(is_kinematic(body) ? 0 : body.positions.size());
     never_moves_.push_back(is_still(body) ? 1 : 0);
     obstacles_.push_back(
         keeps_shape(body) ? std::make_unique<ObstacleShape>(body.mesh->topology, body.pins->start)

@@ -60,4 +60,7 @@ struct SoftBody {
       supply;  // if its gas comes and goes: n and temperature are state
 };
 
+/// An obstacle: nothing changes how it moves.
+inline bool is_kinematic(const SoftBody& body) { return body.pins && body.pins->are_all; }
+
 }  // namespace pneuma::sim

@@ -76,8 +76,7 @@ inline int body_count(const World& world) {
 inline bool is_kinematic(const World& world, int body) {
   const int box = body - soft_count(world);
   if (box >= 0) return world.rigid[at(box)].is_kinematic;
-  const SoftBody& soft = world.soft[at(body)];
-  return soft.pins && soft.pins->are_all;
+  return is_kinematic(world.soft[at(body)]);
 }
 
 inline double time(const World& world) {

@@ -25,7 +25,7 @@ namespace {
 Json volumes_json(const sim::World& world) {
   Json volumes = Json::object();
   for (const sim::SoftBody& body : world.soft) {
-    if (body.pins && body.pins->are_all) continue;  // an obstacle keeps it
+    if (sim::is_kinematic(body)) continue;  // an obstacle keeps it
     volumes[body.name] = number_json<Json>(sim::volume(body.mesh->topology, body.positions));
   }
   return volumes;
