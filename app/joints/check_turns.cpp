@@ -19,11 +19,9 @@ constexpr double steepest = 3.0;
 
 [[noreturn]] void refuse(const scenes::Scene& scene, const scenes::BodyScene& body, double turn,
                          double time) {
-  scenes::Place place = body.place;
-  if (place.file.empty()) place.file = (scene.folder / (scene.name + ".toml")).string();
   const int steps = scene.settings.steps_per_second;
   throw scenes::SceneError({scenes::diagnostic_at(
-      place,
+      scene, body.place,
       fmt::format("body '{}': it turns by {:.4g} degrees in the step at {:.4g} s, and in one step "
                   "of 1/{} s it must be less than 180, or it would turn the other way; turn it "
                   "more slowly, or set simulation.steps_per_second to at least {:.0f}",

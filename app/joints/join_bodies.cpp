@@ -23,8 +23,6 @@ std::vector<sim::KeyFrame> key_frames(const std::vector<scenes::TimedValue>& key
   return frames;
 }
 
-bool is_obstacle(const sim::SoftBody& body) { return body.pins && body.pins->are_all; }
-
 /// Those between which a valve or spring is.
 struct Bodies {
   int from;
@@ -71,29 +69,26 @@ struct End {
 class SpringMaker {
  public:
   SpringMaker(const scenes::Scene& scene, std::size_t index)
-      : scene_(scene.springs[index]),
-        what_(fmt::format("spring {}", index + 1)),
-        place_(scene_.place) {
-    if (place_.file.empty()) place_.file = (scene.folder / (scene.name + ".toml")).string();
-  }
+      : scene_(scene), spring_(scene.springs[index]), number_(index + 1) {}
 
   sim::BodySpring make(const Bodies& bodies, const sim::World& world) const {
-    const End from{"from", bodies.from, world.soft[sim::at(bodies.from)], scene_.from_point,
-                   scene_.from_region};
-    const End to{"to", bodies.to, world.soft[sim::at(bodies.to)], scene_.to_point,
-                 scene_.to_region};
-    if (is_obstacle(from.body) && is_obstacle(to.body)) {
+    const End from{"from", bodies.from, world.soft[sim::at(bodies.from)], spring_.from_point,
+                   spring_.from_region};
+    const End to{"to", bodies.to, world.soft[sim::at(bodies.to)], spring_.to_point,
+                 spring_.to_region};
+    if (sim::is_kinematic(from.body) && sim::is_kinematic(to.body)) {
       refuse("both of its ends are static or moved, so that it moves nothing");
     }
-    sim::BodySpring spring{spring_end(from, to), spring_end(to, from), scene_.k, scene_.damping};
+    sim::BodySpring spring{spring_end(from, to), spring_end(to, from), spring_.k, spring_.damping};
     spring.rest_length =
-        scene_.rest_length ? *scene_.rest_length : sim::spring_between(world, spring).norm();
+        spring_.rest_length ? *spring_.rest_length : sim::spring_between(world, spring).norm();
     return spring;
   }
 
  private:
   [[noreturn]] void refuse(const std::string& why) const {
-    throw scenes::SceneError({scenes::diagnostic_at(place_, fmt::format("{}: {}", what_, why))});
+    throw scenes::SceneError(
+        {scenes::diagnostic_at(scene_, spring_.place, fmt::format("spring {}: {}", number_, why))});
   }
 
   /// Where an end is to be looked for by the other one.
@@ -116,9 +111,9 @@ class SpringMaker {
     return {end.index, std::move(vertices)};
   }
 
-  const scenes::SpringScene& scene_;
-  std::string what_;
-  scenes::Place place_;
+  const scenes::Scene& scene_;
+  const scenes::SpringScene& spring_;
+  std::size_t number_;  // from 1
 };
 
 }  // namespace

@@ -6,9 +6,7 @@ namespace pneuma::app {
 
 scenes::Diagnostic body_diagnostic(const scenes::Scene& scene, const scenes::Place& place,
                                    const std::string& name, const std::string& reason) {
-  scenes::Place named = place;
-  if (named.file.empty()) named.file = (scene.folder / (scene.name + ".toml")).string();
-  return scenes::diagnostic_at(named, fmt::format("body '{}': {}", name, reason));
+  return scenes::diagnostic_at(scene, place, fmt::format("body '{}': {}", name, reason));
 }
 
 void refuse_body(const scenes::Scene& scene, const scenes::Place& place, const std::string& name,

@@ -25,6 +25,8 @@ struct Diagnostic {
 };
 
 Diagnostic diagnostic_at(const Place& place, std::string message);
+/// Of a place without a file: at the scene's.
+Diagnostic diagnostic_at(const Scene& scene, Place place, std::string message);
 
 /// "file:line:column: message".
 std::string to_string(const Diagnostic& diagnostic);

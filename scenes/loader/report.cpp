@@ -86,6 +86,11 @@ Diagnostic diagnostic_at(const Place& place, std::string message) {
   return {place.file, place.line, place.column, std::move(message), place.source_line};
 }
 
+Diagnostic diagnostic_at(const Scene& scene, Place place, std::string message) {
+  if (place.file.empty()) place.file = (scene.folder / (scene.name + ".toml")).string();
+  return diagnostic_at(place, std::move(message));
+}
+
 SceneError::SceneError(std::vector<Diagnostic> diagnostics)
     : std::runtime_error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 
