@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/host/errors.h"
 #include "app/host/interrupt.h"
 #include "app/study/stability/stability_study.h"
 #include "sim/mesh/measure.h"
@@ -102,13 +104,14 @@ OwnSteps try_own_steps(sim::World world, int rate, double seconds) {
     throw_if_interrupted();
     if (const auto divergence = stepper.step(world)) {
       own.failure = fmt::format("step {}: {}", divergence->step, divergence->what);
-      return own;
+      break;
     }
     if (2 * i < steps) continue;
     const double fastest = std::sqrt(body.velocities.rows().colwise().squaredNorm().maxCoeff());
     own.trembling = std::max(own.trembling, fastest);
   }
-  own.parts = static_cast<double>(parts) / static_cast<double>(steps);
+  own.parts =
+      static_cast<double>(parts) / static_cast<double>(std::max<std::int64_t>(world.steps, 1));
   return own;
 }
 
@@ -120,14 +123,19 @@ void take_motion(sim::World& world) {
   }
 }
 
-/// As far as it comes.
+/// Throws UsageError when it diverges.
 void let_settle(sim::World& world) {
   world.settings.integrator = Integrator::implicit_euler;
   world.settings.steps_per_second = settling_rate;
   sim::Stepper stepper(world);
   for (int i = 0; i < falling_steps + rests * steps_between_rests; ++i) {
     throw_if_interrupted();
-    if (stepper.step(world)) break;
+    if (const auto divergence = stepper.step(world)) {
+      throw UsageError(fmt::format(
+          "{} does not come to rest on the ground: step {}: {}; study another scene, or this one "
+          "with other values (--set)",
+          world.soft.front().name, divergence->step, divergence->what));
+    }
     if (i >= falling_steps && i % steps_between_rests == 0) take_motion(world);
   }
   world.steps = 0;
@@ -165,6 +173,8 @@ sim::World lying_body(const sim::Settings& settings, sim::SoftBody body, double 
   world.settings = settings;
   world.settings.contact = sim::ContactMethod::potential;
   world.settings.gravity = {0.0, 0.0, -9.81};
+  body.material.pressure_weighting = sim::PressureWeighting::uniform;
+  body.material.damping = sim::Damping::dashpot;
   body.material.surface.friction = friction;
   world.settings.ground = body.material.surface;
   body.velocities.rows().setZero();
@@ -219,12 +229,12 @@ std::vector<ContactStabilityPoint> study_contact_stability(
   const double friction = body.material.surface.friction;
   std::vector<ContactStabilityPoint> points;
   const auto add = [&](const std::string& varied, double value, sim::World world) {
+    sim::World without_loss = without_restitution_loss(world);
+    sim::WorldVibration motions(without_loss);
     for (const Integrator integrator : integrators_of(scene)) {
       say(fmt::format("{}, {} = {:g}", integrator_name(integrator), varied, value));
       ContactStabilityPoint point{integrator, varied, value};
-      world.settings.integrator = integrator;
-      const sim::World without_loss = without_restitution_loss(world);
-      sim::WorldVibration motions(without_loss);
+      world.settings.integrator = without_loss.settings.integrator = integrator;
       const double predicted = sim::stability_limit(motions, integrator).step;
       if (std::isfinite(predicted)) {
         point.predicted_step = predicted;

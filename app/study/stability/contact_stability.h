@@ -4,10 +4,10 @@
 //
 // The first soft body of a scene lies on the ground, alone or under a plate, and has come to rest.
 // Two copies of it, one of which is moved by next to nothing, are stepped by each explicit
-// integrator alone: a step is unstable with which they part. Of friction theory knows how stiff it
-// is at rest, of restitution, which acts on what parts, nothing: these copies part as fast as they
-// meet. What friction holds creeps, below the regularisation speed, and friction is less stiff then
-// than at rest: what is predicted is then shorter than what is found.
+// integrator alone: a step is unstable with which they part. Theory knows how stiff friction is at
+// rest, but nothing of restitution, which acts on what parts: these copies have a restitution of 1.
+// What friction holds creeps, below the regularisation speed, and friction is less stiff then than
+// at rest: the predicted step is then shorter than the one that is found.
 //
 // The program's own steps are divided where a barrier is too stiff for them. How often that is, and
 // how fast its surface still trembles, is measured besides, likewise by the implicit integrators:
@@ -57,7 +57,9 @@ std::vector<ContactStabilityPoint> study_contact_stability(
     const std::function<void(const std::string&)>& say);
 
 /// A world whose first soft body lies on the ground, by potential, under a plate of so many times
-/// its mass (0: none), and has come to rest. `stiffness`: of the default one.
+/// its mass (0: none), and has come to rest; its pressure is `uniform` and its damping `dashpot`,
+/// as contact by potential needs them. `stiffness`: of the default one. Throws UsageError when it
+/// does not come to rest.
 sim::World lying_body(const sim::Settings& settings, sim::SoftBody body, double stiffness,
                       double friction, double mass_ratio);
 
