@@ -135,8 +135,8 @@ void SweptSearch::recall_contacts() {
   put_back_missing();
 }
 
-/// Of the others the contacts that the same features have made are one entry, sorted by their
-/// names.
+/// Contacts that the same features have made are one entry, sorted by their names. Contacts whose
+/// candidates know them have none.
 void SweptSearch::list_recalled() {
   std::vector<RecalledContact>& all = m_.recalled;
   all.clear();

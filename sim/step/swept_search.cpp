@@ -77,12 +77,13 @@ void SweptSearch::wake_if_touched(const BodyPair& bodies) {
 bool SweptSearch::keep_earlier(const BodyPair& bodies) {
   const std::vector<SweptCandidate>& earlier = m_.earlier_candidates;
   if (earlier.empty() || !bodies_.is_as_searched(bodies)) return false;
-  const auto bodies_of_next = [&] { return earlier[next_earlier_].bodies; };
-  const auto is_before = [&](const BodyPair& one) {
-    return in_order(one.first, one.second) < in_order(bodies.first, bodies.second);
+  const auto wanted = in_order(bodies.first, bodies.second);
+  const auto next = [&] {
+    const BodyPair& one = earlier[next_earlier_].bodies;
+    return in_order(one.first, one.second);
   };
-  while (next_earlier_ < earlier.size() && is_before(bodies_of_next())) ++next_earlier_;
-  while (next_earlier_ < earlier.size() && bodies_of_next() == bodies) {
+  while (next_earlier_ < earlier.size() && next() < wanted) ++next_earlier_;
+  while (next_earlier_ < earlier.size() && next() == wanted) {
     m_.candidates.push_back(earlier[next_earlier_++]);
   }
   return true;

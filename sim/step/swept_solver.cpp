@@ -12,7 +12,7 @@ constexpr int many_iterations = 50;
 /// What is left makes a stack tremble.
 constexpr double tolerance_of_boxes = 0.01;
 /// Times the tolerance: what is changed by more does not rest yet.
-constexpr double blow = 1000.0;
+constexpr double impact_change = 1000.0;
 /// Each call to Newton's method with so many times the penalty of the one before.
 constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
@@ -111,10 +111,10 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
 }
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-                        double tolerance, std::size_t first_new, double left) {
+                        double tolerance, std::size_t first_new, double residual) {
   divide(contacts, impulses, first_new);
   for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
-    if (patches_[i].is_new) solve_patch(i, tolerance, left);
+    if (patches_[i].is_new) solve_patch(i, tolerance, residual);
   }
 }
 
@@ -124,12 +124,12 @@ void SweptSolver::solve_island(int island, double tolerance) {
   }
 }
 
-void SweptSolver::solve_patch(std::size_t patch, double tolerance, double left) {
+void SweptSolver::solve_patch(std::size_t patch, double tolerance, double residual) {
   const auto& [begin, is_new, has_boxes] = patches_[patch];
   const std::size_t size = patches_[patch + 1].begin - begin;
   const std::span<SweptImpulse* const> impulses = std::span(ordered_).subspan(begin, size);
   if (has_boxes) {
-    solve_with_boxes(impulses, tolerance, left);
+    solve_with_boxes(impulses, tolerance, residual);
   } else {
     const std::span<const ImpulseNodes> nodes = std::span(nodes_).subspan(begin, size);
     gauss_seidel_.correct(impulses, nodes, tolerance, many_iterations);
@@ -137,15 +137,15 @@ void SweptSolver::solve_patch(std::size_t patch, double tolerance, double left) 
 }
 
 void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance,
-                                   double left) {
+                                   double residual) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);
   const double change = iterations_.correct(of_boxes, few_iterations);
   if (change <= of_boxes) return;
   const double first_change = iterations_.first_change();
-  const bool may_leave = left > 0.0 && are_all_of_boxes(impulses);
-  const double enough = may_leave ? std::max(tolerance, left * first_change) : tolerance;
-  if (may_leave && first_change > blow * tolerance && change <= enough) return;
+  const bool may_leave = residual > 0.0 && are_all_of_boxes(impulses);
+  const double enough = may_leave ? std::max(tolerance, residual * first_change) : tolerance;
+  if (may_leave && first_change > impact_change * tolerance && change <= enough) return;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {

@@ -24,9 +24,9 @@ namespace {
 constexpr int max_rounds = 4;
 /// Of the thinnest skin, per step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
-/// Of a blow: what may be left of it at the end of the step, since it is the start of the next that
-/// keeps bodies apart.
-constexpr double left_at_end = 0.02;
+/// Of what the first iteration changes: what boxes may be left with at the end of the step,
+/// whatever that tolerance, since it is the start of the next step that keeps them apart.
+constexpr double residual_at_end = 0.02;
 /// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
 /// than it is solved for, so that they do not cross.
 constexpr double least_of_wanted = 0.02;
@@ -163,9 +163,9 @@ class SweptStep {
     return of_soft ? of_soft : of_rigid;  // both have kept what they started from
   }
 
-  void solve(std::size_t first_new, double left) {
+  void solve(std::size_t first_new, double residual) {
     if (m_.contacts.empty()) return;
-    m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new, left);
+    m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new, residual);
   }
 
   /// m/s.
@@ -225,7 +225,7 @@ class SweptStep {
       if (!has_met(candidate)) touch(candidate);
     }
     warm_start_.apply(Moment::end, fraction_);
-    solve(0, left_at_end);
+    solve(0, residual_at_end);
     follow_impacts(m_, tolerance());
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
