@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "sim/soft/acceleration.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/equilibrium.h"
 #include "sim/soft/explicit_step.h"
+#include "tests/support/eigenvalues.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -61,27 +61,13 @@ SoftBody held_sphere(double n, double k_max) {
   return body;
 }
 
-/// The greatest eigenvalue of -da/dx, or of -da/dv, by central differences of the forces.
+/// Of a body's own forces.
 double greatest_eigenvalue(const SoftBody& body, bool of_velocities) {
   AccelerationScratch scratch(*body.mesh);
   const SoftAcceleration acceleration(*body.mesh, body.material, Vec3::Zero(), scratch);
-  const int count = body.positions.size();
-  Eigen::MatrixXd matrix(3 * count, 3 * count);
-  const double h = 1e-5;
-  for (int i = 0; i < 3 * count; ++i) {
-    SoftState state{body.positions, body.velocities};
-    double& moved = (of_velocities ? state.velocities : state.positions).rows()(i % 3, i / 3);
-    VertexArray plus(count), minus(count);
-    moved += h;
-    acceleration(state.positions, state.velocities, plus);
-    moved -= 2.0 * h;
-    acceleration(state.positions, state.velocities, minus);
-    for (int v = 0; v < count; ++v) {
-      matrix.block<3, 1>(3 * v, i) = -(plus[v] - minus[v]) / (2.0 * h);
-    }
-  }
-  const Eigen::MatrixXd symmetric = 0.5 * (matrix + matrix.transpose());
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues().maxCoeff();
+  return greatest_eigenvalue(
+      acceleration, {body.positions, body.velocities}, [](int) { return 1.0; }, of_velocities,
+      1e-5);
 }
 
 TEST(VibrationMode, TheFastestIsThatOfTheGreatestEigenvalue) {

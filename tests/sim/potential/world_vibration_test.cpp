@@ -11,6 +11,7 @@
 #include "sim/potential/explicit_world_step.h"
 #include "sim/soft/explicit_step.h"
 #include "tests/sim/potential/free_box_worlds.h"
+#include "tests/support/eigenvalues.h"
 
 namespace pneuma::sim {
 namespace {
@@ -45,28 +46,6 @@ struct Equation {
     acceleration.set_margin(0.05);
   }
 
-  /// The largest eigenvalue of -M^1/2 da/dx M^-1/2, or of da/dv, by central differences.
-  double greatest_eigenvalue(bool of_velocities) const {
-    const int count = rest.positions.size();
-    Eigen::MatrixXd matrix(3 * count, 3 * count);
-    const double h = of_velocities ? 1e-6 : 1e-7;
-    for (int i = 0; i < 3 * count; ++i) {
-      SoftState state = rest;
-      double& moved = (of_velocities ? state.velocities : state.positions).rows()(i % 3, i / 3);
-      VertexArray plus(count), minus(count);
-      moved += h;
-      acceleration(state.positions, state.velocities, plus);
-      moved -= 2.0 * h;
-      acceleration(state.positions, state.velocities, minus);
-      for (int v = 0; v < count; ++v) {
-        matrix.block<3, 1>(3 * v, i) =
-            -std::sqrt(masses[at(v)] / masses[at(i / 3)]) * (plus[v] - minus[v]) / (2.0 * h);
-      }
-    }
-    const Eigen::MatrixXd symmetric = 0.5 * (matrix + matrix.transpose());
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues().maxCoeff();
-  }
-
   ContactSurfaces surfaces;
   WorldAcceleration acceleration;
   SoftState rest;
@@ -79,11 +58,14 @@ TEST(WorldVibration, TheFastestIsThatOfTheGreatestEigenvalue) {
     WorldVibration motions(world);
     ASSERT_TRUE(motions.in_contact());
     const Equation equation(world);
+    const auto mass_of = [&](int v) { return equation.masses[at(v)]; };
     // Lanczos' vectors, and the curvature of the distance of what touches, which is left out.
-    const double stiff = equation.greatest_eigenvalue(false);
+    const double stiff =
+        greatest_eigenvalue(equation.acceleration, equation.rest, mass_of, false, 1e-7);
     EXPECT_NEAR(motions.fastest(0.0).squared_frequency / stiff, 1.0, 0.01) << friction;
     // The regularised friction's slope falls from zero speed on: by 1e-4 where it is differenced.
-    const double damped = equation.greatest_eigenvalue(true);
+    const double damped =
+        greatest_eigenvalue(equation.acceleration, equation.rest, mass_of, true, 1e-6);
     EXPECT_NEAR(motions.fastest(1e9).decay / damped, 1.0, 0.01) << friction;
   }
 }
