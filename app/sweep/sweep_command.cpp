@@ -160,9 +160,7 @@ ExitCode sweep(SweepArguments typed) {
 
 void add_sweep_command(CLI::App& app, Action& action, std::span<const std::string> command_line) {
   CLI::App* command = app.add_subcommand(
-      "sweep",
-      "Many runs from one file: what is varied, what is measured; here or on a cluster. Ends with "
-      "the exit code of the first run that failed, if any did, once all runs are done");
+      "sweep", "Many runs from one file: what is varied, what is measured; here or on a cluster");
   const auto typed = std::make_shared<SweepArguments>();
   typed->command_line.assign(command_line.begin(), command_line.end());
   command->add_option("FILE", typed->file, "A sweep file, or the name of one in scenes/sweeps/")
