@@ -58,7 +58,7 @@ std::string model_check_text(const ModelCheck& check) {
                             grouped(report.vertices_welded));
   }
   text += named_line("vertices", vertices);
-  text += named_line("springs", fmt::format("{}; per vertex {} to {}, {:.3g} in the mean",
+  text += named_line("springs", fmt::format("{}; per vertex {} to {}, {:.3g} on average",
                                             grouped(report.edges), report.fewest_springs,
                                             report.most_springs, report.springs_per_vertex));
   text += named_line("triangles", fmt::format("{}, smallest angle {:.3g} degrees",

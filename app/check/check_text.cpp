@@ -159,10 +159,10 @@ std::string energy_text(const RunStatistics& run) {
 
 std::string contacts_text(const ContactTally& contacts) {
   std::string text = named_line(
-      "contacts", fmt::format("{} per step in the mean, {} at most",
+      "contacts", fmt::format("{} per step on average, {} at most",
                               readable(contacts.mean(contacts.all)), grouped(contacts.all.most)));
   const auto kind_text = [&](std::string_view kind, const ContactTally::Count& count) {
-    return named_line("", fmt::format("{} {} in the mean, {} at most", kind,
+    return named_line("", fmt::format("{} {} on average, {} at most", kind,
                                       readable(contacts.mean(count)), grouped(count.most)));
   };
   for (int k = 0; k < sim::contact_kind_count; ++k) {

@@ -90,8 +90,7 @@ std::string_view particle_legend() {
 
 std::string_view contact_legend() {
   return "\ncontacts, 1 m of normal: ground black, soft bodies magenta, soft and rigid orange, "
-         "boxes "
-         "blue";
+         "boxes blue";
 }
 
 void add_labels(const sim::World& world, render::Frame& frame) {
