@@ -21,6 +21,17 @@ struct Pose {
 /// At a time in s.
 Pose pose_at(const GivenMotion& motion, double time);
 
+/// The derivative of value_at, per second; at a key of even speeds that after it.
+Vec3 rate_at(std::span<const KeyFrame> keys, bool smooth, double time);
+
+struct Velocities {
+  Vec3 linear;   // m/s
+  Vec3 angular;  // rad/s, world axes
+};
+
+/// The derivative of pose_at.
+Velocities velocities_at(const GivenMotion& motion, double time);
+
 /// Gives each box that has a motion the velocities that lead to where it is at
 /// the end of the next step, which is what contacts need: between its ends a step knows even motion
 /// only.

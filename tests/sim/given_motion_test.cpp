@@ -9,6 +9,7 @@
 #include "sim/inspect/checkpoint.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
+#include "sim/mesh/rotation.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -50,6 +51,26 @@ TEST(KeyFrames, SmoothOnesHaveNoJumpsOfSpeedAndDoNotOvershoot) {
     EXPECT_GE(at(time).y(), -6.0);
     EXPECT_LE(at(time).y(), 6.0);
     before = at(time);
+  }
+}
+
+TEST(GivenMotion, VelocitiesAreTheDerivativesOfThePose) {
+  constexpr double tiny = 1e-5;  // s: a central difference is then good to about 1e-9
+  const std::vector<KeyFrame> turns = {
+      {0.0, 0.0, 0.0, 0.0}, {1.5, 90.0, -50.0, 0.0}, {4.0, 120.0, 80.0, 400.0}};
+  for (const bool smooth : {false, true}) {
+    const GivenMotion motion{{there_and_back, turns, smooth},
+                             {5.0, 0.0, 9.0},
+                             rotation_of_degrees({20.0, 30.0, 40.0}),
+                             {0.1, 0.2, 0.3},
+                             {1.0, -0.4, 0.7}};
+    for (double time = 0.003; time < 5.0; time += 0.01) {
+      const Pose before = pose_at(motion, time - tiny), after = pose_at(motion, time + tiny);
+      const auto [linear, angular] = velocities_at(motion, time);
+      const Eigen::AngleAxisd turn(after.orientation * before.orientation.conjugate());
+      EXPECT_LT((linear - (after.position - before.position) / (2 * tiny)).norm(), 1e-8) << time;
+      EXPECT_LT((angular - turn.angle() * turn.axis() / (2 * tiny)).norm(), 1e-7) << time;
+    }
   }
 }
 

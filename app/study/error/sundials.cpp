@@ -174,10 +174,11 @@ struct Sundials::Memory {
   void* solver = nullptr;
 };
 
-int Sundials::Memory::evaluate(sunrealtype, N_Vector state, N_Vector derivative, void* memory) {
+int Sundials::Memory::evaluate(sunrealtype time, N_Vector state, N_Vector derivative,
+                               void* memory) {
   const auto& self = *static_cast<const Memory*>(memory);
   const bool sound =
-      self.right_hand_side(N_VGetArrayPointer(state), N_VGetArrayPointer(derivative));
+      self.right_hand_side(time, N_VGetArrayPointer(state), N_VGetArrayPointer(derivative));
   return sound ? 0 : 1;  // above zero: recoverable
 }
 
@@ -266,7 +267,7 @@ void Sundials::set_step_done(StepDone step_done) { memory_->step_done = std::mov
 bool Sundials::Memory::advance_step_by_step(double time) {
   while (reached < time) {
     if (CVode(solver, time, state, &reached, CV_ONE_STEP) < 0) return false;
-    step_done(values.data());
+    step_done(reached, values.data());
   }
   return CVodeGetDky(solver, time, 0, state) >= 0;
 }

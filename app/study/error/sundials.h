@@ -55,9 +55,9 @@ struct SundialsTolerances {
 
 class Sundials {
  public:
-  /// Writes dy/dt; false when the state has no meaning, which makes CVODE try a shorter
-  /// step, and ARKODE give up.
-  using RightHandSide = std::function<bool(const double* state, double* derivative)>;
+  /// Writes dy/dt at a time in s; false when the state has no meaning, which makes CVODE try a
+  /// shorter step, and ARKODE give up.
+  using RightHandSide = std::function<bool(double time, const double* state, double* derivative)>;
 
   /// For BDF: M approximates I - gamma df/dy.
   struct Preconditioner {
@@ -77,7 +77,7 @@ class Sundials {
   Sundials& operator=(Sundials&&) noexcept;
 
   /// CVODE calls it with each state that it accepts, at steps of its own choice.
-  using StepDone = std::function<void(const double* state)>;
+  using StepDone = std::function<void(double time, const double* state)>;
   void set_step_done(StepDone step_done);
 
   /// To `time` (s), beyond all times before, with steps of the method's own choice; CVODE and dense

@@ -10,6 +10,7 @@
 #include "app/study/error/reference_equation.h"
 #include "app/study/error/solver.h"
 #include "sim/potential/explicit_world_step.h"
+#include "sim/rigid/given_motion.h"
 #include "sim/soft/acceleration.h"
 
 namespace pneuma::app {
@@ -71,9 +72,9 @@ enum class Beyond {
   nothing,
 };
 
-/// The same of a world in which contact is a potential. What is static stays where it is. Numbers
-/// are those of the soft bodies and then nine of each free box (sim/potential/box_coordinates.h),
-/// positions before velocities.
+/// The same of a world in which contact is a potential. Boxes that keys move are where these say at
+/// every time. Numbers are those of the soft bodies and then nine of each free box
+/// (sim/potential/box_coordinates.h), positions before velocities.
 class ContactEquation {
  public:
   ContactEquation(const sim::World& world, Beyond beyond)
@@ -117,16 +118,16 @@ class ContactEquation {
     return state;
   }
 
-  bool operator()(const double* state, double* derivative) {
+  bool operator()(double time, const double* state, double* derivative) {
     std::copy(state + values(), state + 2 * values(), derivative);
-    if (!evaluate(state)) return false;
+    if (!evaluate(time, state)) return false;
     write(acceleration_, derivative + values());
     return true;
   }
 
   /// A step has ended. One that ends beyond a crossing all the same is the last one.
-  void end_step(const double* state) {
-    has_crossed_ |= !evaluate(state);
+  void end_step(double time, const double* state) {
+    has_crossed_ |= !evaluate(time, state);
     last_ = equation_.vertices(positions_);
   }
 
@@ -154,12 +155,25 @@ class ContactEquation {
   };
   static constexpr int columns_of_box = 3;
 
-  bool evaluate(const double* state) {
+  bool evaluate(double time, const double* state) {
     read(state, positions_);
     read(state + values(), velocities_);
+    for (int i = 0; i < static_cast<int>(world_.rigid.size()); ++i) {
+      const sim::RigidBox& box = world_.rigid[sim::at(i)];
+      if (box.motion) move_box(i, *box.motion, time);
+    }
     if (has_crossed_ || !(equation_(positions_, velocities_, acceleration_) > 0.0)) return false;
     if (!std::isfinite(acceleration_.rows().sum())) return false;
     return beyond_ == Beyond::as_any_other || is_before_crossing();
+  }
+
+  /// Its corners.
+  void move_box(int i, const sim::GivenMotion& motion, double time) {
+    const auto [position, orientation] = pose_at(motion, time);
+    const auto [velocity, angular_velocity] = velocities_at(motion, time);
+    surfaces_.place_box({position, orientation}, i, positions_);
+    move_corners({position, orientation, velocity, angular_velocity},
+                 surfaces_.of_box(i).first_vertex, positions_, velocities_);
   }
 
   /// Whether nothing crosses on straight ways from where the last step ended to the last
@@ -242,6 +256,7 @@ class SundialsSolver final : public Solver {
 
   Sample sample() const override {
     sim::World world = world_;
+    place_given_motions(world, reached_);
     read_(solver_.state(), world);
     return take_sample(world);
   }
@@ -268,8 +283,8 @@ void read_soft(std::span<const double> state, sim::World& world) {
 std::unique_ptr<Solver> make_contact_solver(const sim::World& world, SundialsMethod method,
                                             double tolerance, Beyond beyond) {
   const auto equation = std::make_shared<ContactEquation>(world, beyond);
-  const auto evaluate = [equation](const double* state, double* derivative) {
-    return (*equation)(state, derivative);
+  const auto evaluate = [equation](double time, const double* state, double* derivative) {
+    return (*equation)(time, state, derivative);
   };
   const auto read = [equation](std::span<const double> state, sim::World& into) {
     equation->set(state.data(), into);
@@ -277,7 +292,8 @@ std::unique_ptr<Solver> make_contact_solver(const sim::World& world, SundialsMet
   Sundials solver(method, evaluate, equation->start(),
                   {0.0, absolute_tolerances(world, tolerance, frequency)});
   if (beyond == Beyond::nothing) {
-    solver.set_step_done([equation](const double* state) { equation->end_step(state); });
+    solver.set_step_done(
+        [equation](double time, const double* state) { equation->end_step(time, state); });
   }
   return std::make_unique<SundialsSolver>(world, std::move(solver), read);
 }
@@ -302,7 +318,7 @@ std::unique_ptr<Solver> make_peer_solver(const sim::World& world, SundialsMethod
     return make_contact_solver(world, method, tolerance, Beyond::as_any_other);
   }
   const auto equation = std::make_shared<FastEquation>(world.soft, world.settings.gravity);
-  const auto evaluate = [equation](const double* state, double* derivative) {
+  const auto evaluate = [equation](double, const double* state, double* derivative) {
     return (*equation)(state, derivative);
   };
   return std::make_unique<SundialsSolver>(
@@ -326,7 +342,7 @@ std::unique_ptr<Solver> make_reference_solver(const sim::World& world, double to
   };
   const auto one_per_second = [](const sim::SoftMaterial&) { return 1.0; };  // the stricter choice
   const auto problem = std::make_shared<Problem>(world);
-  const auto evaluate = [problem](const double* state, double* derivative) {
+  const auto evaluate = [problem](double, const double* state, double* derivative) {
     return problem->equation(state, derivative);
   };
   return std::make_unique<SundialsSolver>(

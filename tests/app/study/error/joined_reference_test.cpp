@@ -124,7 +124,7 @@ std::vector<double> solved(const World& world) {
   const auto equation = std::make_shared<WholeEquation>(world);
   const std::vector<double> start = equation->start();
   Sundials solver(SundialsMethod::cvode_adams,
-                  [equation](const double* state, double* derivative) {
+                  [equation](double, const double* state, double* derivative) {
                     return (*equation)(state, derivative);
                   },
                   start, {1e-11, std::vector<double>(start.size(), 1e-12)});

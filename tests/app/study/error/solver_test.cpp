@@ -106,6 +106,27 @@ TEST(Peer, TakesBoxesWhereContactIsAPotential) {
   EXPECT_GT(way, 0.1) << "the boxes must have met";
 }
 
+// A plate that keys move and turn pushes a free box away.
+TEST(Reference, KnowsWhatKeysMove) {
+  sim::World world = at_rate({}, sim::Integrator::rk4, 61'440);
+  world.settings.contact = sim::ContactMethod::potential;
+  world.settings.ground.reset();
+  world.settings.gravity.setZero();
+  world.rigid = {sim::make_rigid({2, 2, 0.4}, {0, 0, 0}),
+                 sim::make_rigid({1, 0.8, 0.6}, {0.3, 0.2, 0.6})};
+  sim::RigidBox& plate = world.rigid[0];
+  plate.is_kinematic = true;
+  sim::GivenMotion motion;
+  motion.keys.path = {{0, 0, 0, 0}, {0.3, 0, 0, 0.4}};
+  motion.keys.rotation = {{0, 0, 0, 0}, {0.3, 10, 0, 0}};
+  plate.motion = std::make_shared<const sim::GivenMotion>(motion);
+  const auto reference = make_contact_reference_solver(world, 1e-10);
+  const auto ours = make_stepper_solver(world, true);
+  const Trajectory expected = follow(*reference);
+  EXPECT_GT(expected.back().rigid[1].position.z(), 0.7) << "it must have been pushed";
+  EXPECT_LT(error(world, *ours, expected), 1e-6);  // of rk4, whose plate moves evenly in a step
+}
+
 TEST(StepperSolver, IsTheSimulation) {
   sim::World world = at_rate(small_world(), sim::Integrator::velocity_verlet, 60);
   const auto solver = make_stepper_solver(world, true);

@@ -10,7 +10,7 @@ namespace pneuma::app {
 namespace {
 
 /// x'' = -x from x = 1 at rest: x = cos t.
-bool oscillate(const double* state, double* derivative) {
+bool oscillate(double, const double* state, double* derivative) {
   derivative[0] = state[1];
   derivative[1] = -state[0];
   return true;
@@ -36,9 +36,9 @@ TEST_P(SundialsMethods, FollowAnOscillation) {
 TEST_P(SundialsMethods, CountEvaluations) {
   long count = 0;
   Sundials solver(GetParam(),
-                  [&count](const double* state, double* derivative) {
+                  [&count](double time, const double* state, double* derivative) {
                     ++count;
-                    return oscillate(state, derivative);
+                    return oscillate(time, state, derivative);
                   },
                   {1.0, 0.0}, {1e-6, {1e-6, 1e-6}});
   EXPECT_TRUE(solver.advance_to(1.0));
@@ -47,7 +47,7 @@ TEST_P(SundialsMethods, CountEvaluations) {
 
 TEST_P(SundialsMethods, GiveUpWhereTheStateHasNoMeaning) {
   // Falls below 0.3 at t = 0.7, where there is no right-hand side.
-  const auto fall = [](const double* state, double* derivative) {
+  const auto fall = [](double, const double* state, double* derivative) {
     derivative[0] = -1.0;
     return state[0] > 0.3;
   };
@@ -63,7 +63,7 @@ TEST_P(SundialsMethods, GiveUpWhereTheStateHasNoMeaning) {
 TEST_P(SundialsMethods, FollowManyOscillations) {
   constexpr int count = 301;
   const auto frequency = [](int i) { return 1.0 + 0.01 * i; };
-  const auto oscillate_all = [&](const double* state, double* derivative) {
+  const auto oscillate_all = [&](double, const double* state, double* derivative) {
     for (int i = 0; i < count; ++i) {
       derivative[2 * i] = state[2 * i + 1];
       derivative[2 * i + 1] = -frequency(i) * frequency(i) * state[2 * i];
