@@ -42,8 +42,7 @@ class PotentialStep {
   /// For whoever looks at them.
   void report_contacts() {
     w_.contacts.clear();
-    m_.finder.find(m_.end.positions, m_.end.positions, 0.0, m_.pairs);
-    find_active(m_.surfaces, m_.end.positions, m_.pairs, m_.active);
+    find_contacts_at(m_.end);
     for (const ActiveContact& contact : m_.active) w_.contacts.push_back(seen(contact));
   }
 
@@ -105,6 +104,7 @@ class PotentialStep {
     auto failure = m_.implicit_step ? step_implicitly(halvings, may_be_halved)
                                     : step_explicitly(halvings, may_be_halved);
     if (failure) return failure;
+    m_.driven_work += driven_work();
     scatter(m_.end);
     for (std::size_t i = 0; i < m_.free_boxes.size(); ++i) {
       RigidBox& box = world_.rigid[at(m_.free_boxes[i])];
@@ -121,6 +121,36 @@ class PotentialStep {
       }
     }
     return std::nullopt;
+  }
+
+  /// J, of the vertices that no force moves, in a part of the step: the mean of what they push with
+  /// at its ends, along their way.
+  double driven_work() {
+    double work = 0.0;
+    if (!moves_something()) return work;
+    for (const WorldState* state : {&m_.start, &m_.end}) {
+      find_contacts_at(*state);
+      m_.forces.rows().setZero();
+      add_forces(m_.active, state->positions, state->velocities, m_.surfaces.regularisation_speed(),
+                 m_.forces);
+      for (int v = 0; v < m_.forces.size(); ++v) {
+        if (m_.surfaces.is_mobile(v)) continue;
+        work -= 0.5 * m_.forces[v].dot(m_.end.positions[v] - m_.start.positions[v]);
+      }
+    }
+    return work;
+  }
+
+  bool moves_something() const {
+    for (int v = 0; v < m_.start.velocities.size(); ++v) {
+      if (!m_.surfaces.is_mobile(v) && !Vec3(m_.start.velocities[v]).isZero(0.0)) return true;
+    }
+    return false;
+  }
+
+  void find_contacts_at(const WorldState& state) {
+    m_.finder.find(state.positions, state.positions, 0.0, m_.pairs);
+    find_active(m_.surfaces, state.positions, m_.pairs, m_.active);
   }
 
   std::optional<Divergence> step_implicitly(int halvings, bool& may_be_halved) {
@@ -265,7 +295,8 @@ PotentialMemory::PotentialMemory(const World& world)
       start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count()),
             std::vector<RigidState>(free_boxes.size())},
       end(start),
-      finder(surfaces) {
+      finder(surfaces),
+      forces(surfaces.vertex_count()) {
   if (is_implicit(world.settings.integrator)) {
     implicit_step.emplace(world, surfaces);
   } else {
@@ -274,6 +305,7 @@ PotentialMemory::PotentialMemory(const World& world)
 }
 
 std::optional<Divergence> potential_step(World& world, StepWorkspace& workspace) {
+  workspace.potential->driven_work = 0.0;
   PotentialStep step(world, workspace);
   if (auto divergence = step.advance(0)) return divergence;
   step.report_contacts();

@@ -42,6 +42,8 @@ struct PotentialMemory {
   PairFinder finder;
   std::vector<ContactPair> pairs;
   std::vector<ActiveContact> active;
+  VertexArray forces;        // N, of contacts
+  double driven_work = 0.0;  // J, of what is moved, in a step
 };
 
 /// Steps the world once. On divergence the world is as the step found it.

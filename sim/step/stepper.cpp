@@ -201,6 +201,7 @@ double Stepper::contact_work() const {
   return w.swept ? w.swept->work : w.contact_work;
 }
 double Stepper::driven_work() const {
+  if (workspace_->potential) return workspace_->potential->driven_work;
   return workspace_->swept ? workspace_->swept->driven_work : 0.0;
 }
 double Stepper::gas_work() const {
