@@ -7,6 +7,7 @@
 
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
+#include "sim/soft/stability_limit.h"
 #include "sim/step/stepper.h"
 
 namespace pneuma::app {
@@ -15,6 +16,10 @@ namespace {
 /// Of the volume, from one step to the next: less is at rest.
 constexpr double settled_change = 1e-4;
 constexpr int most_steps = 100;
+
+/// From so many vertices on the factors that implicit steps need take longer than all of the short
+/// explicit steps in which a body comes to rest.
+constexpr int many_vertices = 5'000;
 
 /// The body alone at rest in its shape, in steps of a second: most bodies swing faster than that,
 /// and what swings faster than an implicit Euler step dies away in it.
@@ -93,6 +98,43 @@ std::optional<sim::SoftBody> find_settled(const sim::SoftBody& body) {
   return std::nullopt;
 }
 
+/// A round body swings in and out some sqrt(N) times more slowly than one of its N vertices.
+int steps_of_a_swing(const sim::SoftBody& body) {
+  return static_cast<int>(10.0 * std::sqrt(body.positions.size()));
+}
+
+/// The fraction of velocity that air takes in 1/60 s when it halves a swing in half of its time.
+double halving_friction(double step, int steps) {
+  return 1.0 - std::pow(0.5, 1.0 / (60.0 * step * 0.5 * steps));
+}
+
+/// By explicit steps, whose swings air takes. None when it finds no rest, or they are too long.
+std::optional<sim::SoftBody> find_settled_by_short_steps(const sim::SoftBody& body) {
+  constexpr double safety = 0.8;          // of the longest stable step: the body changes its shape
+  constexpr double least_step = 1e-9;     // s
+  constexpr double settled_swing = 3e-4;  // of the volume, from its least to its greatest
+  constexpr int most_swings = 40;
+  sim::World world = quiet_world(body);
+  world.settings.integrator = sim::Integrator::symplectic_euler;
+  const double limit =
+      safety * sim::settled_stability_limit(world.settings.integrator, world.soft.front()).step;
+  if (!(limit > least_step)) return std::nullopt;
+  world.settings.steps_per_second = std::max(1, static_cast<int>(std::ceil(1.0 / limit)));
+  const int steps = steps_of_a_swing(body);
+  world.soft.front().material.rho_g = halving_friction(sim::time_step(world.settings), steps);
+  sim::Stepper stepper(world);
+  for (int swing = 0; swing < most_swings; ++swing) {
+    double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      if (stepper.step(world)) return std::nullopt;
+      least = std::min(least, volume_of(world));
+      greatest = std::max(greatest, volume_of(world));
+    }
+    if (greatest - least < settled_swing * greatest) return std::move(world.soft.front());
+  }
+  return std::nullopt;
+}
+
 std::optional<double> find_held_pressure(const sim::SoftBody& body, double volume) {
   sim::World world = quiet_world(body);
   sim::SoftBody& alone = world.soft.front();
@@ -117,9 +159,14 @@ std::optional<double> find_held_pressure(const sim::SoftBody& body, double volum
 }  // namespace
 
 std::optional<sim::SoftBody> settled_body(const sim::SoftBody& body) {
-  auto settled = find_settled(with_mass_per_k(body, moderate));
+  std::optional<sim::SoftBody> settled;
+  if (body.positions.size() >= many_vertices) settled = find_settled_by_short_steps(body);
+  if (!settled) settled = find_settled(with_mass_per_k(body, moderate));
   if (!settled) settled = find_settled(with_mass_per_k(body, lightest));
-  if (settled) settled->material.vertex_mass = body.material.vertex_mass;
+  if (settled) {
+    settled->material = body.material;
+    settled->velocities = body.velocities;
+  }
   return settled;
 }
 
