@@ -1,10 +1,12 @@
 // pneuma study error: which integrator, at which step, for which error.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +14,7 @@
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
 #include "app/study/error/error_report.h"
+#include "app/study/error/samples.h"
 #include "app/study/error/sundials.h"
 #include "app/study/report_text.h"
 #include "app/study/study_command.h"
@@ -19,6 +22,7 @@
 #include "app/study/study_parts.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/progress.h"
+#include "scenes/loader/integrator_names.h"
 
 namespace pneuma::app {
 namespace {
@@ -30,9 +34,23 @@ struct ErrorArguments : SplitOptions {
   FlightOptions flight;
   std::optional<double> seconds;
   std::optional<int> repeats;
+  std::vector<std::string> integrators;
+  std::vector<int> steps_per_second;
   bool json = false;
   bool quiet = false;
 };
+
+CLI::Validator is_whole_number_of_samples() {
+  return {[](const std::string& typed) {
+            int steps = 0;
+            std::from_chars(typed.data(), typed.data() + typed.size(), steps);
+            return steps % samples_per_second == 0
+                       ? std::string()
+                       : fmt::format("{} is no multiple of {}, at which motions are compared",
+                                     typed, samples_per_second);
+          },
+          "", "SAMPLES"};
+}
 
 ErrorOptions sweep(const ErrorArguments& typed) {
   ErrorOptions options = typed.is_short ? short_sweep() : full_sweep();
@@ -41,6 +59,16 @@ ErrorOptions sweep(const ErrorArguments& typed) {
   options.flight.tumbling = typed.flight.tumbling;
   options.flight.seconds = typed.seconds.value_or(options.flight.seconds);
   options.repeats = typed.repeats.value_or(options.repeats);
+  for (const auto& [integrator, name] : scenes::integrator_names()) {
+    if (std::ranges::count(typed.integrators, name) > 0) options.integrators.push_back(integrator);
+  }
+  if (!typed.integrators.empty()) options.tolerances.clear();
+  if (!typed.steps_per_second.empty()) {
+    options.steps_per_second = typed.steps_per_second;
+    std::ranges::sort(options.steps_per_second);
+    const auto twice = std::ranges::unique(options.steps_per_second);
+    options.steps_per_second.erase(twice.begin(), twice.end());
+  }
   return options;
 }
 
@@ -165,6 +193,20 @@ void add_error_study(CLI::App& study_command, Action& action,
   command->add_option("--repeats", typed->repeats, "Of each run, for its time [5; with --short 2]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
+  std::vector<std::string> names;
+  for (const auto& [_, name] : scenes::integrator_names()) names.emplace_back(name);
+  command
+      ->add_option("--integrators", typed->integrators,
+                   "Only these, and none of SUNDIALS' methods beside them")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--steps", typed->steps_per_second,
+                   fmt::format("A second, multiples of {} [{}]", samples_per_second,
+                               fmt::join(full_sweep().steps_per_second, " ")))
+      ->type_name("N")
+      ->check(CLI::Range(samples_per_second, 1'000'000))
+      ->check(is_whole_number_of_samples());
   add_split_options(*command, *typed, command_line, "Fewer steps, less time: to see that it works");
   command->add_flag("--json", typed->json, "JSON in place of text");
   add_quiet_option(*command, typed->quiet);

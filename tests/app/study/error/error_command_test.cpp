@@ -51,12 +51,30 @@ TEST(StudyError, TakesOneBodyOfAScene) {
   EXPECT_TRUE(fs::exists(folder / "cat_on_sphere_sphere_runs.csv"));
 }
 
+TEST(StudyError, RunsOnlyTheIntegratorsAndStepsThatAreNamed) {
+  const TemporaryFolder folder;
+  const ProgramResult result = run_pneuma(
+      "study error one_sphere --free-flight --seconds 0.1 --repeats 1 --integrators rk4 martin "
+      "--steps 120 60 120 --json --quiet --out '" +
+      folder.path().string() + "'");
+  EXPECT_EQ(result.exit_code, 0);
+  const auto printed = nlohmann::json::parse(result.output);
+  std::vector<std::string> runs;
+  for (const auto& run : printed["scenes"][0]["runs"]) {
+    runs.push_back(run["method"].get<std::string>() + " " +
+                   std::to_string(run["steps_per_second"].get<int>()));
+  }
+  EXPECT_EQ(runs, (std::vector<std::string>{"martin 60", "martin 120", "rk4 60", "rk4 120"}));
+}
+
 TEST(StudyError, RefusesWhatItDoesNotUnderstand) {
   EXPECT_EQ(run_pneuma("study 2>&1").exit_code, 2);
   EXPECT_EQ(run_pneuma("study no_such_study 2>&1").exit_code, 2);
   EXPECT_EQ(exit_code(""), 2);
   EXPECT_EQ(exit_code("one_sphere --seconds 0"), 2);
   EXPECT_EQ(exit_code("one_sphere --repeats 0"), 2);
+  EXPECT_EQ(exit_code("one_sphere --integrators euler"), 2);
+  EXPECT_EQ(exit_code("one_sphere --steps 100"), 2);  // no multiple of 15
   EXPECT_EQ(exit_code("one_sphere --body no_such_body"), 2);
   EXPECT_EQ(exit_code("one_sphere --set body.damping=literal"), 2);
   EXPECT_EQ(exit_code("no_such_scene"), 3);
