@@ -116,6 +116,10 @@ std::string penetration_text(const RunStatistics& run, const sim::Settings& sett
                     run.settled_penetration < settings.skin_thickness ? "below" : "NOT below",
                     settings.skin_thickness);
   }
+  if (settings.contact == sim::ContactMethod::potential) {
+    last_half += fmt::format("; the ground is up to {:g} m (simulation.potential.distance) lower",
+                             settings.potential.distance);
+  }
   return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
                                                run.penetration.value, run.penetration.time)) +
          named_line("", last_half);

@@ -125,6 +125,16 @@ TEST(RunStatisticsText, SaysWhetherPenetrationStaysBelowTheSkin) {
   EXPECT_NE(run_statistics_text(run, by_impulses(0.125)).find("NOT below"), std::string::npos);
 }
 
+TEST(RunStatisticsText, SaysHowFarTheGroundOfThePotentialYields) {
+  RunStatistics run;
+  run.penetration = {0.75, 1.25};
+  sim::Settings settings;
+  settings.contact = sim::ContactMethod::potential;
+  settings.potential.distance = 0.25;
+  EXPECT_NE(run_statistics_text(run, settings).find("the ground is up to 0.25 m"),
+            std::string::npos);
+}
+
 TEST(RunStatistics, HaveTheHashOfTheStateInOneForm) {
   RunStatistics run;
   run.state_hash = 0x0123456789abcdef;
