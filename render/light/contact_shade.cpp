@@ -26,7 +26,7 @@ class NearnessPicture {
     const Eigen::Vector4f foot(position.x(), position.y(), 0.0f, 1.0f);
     const Eigen::Vector2f at = (picture_.world_to_picture * foot).head<2>();
     const auto side = static_cast<float>(picture_.size);
-    return {at.x() * side, at.y() * side, std::max(position.z(), 0.0f)};
+    return {at.x() * side, at.y() * side, position.z()};
   }
 
   void add(const std::array<Corner, 3>& corners) {
@@ -35,6 +35,7 @@ class NearnessPicture {
           corner.height);
     }
     fill(corners);
+    for (std::size_t i = 0; i < 3; ++i) follow_crossing(corners, i);
   }
 
   bool any() const { return any_; }
@@ -42,7 +43,7 @@ class NearnessPicture {
  private:
   void put(int column, int row, float height) {
     if (column < 0 || row < 0 || column >= picture_.size || row >= picture_.size) return;
-    const float left = 1.0f - height / picture_.reach;
+    const float left = 1.0f - std::abs(height) / picture_.reach;
     if (left <= 0.0f) return;
     any_ = true;
     float& value = nearness_[static_cast<std::size_t>(row * picture_.size + column)];
@@ -71,6 +72,27 @@ class NearnessPicture {
     }
   }
 
+  /// The line on which a triangle goes through the ground, from the edges at a corner that lies
+  /// alone on its side: of a steep one fill() finds no texel there.
+  void follow_crossing(const std::array<Corner, 3>& corners, std::size_t alone) {
+    const Corner& a = corners[alone];
+    const Corner &b = corners[(alone + 1) % 3], &c = corners[(alone + 2) % 3];
+    const auto is_below = [](const Corner& corner) { return corner.height < 0.0f; };
+    if (is_below(b) != is_below(c) || is_below(a) == is_below(b)) return;
+    const auto crossing = [&a](const Corner& to) -> Eigen::Vector2f {
+      const float part = a.height / (a.height - to.height);
+      return {a.x + part * (to.x - a.x), a.y + part * (to.y - a.y)};
+    };
+    const Eigen::Vector2f from = crossing(b), way = crossing(c) - from;
+    const float length = std::min(way.norm(), 4.0f * static_cast<float>(picture_.size));
+    const int points = 2 + static_cast<int>(2.0f * length);
+    for (int i = 0; i < points; ++i) {
+      const Eigen::Vector2f at =
+          from + static_cast<float>(i) / static_cast<float>(points - 1) * way;
+      put(static_cast<int>(std::floor(at.x())), static_cast<int>(std::floor(at.y())), 0.0f);
+    }
+  }
+
   const GroundPicture& picture_;
   std::vector<float>& nearness_;
   bool any_ = false;
@@ -86,6 +108,7 @@ bool measure_nearness(std::span<const SurfaceVertex> vertices, std::span<const T
     const Vec3f& b = vertices[triangle[1]].position;
     const Vec3f& c = vertices[triangle[2]].position;
     if (std::min({a.z(), b.z(), c.z()}) >= picture.reach) continue;
+    if (std::max({a.z(), b.z(), c.z()}) <= -picture.reach) continue;
     result.add({result.corner(a), result.corner(b), result.corner(c)});
   }
   return result.any();

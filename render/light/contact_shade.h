@@ -20,8 +20,9 @@ struct GroundPicture {
   float reach;  // m: surfaces higher than this are left out
 };
 
-/// For each texel, row by row, how near the lowest surface above it is: 1 where it touches, 0 from
-/// `reach` on, (1 - height / reach)^2 between. `nearness` is resized. Whether any is not 0.
+/// For each texel, row by row, how near the nearest surface above or below it is: 1 where it
+/// touches or goes through the ground, 0 from `reach` on, (1 - height / reach)^2 between.
+/// `nearness` is resized. Whether any is not 0.
 bool measure_nearness(std::span<const SurfaceVertex> vertices, std::span<const Triangle> triangles,
                       const GroundPicture& picture, std::vector<float>& nearness);
 

@@ -376,6 +376,17 @@ TEST(Nearness, IsNoneOfWhatFloats) {
   EXPECT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(1.5f), nearness));
 }
 
+TEST(Nearness, OfWhatIsSunkIsWhereItGoesThroughTheGround) {
+  const Mesh box = make_box({0, 0, 0}, {2, 2, 2}, {1, 1, 1});
+  std::vector<SurfaceVertex> vertices;
+  for (const Vec3f& position : box.positions) vertices.push_back({position, {}, {}});
+  std::vector<float> nearness;
+  ASSERT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(0.8f), nearness));
+  const auto at = [&](int column) { return nearness[static_cast<std::size_t>(32 * 64 + column)]; };
+  EXPECT_EQ(at(32), 0.0f);  // a metre above the sunk side
+  EXPECT_EQ(std::max(at(41), at(42)), 1.0f);
+}
+
 /// A viewer believes that a box stands where its sides meet a dark line, which is gone when it
 /// floats.
 TEST(BetweenBodies, TheGroundIsDarkestWhereABoxStands) {
