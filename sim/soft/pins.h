@@ -14,8 +14,6 @@ namespace pneuma::sim {
 inline bool is_pinned(const SoftBody& body, int vertex) {
   return body.pins && body.pins->is_pinned[at(vertex)] != 0;
 }
-/// Whether it is an obstacle that never moves.
-inline bool is_still(const SoftBody& body) { return is_kinematic(body) && !body.pins->are_moved; }
 
 /// Whether it is an obstacle all of whose vertices stay, or follow its motion.
 bool keeps_shape(const SoftBody& body);

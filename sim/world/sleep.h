@@ -15,10 +15,13 @@ inline bool is_fixed(const World& world, int body) {
   return is_kinematic(world, body) || is_asleep(world, body);
 }
 
-/// Whether it has a velocity.
+/// Whether it has a velocity. Obstacles that never move have none, however many vertices.
 inline bool moves(const World& world, int body) {
   const int box = body - static_cast<int>(world.soft.size());
-  if (box < 0) return !world.soft[at(body)].velocities.rows().isZero(0.0);
+  if (box < 0) {
+    const SoftBody& soft = world.soft[at(body)];
+    return !is_still(soft) && !soft.velocities.rows().isZero(0.0);
+  }
   return !world.rigid[at(box)].velocity.isZero(0.0) ||
          !world.rigid[at(box)].angular_velocity.isZero(0.0);
 }

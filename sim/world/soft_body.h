@@ -62,5 +62,7 @@ struct SoftBody {
 
 /// An obstacle: nothing changes how it moves.
 inline bool is_kinematic(const SoftBody& body) { return body.pins && body.pins->are_all; }
+/// Whether it is an obstacle that never moves.
+inline bool is_still(const SoftBody& body) { return is_kinematic(body) && !body.pins->are_moved; }
 
 }  // namespace pneuma::sim
