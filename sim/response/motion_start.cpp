@@ -19,7 +19,7 @@ void keep_rigid(const World& world, std::vector<RigidState>& start) {
 
 void restore_soft(World& world, const std::vector<SoftState>& start) {
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (is_still(world.soft[i])) continue;
+    if (is_still(world.soft[i]) || start[i].positions.size() == 0) continue;
     world.soft[i].positions = start[i].positions;
     world.soft[i].velocities = start[i].velocities;
   }

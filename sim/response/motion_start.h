@@ -10,7 +10,7 @@
 namespace pneuma::sim {
 
 /// integrate_soft and integrate_rigid write it, resolve_contacts reads it, and a step that fails is
-/// taken back to it.
+/// taken back to it. Of obstacles that a step leaves where they are it knows nothing.
 struct MotionStart {
   std::vector<SoftState> soft;    // per soft body
   std::vector<RigidState> rigid;  // per box

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim/rigid/given_motion.h"
-
 namespace pneuma::sim {
 namespace {
 
@@ -12,13 +10,9 @@ namespace {
 template <class Visit>
 void for_each_followed(const SoftBody& body, double time, const Visit& visit) {
   if (!body.pins || !body.pins->are_moved) return;
-  const Pins& pins = *body.pins;
-  const Pose pose = pose_at(pins.motion, time);
-  const Mat3 turn = pose.orientation.toRotationMatrix();
+  const PinPlaces places(*body.pins, time);
   for (int v = 0; v < body.positions.size(); ++v) {
-    if (pins.follows[at(v)] == 0) continue;
-    const Vec3 arm = Vec3(pins.start[v]) - pins.motion.position;
-    visit(v, Vec3(pose.position + turn * arm));
+    if (body.pins->follows[at(v)] != 0) visit(v, places[v]);
   }
 }
 
@@ -44,22 +38,25 @@ std::shared_ptr<const Pins> make_pins(const VertexArray& positions,
   return std::make_shared<const Pins>(std::move(pins));
 }
 
-void aim_pins(World& world) {
-  const double step = time_step(world.settings);
-  const double end = static_cast<double>(world.steps + 1) / world.settings.steps_per_second;
-  for (SoftBody& body : world.soft) {
-    for_each_followed(body, end, [&](int v, const Vec3& place) {
-      body.velocities[v] = (place - Vec3(body.positions[v])) / step;
-    });
-  }
+void aim_pins(SoftBody& body, const Settings& settings, std::int64_t steps) {
+  const double step = time_step(settings);
+  const double end = static_cast<double>(steps + 1) / settings.steps_per_second;
+  for_each_followed(body, end, [&](int v, const Vec3& place) {
+    body.velocities[v] = (place - Vec3(body.positions[v])) / step;
+  });
 }
 
 void place_pins(SoftBody& body, double time) {
   for_each_followed(body, time, [&](int v, const Vec3& place) { body.positions[v] = place; });
 }
 
-void place_pins(World& world, double time) {
-  for (SoftBody& body : world.soft) place_pins(body, time);
+void drive_obstacle(SoftBody& body, double time, double step) {
+  const PinPlaces places(*body.pins, time);
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const Vec3 place = places[v];
+    body.velocities[v] = (place - Vec3(body.positions[v])) / step;
+    body.positions[v] = place;
+  }
 }
 
 void hold_pins(SoftBody& body, const SoftState& start, double step) {
@@ -69,12 +66,6 @@ void hold_pins(SoftBody& body, const SoftState& start, double step) {
     const Vec3 velocity = start.velocities[v];
     body.velocities[v] = velocity;
     body.positions[v] = Vec3(start.positions[v]) + step * velocity;
-  }
-}
-
-void hold_pins(World& world, const std::vector<SoftState>& start) {
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    hold_pins(world.soft[i], start[i], time_step(world.settings));
   }
 }
 

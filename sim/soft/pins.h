@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "sim/rigid/given_motion.h"
 #include "sim/soft/acceleration.h"
 #include "sim/soft/soft_state.h"
 #include "sim/world/world.h"
@@ -23,19 +24,42 @@ std::shared_ptr<const Pins> make_pins(const VertexArray& positions,
                                       std::vector<std::uint8_t> is_pinned,
                                       std::vector<std::uint8_t> follows, GivenMotion motion);
 
+/// Where a motion puts the vertices that follow it, at a time.
+class PinPlaces {
+ public:
+  PinPlaces() = default;
+  /// Refers to the pins; `time` in s.
+  PinPlaces(const Pins& pins, double time)
+      : pins_(&pins),
+        pose_(pose_at(pins.motion, time)),
+        turn_(pose_.orientation.toRotationMatrix()) {}
+
+  Vec3 operator[](int vertex) const {
+    const Vec3 arm = Vec3(pins_->start[vertex]) - pins_->motion.position;
+    return pose_.position + turn_ * arm;
+  }
+  /// m, of what is not turned about the centre of the motion.
+  Vec3 origin() const { return pose_.position - turn_ * pins_->motion.position; }
+  const Mat3& turn() const { return turn_; }
+
+ private:
+  const Pins* pins_ = nullptr;
+  Pose pose_;
+  Mat3 turn_;
+};
+
 /// Gives the vertices that follow a motion the velocities that lead to where it puts them at the
 /// end of the next step.
-void aim_pins(World& world);
+void aim_pins(SoftBody& body, const Settings& settings, std::int64_t steps);
 /// Puts them where they are at a time, s; others stay.
 void place_pins(SoftBody& body, double time);
-void place_pins(World& world, double time);
+/// Of an obstacle all of whose vertices follow a motion, both at once: it has moved there in a step
+/// (s).
+void drive_obstacle(SoftBody& body, double time, double step);
 
 /// Over a step (s) pinned vertices keep the velocities that they had at its start: undoes what else
 /// has been done to them.
 void hold_pins(SoftBody& body, const SoftState& start, double step);
-
-/// The same of all bodies over the last step.
-void hold_pins(World& world, const std::vector<SoftState>& start);
 
 /// The accelerations of a body's vertices, of which pinned ones have none.
 class PinnedAccelerations {

@@ -206,7 +206,7 @@ class SqueezedBoxes {
   /// Also while it holds still between two moves.
   bool is_moved(int body) const {
     if (body == swept_ground || !is_kinematic(world_, body)) return false;
-    return moves(world_, body) ||
+    return bodies_.moves(world_, body) ||
            (bodies_.is_rigid(body) && world_.rigid[at(bodies_.box(body))].motion);
   }
   bool is_pressed(int box) const {

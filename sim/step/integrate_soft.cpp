@@ -108,6 +108,7 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
                                          IntegrateSoftMemory& memory, base::Workers& workers) {
   const auto block = [&](int begin, int end, int thread) {
     for (int i = begin; i < end; ++i) {
+      if (memory.is_driven[at(i)] != 0) continue;
       const int mesh = memory.mesh_of_body[at(i)];
       hand_over(world.soft[at(i)], start[at(i)],
                 is_implicit(world.settings.integrator) || is_fixed(world, i));
@@ -122,6 +123,12 @@ std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& s
     if (outcome) return outcome;
   }
   return std::nullopt;
+}
+
+void hold_pins(World& world, std::span<const SoftState> start, const IntegrateSoftMemory& memory) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (memory.is_driven[i] == 0) hold_pins(world.soft[i], start[i], time_step(world.settings));
+  }
 }
 
 std::optional<Divergence> integrate_group_again(World& world, JoinedStep& group,

@@ -216,7 +216,7 @@ Holder holder_of(const World& world, SweptMemory& memory, int island) {
     if ((memory.given_at_start[i] + impulse->given()).isZero(0.0)) continue;  // it bears nothing
     const SweptContact& contact = memory.contacts[i];
     const int body = impulse->first().moves() ? contact.second.body : contact.first.body;
-    if (body != swept_ground && moves(world, body)) return Holder::moved;
+    if (body != swept_ground && memory.bodies.moves(world, body)) return Holder::moved;
     holder = Holder::at_rest;
   }
   return has_pins(world, memory, island) ? Holder::moved : holder;

@@ -42,8 +42,8 @@ auto bodies_of(const SweptCandidate& candidate) {
 /// A soft body that may give way, and an obstacle that has finer features.
 bool SweptSearch::is_beside_obstacle(const BodyPair& bodies) const {
   const auto [first, second] = bodies;
-  const bool is_first = bodies_.obstacle(first) != nullptr;
-  if (bodies_.is_rigid(second) || is_first == (bodies_.obstacle(second) != nullptr)) return false;
+  const bool is_first = bodies_.is_obstacle(first);
+  if (bodies_.is_rigid(second) || is_first == bodies_.is_obstacle(second)) return false;
   const double of_first = bodies_.surface(first).tree->mean_edge();
   const double of_second = bodies_.surface(second).tree->mean_edge();
   return is_first ? of_first < of_second : of_second < of_first;
@@ -54,14 +54,12 @@ bool SweptSearch::is_beside_obstacle(const BodyPair& bodies) const {
 /// nearest at the start: of what the free motion would go through, contacts need no more.
 void SweptSearch::offer_beside_obstacle(const BodyPair& bodies) {
   const auto [first, second] = bodies;
-  const bool soft_is_first = bodies_.obstacle(first) == nullptr;
+  const bool soft_is_first = !bodies_.is_obstacle(first);
   const int soft = soft_is_first ? first : second, obstacle = soft_is_first ? second : first;
-  const BesideObstacle pair{.soft = bodies_.surface(soft),
-                            .obstacle = bodies_.surface(obstacle),
-                            .shape = *bodies_.obstacle(obstacle),
-                            .soft_is_first = soft_is_first,
-                            .near = near_distance(first, second),
-                            .least = least_of_wanted_beside * distance_wanted(first, second)};
+  BesideObstacle pair =
+      bodies_.beside_obstacle(soft, obstacle, near_distance(first, second),
+                              least_of_wanted_beside * distance_wanted(first, second));
+  pair.soft_is_first = soft_is_first;
   m_.found.clear();
   if (has_started_) {
     m_.obstacle_search.find_first_to_pass(pair, m_.found);
@@ -69,7 +67,11 @@ void SweptSearch::offer_beside_obstacle(const BodyPair& bodies) {
     m_.obstacle_search.find_nearest_at_start(pair, m_.found);
   }
   are_beside_obstacles_ = true;
-  for (const NearFeatures& features : m_.found) offer_beside_obstacle(bodies, features);
+  for (const NearFeatures& features : m_.found) {
+    bodies_.place_around(world_, start_, obstacle,
+                         soft_is_first ? features.second : features.first);
+    offer_beside_obstacle(bodies, features);
+  }
 }
 
 void SweptSearch::offer_beside_obstacle(const BodyPair& bodies, const NearFeatures& features) {
@@ -86,7 +88,7 @@ void SweptSearch::offer_beside_obstacle(const BodyPair& bodies, const NearFeatur
 /// Whether no edge of the obstacle leads nearer at the start, if it takes part by a vertex.
 bool SweptSearch::obstacle_is_nearest(const BodyPair& bodies, const NearFeatures& features,
                                       const ClosestPoints& closest) const {
-  const bool is_first = bodies_.obstacle(bodies.first) != nullptr;
+  const bool is_first = bodies_.is_obstacle(bodies.first);
   const Feature& feature = is_first ? features.first : features.second;
   return feature.kind != FeatureKind::vertex ||
          is_nearest_vertex(bodies_.surface(is_first ? bodies.first : bodies.second), feature.index,

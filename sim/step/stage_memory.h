@@ -48,6 +48,8 @@ struct IntegrateSoftMemory {
   int alone = 0;  // soft bodies; 0 where springs join some: all are in groups then
   std::vector<JoinedStep> groups;
   std::vector<int> mesh_of_body;
+  /// Per body: an obstacle that the step leaves where it is, and that is moved after it.
+  std::vector<std::uint8_t> is_driven;
   std::vector<std::optional<Divergence>> outcomes;  // per body
 };
 

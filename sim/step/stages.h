@@ -27,6 +27,9 @@ std::optional<Divergence> integrate_group_again(World& world, JoinedStep& group,
                                                 std::span<const SoftState> start,
                                                 IntegrateSoftMemory& memory, int thread);
 
+/// Over the last step pinned vertices keep the velocities that they had at its start.
+void hold_pins(World& world, std::span<const SoftState> start, const IntegrateSoftMemory& memory);
+
 /// Moves every box freely (4.1), and keeps what it started from. Returns the first box's failure.
 std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidState>& start);
 std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidState& start);

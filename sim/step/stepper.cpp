@@ -34,6 +34,37 @@ bool may_touch_more_than_ground(const Plan& plan) {
           plan.runs(ContactKind::soft_rigid) || plan.runs(ContactKind::rigid_rigid));
 }
 
+/// Per body: whether it is an obstacle whose vertices nothing in a step needs to find in the world,
+/// as swept contacts place those that they reach.
+std::vector<std::uint8_t> find_driven(const World& world, const StepWorkspace& w) {
+  std::vector<std::uint8_t> is_driven(world.soft.size());
+  if (!w.swept || !world.springs.empty() || w.options.after_part ||
+      world.settings.particles.shown) {
+    return is_driven;
+  }
+  for (std::size_t i = 0; i < is_driven.size(); ++i) {
+    is_driven[i] = keeps_shape(world.soft[i]) && !is_still(world.soft[i]) ? 1 : 0;
+  }
+  return is_driven;
+}
+
+void aim_pins(World& world, std::span<const std::uint8_t> is_driven) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (is_driven[i] == 0) aim_pins(world.soft[i], world.settings, world.steps);
+  }
+}
+
+/// At the end of a step.
+void place_pins(World& world, std::span<const std::uint8_t> is_driven) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (is_driven[i] != 0) {
+      drive_obstacle(world.soft[i], time(world), time_step(world.settings));
+    } else {
+      place_pins(world.soft[i], time(world));
+    }
+  }
+}
+
 /// Particles that nothing depends on.
 void walk_to_be_shown(World& world, StepWorkspace& w) {
   const StageRunner run(w);
@@ -109,6 +140,8 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
   if (world.settings.contact == ContactMethod::potential && plan.runs(Stage::integrate_soft)) {
     potential = std::make_unique<PotentialMemory>(world);
   }
+  integrate_soft.is_driven = find_driven(world, *this);
+  if (swept) swept->bodies.leave_in_place(integrate_soft.is_driven);
 }
 
 Stepper::Stepper(const World& world, StepperOptions options)
@@ -123,7 +156,7 @@ std::optional<Divergence> Stepper::step(World& world) {
   if (gas_flow) gas_flow->begin_step(world);
   if (workspace_->has_given_motions) {
     aim_given_motions(world);
-    aim_pins(world);
+    aim_pins(world, workspace_->integrate_soft.is_driven);
   }
   if (auto divergence = step_bodies(world)) {
     if (gas_flow) gas_flow->take_back(world);
@@ -131,7 +164,7 @@ std::optional<Divergence> Stepper::step(World& world) {
   }
   if (workspace_->has_given_motions) {
     place_given_motions(world, time(world));
-    place_pins(world, time(world));
+    place_pins(world, workspace_->integrate_soft.is_driven);
   }
   if (gas_flow) gas_flow->end_step(world);
   return std::nullopt;
@@ -171,7 +204,7 @@ std::optional<Divergence> Stepper::step_bodies(World& world) {
     restore(world, w, divergence->stage);
     return divergence;
   }
-  if (w.has_pins) hold_pins(world, w.motion_start.soft);
+  if (w.has_pins) hold_pins(world, w.motion_start.soft, w.integrate_soft);
   w.contact_work = energy_if(w.options.measure_work, world) - before_contacts;
   if (w.options.after_part) w.options.after_part(world);
 

@@ -34,6 +34,10 @@ constexpr double skins_around = 1.5;
 /// Of a whole vertex: a point nearer to pinned vertices is held by them.
 constexpr double least_mobility = 1e-3;
 
+Bounds larger(const Bounds& bounds, double margin) {
+  return {bounds.low.array() - margin, bounds.high.array() + margin};
+}
+
 }  // namespace
 
 SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(world.soft.size())) {
@@ -48,10 +52,15 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     skins_.push_back(thin_skin(skin, skin_of_edge * tree->mean_edge()));
     changes_.emplace_back(is_kinematic(body) ? 0 : body.positions.size());
     never_moves_.push_back(is_still(body) ? 1 : 0);
-    obstacles_.push_back(
-        keeps_shape(body) ? std::make_unique<ObstacleShape>(body.mesh->topology, body.pins->start)
-                          : nullptr);
+    know_obstacle(body);
     has_pins_ = has_pins_ || body.pins;
+  }
+  if (std::ranges::any_of(moved_, [](const auto& moved) { return moved != nullptr; })) {
+    for (const SoftBody& body : world.soft) {
+      MovingSurface& seen = seen_.emplace_back();
+      seen.tree = surface(static_cast<int>(seen_.size()) - 1).tree;
+      seen.start = seen.end = VertexArray(body.positions.size());
+    }
   }
   for (const RigidBox& box : world.rigid) {
     const TriangleMesh mesh = make_box(box.size, 1);
@@ -68,6 +77,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   number_nodes(world);
   never_moves_.resize(surfaces_.size());
   obstacles_.resize(surfaces_.size());
+  moved_.resize(surfaces_.size());
   is_still_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
@@ -79,6 +89,22 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   end_axes_ = turns_ = start_axes_;
   allowances_.resize(surfaces_.size());
   searched_ends_.resize(surfaces_.size());
+}
+
+/// The last of the soft bodies so far.
+void SweptBodies::know_obstacle(const SoftBody& body) {
+  MovingSurface& surface = surfaces_.back();
+  obstacles_.emplace_back();
+  moved_.emplace_back();
+  if (!keeps_shape(body)) return;
+  if (is_still(body)) {
+    obstacles_.back() = std::make_unique<ObstacleShape>(body.mesh->topology, body.pins->start);
+    return;
+  }
+  const double margin = (1.0 + skins_around) * skins_.back();
+  moved_.back() = std::make_unique<MovedObstacle>(surface.tree, body, margin);
+  surface.start = surface.end = VertexArray(body.positions.size());
+  surface.nodes.resize(1);
 }
 
 void SweptBodies::number_nodes(const World& world) {
@@ -97,12 +123,18 @@ void SweptBodies::place_corners(int box, const Vec3& position, const Mat3& axes,
   for (int v = 0; v < own.size(); ++v) corners[v] = position + axes * Vec3(own[v]);
 }
 
-void SweptBodies::set_start(const World& world, const MotionStart& start) {
+void SweptBodies::set_start(const World& world, const MotionStart& start,
+                            std::span<const double> parts_done, double fraction) {
   moved_again_.assign(world.soft.size(), 0);
   is_searched_.assign(surfaces_.size(), 0);
   std::fill_n(is_followed_.begin(), soft_count_, std::uint8_t{0});
   std::fill_n(is_lone_.begin(), soft_count_, std::uint8_t{1});
   find_what_is_still(world);
+  for (int i = 0; i < soft_count_; ++i) {
+    if (!moved_[at(i)]) continue;
+    moved_[at(i)]->begin_part(world.soft[at(i)], start.soft[at(i)], parts_done, fraction);
+    if (is_in_own_axes(i)) see_in_own_axes(i);
+  }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     const RigidState& box = start.rigid[at(i)];
     const Mat3& axes = start_axes_[at(i)] = end_axes_[at(i)] = box.orientation.toRotationMatrix();
@@ -120,9 +152,62 @@ void SweptBodies::find_what_is_still(const World& world) {
   }
 }
 
+/// Until something needs all of its vertices.
+void SweptBodies::see_in_own_axes(int obstacle) {
+  const MovedObstacle& moved = *moved_[at(obstacle)];
+  const Bounds way = moved.bounds_of_way();
+  surfaces_[at(obstacle)].nodes.front() = {to_vec4d(way.low), to_vec4d(way.high)};
+  allowances_[at(obstacle)] = allowed_of_way * moved.longest_way() + skin(obstacle);
+}
+
+void SweptBodies::leave_in_place(std::span<const std::uint8_t> is_driven) {
+  for (std::size_t i = 0; i < is_driven.size(); ++i) {
+    if (is_driven[i] != 0) moved_[i]->leave_in_place();
+  }
+}
+
+void SweptBodies::begin_step(const World& world) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (moved_[i]) moved_[i]->begin_step(world.soft[i], world.settings, world.steps);
+  }
+}
+
+bool SweptBodies::moves(const World& world, int body) const {
+  return is_driven(body) ? moved_[at(body)]->moves() : sim::moves(world, body);
+}
+
+bool SweptBodies::any_driven_moves() const {
+  return std::ranges::any_of(
+      moved_, [](const auto& moved) { return moved && moved->is_driven() && moved->moves(); });
+}
+
+BesideObstacle SweptBodies::beside_obstacle(int soft, int obstacle, double near, double least) {
+  if (moved_[at(obstacle)]) {
+    return moved_[at(obstacle)]->beside(surface(soft), seen_[at(soft)], near, least);
+  }
+  return {.soft = surface(soft),
+          .obstacle = surface(obstacle),
+          .shape = *obstacles_[at(obstacle)],
+          .near = near,
+          .least = least};
+}
+
+void SweptBodies::place_around(const World& world, const MotionStart& start, int obstacle,
+                               const Feature& feature) {
+  if (!is_in_own_axes(obstacle) || is_followed_[at(obstacle)] != 0) return;
+  moved_[at(obstacle)]->place_around(world.soft[at(obstacle)], start.soft[at(obstacle)], feature,
+                                     surfaces_[at(obstacle)]);
+}
+
+void SweptBodies::place_all(const World& world, const MotionStart& start, int body) {
+  if (is_in_own_axes(body) && is_followed_[at(body)] == 0) follow(world, start, body);
+}
+
 void SweptBodies::set_end(const World& world) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    if (is_followed_[i] != 0 && is_still_[i] == 0) surfaces_[i].end = world.soft[i].positions;
+    if (is_followed_[i] == 0 || is_still_[i] != 0) continue;
+    if (is_driven(static_cast<int>(i))) continue;
+    surfaces_[i].end = world.soft[i].positions;
   }
   for (int i = 0; i < static_cast<int>(world.rigid.size()); ++i) {
     if (is_still_[at(soft_count_ + i)] == 0) set_end(world, soft_count_ + i);
@@ -171,8 +256,13 @@ Bounds SweptBodies::bounds_of_way(const World& world, const MotionStart& start, 
 
 void SweptBodies::follow(const World& world, const MotionStart& start, int soft) {
   is_followed_[at(soft)] = 1;
-  surfaces_[at(soft)].start = start.soft[at(soft)].positions;
-  surfaces_[at(soft)].end = world.soft[at(soft)].positions;
+  MovingSurface& surface = surfaces_[at(soft)];
+  if (is_driven(soft)) {
+    moved_[at(soft)]->place_all(world.soft[at(soft)], start.soft[at(soft)], surface);
+  } else {
+    surface.start = start.soft[at(soft)].positions;
+    surface.end = world.soft[at(soft)].positions;
+  }
   refit_way(world, start, soft);
 }
 
@@ -183,7 +273,7 @@ Bounds SweptBodies::refit_way(const World& world, const MotionStart& start, int 
     const MovingSurface& moving = surface(body);
     refit_anew(
         body,
-        is_rigid(body)
+        is_rigid(body) || is_driven(body)
             ? allowed_of_way * max_distance(moving.start, moving.end)
             : way_of(start.soft[at(body)], moving.end, time_step(world.settings)).allowed_change);
   }
@@ -230,7 +320,10 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
       ways_.push_back(bounds_of_still(world, i));
+    } else if (is_in_own_axes(i) && is_followed_[at(i)] == 0) {
+      ways_.push_back(larger(root_bounds(i), allowance(i) - skin(i)));
     } else {
+      if (is_driven(i) && is_followed_[at(i)] == 0) follow(world, start, i);
       ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(world, start, i)
                                                : bounds_of_way(world, start, i));
     }
@@ -240,7 +333,8 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   std::erase_if(pairs, [&](const BodyPair& pair) { return !may_be_near(pair); });
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
-      if (is_followed_[at(body)] == 0 && is_still_[at(body)] == 0) follow(world, start, body);
+      if (is_followed_[at(body)] != 0 || is_still_[at(body)] != 0 || is_in_own_axes(body)) continue;
+      follow(world, start, body);
     }
   }
 }
@@ -341,12 +435,20 @@ Vec3 SweptBodies::point_before(const World& world, const MotionStart& start, int
   return before.position + before.orientation * local;
 }
 
-Vec3 SweptBodies::start_velocity(const MotionStart& start, const SurfacePoint& point) const {
+Vec3 SweptBodies::driven_velocity(const World& world, const SurfacePoint& point) const {
+  const MovedObstacle& moved = *moved_[at(point.body)];
+  const SoftBody& body = world.soft[at(point.body)];
+  return interpolate(point, [&](int v) { return moved.velocity(body, v); });
+}
+
+Vec3 SweptBodies::start_velocity(const World& world, const MotionStart& start,
+                                 const SurfacePoint& point) const {
   if (point.body == swept_ground) return Vec3::Zero();
   if (is_rigid(point.body)) {
     const RigidState& before = start.rigid[at(box(point.body))];
     return before.velocity + before.angular_velocity.cross(point.point - before.position);
   }
+  if (is_driven(point.body)) return driven_velocity(world, point);
   const VertexArray& velocities = start.soft[at(point.body)].velocities;
   return interpolate(point, [&](int v) { return velocities[v]; });
 }
@@ -357,6 +459,7 @@ Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) co
     const RigidBox& now = world.rigid[at(box(point.body))];
     return now.velocity + now.angular_velocity.cross(point.point - now.position);
   }
+  if (is_driven(point.body)) return driven_velocity(world, point);
   const VertexArray& velocities = world.soft[at(point.body)].velocities;
   return interpolate(point, [&](int v) { return velocities[v]; });
 }

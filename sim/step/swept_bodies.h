@@ -12,6 +12,7 @@
 #include "sim/collision/sweep_and_prune.h"
 #include "sim/response/carried_boxes.h"
 #include "sim/step/stage_memory.h"
+#include "sim/swept/moved_obstacle.h"
 #include "sim/swept/obstacle_search.h"
 #include "sim/swept/swept_impulse.h"
 
@@ -33,6 +34,13 @@ inline constexpr double near_of_side = 0.02;
 class SweptBodies {
  public:
   explicit SweptBodies(const World& world);
+  /// Per soft body: these obstacles are where the whole step began until it is done.
+  void leave_in_place(std::span<const std::uint8_t> is_driven);
+  /// Of the whole step, before all else.
+  void begin_step(const World& world);
+  /// Whether a body of this step has a velocity.
+  bool moves(const World& world, int body) const;
+  bool any_driven_moves() const;
 
   int count() const { return static_cast<int>(surfaces_.size()); }
   bool is_rigid(int body) const { return body >= soft_count_; }
@@ -42,15 +50,24 @@ class SweptBodies {
   /// The body that a box is, or -1 the ground.
   int of_box(int box) const { return box < 0 ? swept_ground : box + soft_count_; }
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
-  /// Of a soft body that is an obstacle and keeps its shape; otherwise null.
-  const ObstacleShape* obstacle(int body) const { return obstacles_[at(body)].get(); }
+  /// Whether it is a soft body that is an obstacle and keeps its shape.
+  bool is_obstacle(int body) const { return obstacles_[at(body)] || is_in_own_axes(body); }
+  /// The ways of a soft body beside an obstacle, in the axes of this if it is moved. `near` and
+  /// `least`: m, in the world.
+  BesideObstacle beside_obstacle(int soft, int obstacle, double near, double least);
+  /// Of an obstacle only what has been placed has a start and an end, and its neighbours.
+  void place_around(const World& world, const MotionStart& start, int obstacle,
+                    const Feature& feature);
+  void place_all(const World& world, const MotionStart& start, int body);
   /// m, half of what bodies of this kind keep between their surfaces.
   double skin(int body) const { return skins_[at(body)]; }
   double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
 
   /// Where the surfaces are at the start of a step, and at its end; of a soft body from when
-  /// another body's way may come near its own.
-  void set_start(const World& world, const MotionStart& start);
+  /// another body's way may come near its own. `parts_done`: fractions of a step that is halved, of
+  /// which this is the next; `fraction`: its own.
+  void set_start(const World& world, const MotionStart& start, std::span<const double> parts_done,
+                 double fraction);
   void set_end(const World& world);
   /// Of one box.
   void set_end(const World& world, int body);
@@ -102,7 +119,8 @@ class SweptBodies {
   /// m, from the start of the step to its end.
   Vec3 displacement(const World& world, const MotionStart& start, const SurfacePoint& point) const;
   /// m/s.
-  Vec3 start_velocity(const MotionStart& start, const SurfacePoint& point) const;
+  Vec3 start_velocity(const World& world, const MotionStart& start,
+                      const SurfacePoint& point) const;
   Vec3 end_velocity(const World& world, const SurfacePoint& point) const;
 
   /// Takes the changes since begin_at_start as displacements, in m and rad, that the boxes are
@@ -130,6 +148,7 @@ class SweptBodies {
   void add_changes(World& world) const;
 
  private:
+  void know_obstacle(const SoftBody& body);
   void number_nodes(const World& world);
   /// What refit_way would give, of a body that is not followed.
   Bounds bounds_of_way(const World& world, const MotionStart& start, int soft) const;
@@ -139,6 +158,12 @@ class SweptBodies {
   Bounds root_bounds(int body) const;
   bool may_be_near(const BodyPair& bodies) const;
   void find_what_is_still(const World& world);
+  bool is_in_own_axes(int body) const {
+    return moved_[at(body)] && moved_[at(body)]->is_in_own_axes();
+  }
+  bool is_driven(int body) const { return moved_[at(body)] && moved_[at(body)]->is_driven(); }
+  void see_in_own_axes(int obstacle);
+  Vec3 driven_velocity(const World& world, const SurfacePoint& point) const;
   Bounds bounds_of_still(const World& world, int body);
   void fit_still(const World& world, int body);
   SweptSide pinned_side(const SoftBody& body, const SurfacePoint& point);
@@ -162,7 +187,9 @@ class SweptBodies {
   std::vector<MovingSurface> surfaces_;
   std::vector<int> first_nodes_;                           // of each body, and the end
   std::vector<std::uint8_t> is_lone_;                      // per body
-  std::vector<std::unique_ptr<ObstacleShape>> obstacles_;  // per body, or null
+  std::vector<std::unique_ptr<ObstacleShape>> obstacles_;  // per body that never moves, or null
+  std::vector<std::unique_ptr<MovedObstacle>> moved_;      // per body, or null
+  std::vector<MovingSurface> seen_;                        // per soft body: from an obstacle
   std::vector<std::uint8_t> never_moves_;                  // per body
   std::vector<std::uint8_t> is_still_;     // per body: as it never moves, or is asleep
   std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still

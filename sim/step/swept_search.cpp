@@ -94,12 +94,13 @@ bool SweptSearch::may_touch(const BodyPair& bodies) const {
   const auto [first, second] = bodies;
   if (!is_fixed(world_, first) || !is_fixed(world_, second)) return true;
   const auto comes_near = [&](int body, int other) {
-    return is_kinematic(world_, body) && moves(world_, body) && is_asleep(world_, other);
+    return is_kinematic(world_, body) && bodies_.moves(world_, body) && is_asleep(world_, other);
   };
   return comes_near(first, second) || comes_near(second, first);
 }
 
 void SweptSearch::offer_near_features(const BodyPair& bodies) {
+  for (const int body : {bodies.first, bodies.second}) bodies_.place_all(world_, start_, body);
   m_.found.clear();
   find_near_features(bodies_.surface(bodies.first), bodies_.surface(bodies.second), m_.found);
   for (const NearFeatures& features : m_.found) offer(bodies, features);
@@ -341,7 +342,8 @@ Vec3 SweptSearch::shift(const SweptContact& contact) const {
 
 Vec3 SweptSearch::start_velocity(const SweptContact& contact) const {
   const auto [first, second] = where_impulses_act(contact);
-  return bodies_.start_velocity(start_, first) - bodies_.start_velocity(start_, second);
+  return bodies_.start_velocity(world_, start_, first) -
+         bodies_.start_velocity(world_, start_, second);
 }
 
 Vec3 SweptSearch::end_velocity(const SweptContact& contact) const {
@@ -352,7 +354,7 @@ Vec3 SweptSearch::end_velocity(const SweptContact& contact) const {
 Vec3 SweptSearch::driven_velocity(const SweptContact& contact, Moment moment) const {
   const auto of = [&](const SurfacePoint& side) -> Vec3 {
     if (side.body == swept_ground || !is_kinematic(world_, side.body)) return Vec3::Zero();
-    return moment == Moment::start ? bodies_.start_velocity(start_, side)
+    return moment == Moment::start ? bodies_.start_velocity(world_, start_, side)
                                    : bodies_.end_velocity(world_, side);
   };
   const auto [first, second] = where_impulses_act(contact);

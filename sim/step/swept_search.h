@@ -79,11 +79,13 @@ struct SweptMemory {
         carried_boxes(world),
         fall_asleep(world) {
     members.reserve(at(bodies.count()));
+    parts_done.reserve(1u << max_halvings);
   }
 
   SweptBodies bodies;
   SweptSolver solver;
   std::vector<SweptStart> starts;  // by how often the step has been halved
+  std::vector<double> parts_done;  // of a step that is halved, fractions of it
   std::vector<BodyPair> near_bodies;
   std::vector<SweptCandidate> candidates;
   std::vector<SweptCandidate> earlier_candidates;  // of the search before, in the same step

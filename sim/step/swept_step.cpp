@@ -61,8 +61,10 @@ class SweptStep {
     start.lost_energy = world_.lost_energy;
     const double work = m_.work, driven_work = m_.driven_work;
     const std::size_t contacts = w_.contacts.size();
+    const std::size_t parts_done = m_.parts_done.size();
     const auto take_all_back = [&] {
       take_back(start);
+      m_.parts_done.resize(parts_done);
       m_.work = work;
       m_.driven_work = driven_work;
       w_.contacts.resize(contacts);
@@ -70,6 +72,7 @@ class SweptStep {
     fraction_ = std::ldexp(1.0, -halvings);
     auto failure = try_step();
     if (!failure) {
+      m_.parts_done.push_back(fraction_);
       if (w_.options.after_part) w_.options.after_part(world_);
       return std::nullopt;
     }
@@ -101,7 +104,7 @@ class SweptStep {
   std::optional<Divergence> try_step() {
     if (auto failed = move_freely()) return failed;
     run_(Stage::find_contacts, [&] {
-      bodies_.set_start(world_, start());
+      bodies_.set_start(world_, start(), m_.parts_done, fraction_);
       bodies_.set_end(world_);
       search_.find_candidates();
       if (!m_.touched_asleep.empty()) return;
@@ -239,7 +242,7 @@ class SweptStep {
     warm_start_.remember(fraction_);
     report();
     if (world_.settings.ground) meet_ground();
-    if (w_.has_pins) hold_pins(world_, start().soft);
+    if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
 
@@ -437,10 +440,12 @@ std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
     world.lost_energy.clear();
   }
   m.rest = world.rest;
+  m.bodies.begin_step(world);
   wake_moving(world);
-  if (is_at_rest(world)) return std::nullopt;
+  if (is_at_rest(world) && !m.bodies.any_driven_moves()) return std::nullopt;
   while (true) {
     m.touched_asleep.clear();
+    m.parts_done.clear();
     SweptStep step(world, workspace);
     const auto divergence = step.advance(0);
     if (wake_what_was_touched(world, m)) continue;

@@ -160,8 +160,6 @@ class ObstacleSearch::Descent {
         obstacle_(*pair.obstacle.tree),
         soft_start_(pair.soft.start),
         soft_end_(pair.soft.end),
-        start_(pair.obstacle.start),
-        end_(pair.obstacle.end),
         search_(search),
         boxes_(search.boxes_),
         pairs_(pairs) {}
@@ -208,7 +206,6 @@ class ObstacleSearch::Descent {
   }
 
   bool is_above_plane(const SoftTriangle& soft, int node) const {
-    if (!pair_.shape.keeps_place()) return false;
     const ObstacleShape::Plane& plane = pair_.shape.planes()[at(node)];
     const double least = plane.height + pair_.near;
     return all_of_lanes(dots(plane.normal, soft.corners_at_start) >= least) &&
@@ -218,12 +215,10 @@ class ObstacleSearch::Descent {
   void meet(int triangle, int other) {
     const SoftTriangle& soft = soft_triangle(triangle);
     const Triangle& corners = obstacle_.topology().triangles()[at(other)];
-    const bool keeps_place = pair_.shape.keeps_place();
-    const Face at_start = keeps_place ? pair_.shape.faces()[at(other)] : face_of(start_, corners);
-    const Vec3x4 at_end = keeps_place ? at_start.corners : corner_columns(end_, corners);
-    const double beyond = clearance_beyond(soft, at_start, at_end);
+    const Face& face = pair_.shape.faces()[at(other)];
+    const double beyond = clearance_beyond(soft, face);
     if (beyond >= pair_.near) return;
-    const Vec4d heights = heights_above(soft, at_start.corners, at_end);
+    const Vec4d heights = heights_above(soft, face.corners);
     const double lowest = smallest_lane(heights);
     if (lowest >= pair_.near) return;
     const WayBox& box = pair_.obstacle.triangles[at(other)];
@@ -248,9 +243,7 @@ class ObstacleSearch::Descent {
       if (obstacle_.owner_of_edge(f) != other || !pair_.shape.is_touchable_edge(f)) continue;
       const WayBox around = edge_box(obstacle_, pair_.obstacle, f);
       if (!overlap(boxes_.triangles[at(triangle)], around)) continue;
-      const EdgeSides sides = pair_.shape.keeps_place()
-                                  ? pair_.shape.edge_sides()[at(f)]
-                                  : edge_sides_of(obstacle_.topology(), start_, f);
+      const EdgeSides& sides = pair_.shape.edge_sides()[at(f)];
       for (const int e : soft_.topology().triangle_edges()[at(triangle)]) {
         if (soft_.owner_of_edge(e) != triangle) continue;
         const SoftEdge& soft = soft_edge(e);
@@ -308,17 +301,17 @@ class ObstacleSearch::Descent {
   }
 
   /// m, by which the corners of the obstacle's triangle stay above the plane at least.
-  static Vec4d heights_above(const SoftTriangle& soft, const Vec3x4& from, const Vec3x4& to) {
-    const auto [first, middle, last] = along_normal(soft, from, to);
+  static Vec4d heights_above(const SoftTriangle& soft, const Vec3x4& corners) {
+    const auto [first, middle, last] = along_normal(soft, corners, corners);
     return min(min(first - soft.at_start, last - soft.at_end), middle - soft.between);
   }
 
-  /// m, by which the triangle of the soft body stays above the plane of the other at least, as this
-  /// is at the start. Of one without area, nothing is known.
-  static double clearance_beyond(const SoftTriangle& soft, const Face& face, const Vec3x4& to) {
+  /// m, by which the triangle of the soft body stays above the plane of the other at least. Of one
+  /// without area, nothing is known.
+  static double clearance_beyond(const SoftTriangle& soft, const Face& face) {
     const Vec4d first = dots(face.plane.normal, soft.corners_at_start) - face.plane.height;
     const Vec4d last = dots(face.plane.normal, soft.corners_at_end);
-    return smallest_lane(min(first, last - greatest_lane(dots(face.plane.normal, to))));
+    return smallest_lane(min(first, last - greatest_lane(dots(face.plane.normal, face.corners))));
   }
 
   const BesideObstacle& pair_;
@@ -327,7 +320,6 @@ class ObstacleSearch::Descent {
   const SurfaceTree& soft_;
   const SurfaceTree& obstacle_;
   const VertexReader soft_start_, soft_end_;
-  const VertexReader start_, end_;  // of the obstacle
   ObstacleSearch& search_;
   const WayBoxes& boxes_;  // of the soft body
   std::vector<NearFeatures>& pairs_;

@@ -39,10 +39,9 @@ class ObstacleShape {
     Vec4d into_first{};
     Vec4d into_second{};
   };
-  /// Keeps where all is, of an obstacle that stays there.
+  /// Keeps where all is, in the axes in which the obstacle stays there.
   void keep_place(const MovingSurface& surface);
-  bool keeps_place() const { return !planes_.empty(); }
-  /// Per node of the tree, per triangle and per edge, if it does.
+  /// Per node of the tree, per triangle and per edge.
   const std::vector<Plane>& planes() const { return planes_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<EdgeSides>& edge_sides() const { return edge_sides_; }
@@ -57,10 +56,10 @@ class ObstacleShape {
   std::vector<EdgeSides> edge_sides_;
 };
 
-/// A soft body and an obstacle.
+/// A soft body and an obstacle that stays where it is, in these axes.
 struct BesideObstacle {
   const MovingSurface& soft;      // its boxes may be old
-  const MovingSurface& obstacle;  // refitted
+  const MovingSurface& obstacle;  // refitted, and its place kept
   const ObstacleShape& shape;
   bool soft_is_first = true;  // in the pairs that are found
   double near = 0.0;          // m, up to which features are in contact

@@ -26,14 +26,15 @@ double processor_time() {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-SoftBody make_obstacle(const TriangleMesh& mesh) {
+SoftBody make_obstacle(const TriangleMesh& mesh, bool is_moved = false,
+                       const GivenMotion& motion = {}) {
   SoftBody body = make_body(mesh);
   body.name = "obstacle";
   body.material.n = 0.0;
   body.material.surface = {0.0, 0.5};
   const auto count = at(body.positions.size());
   body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
-                        std::vector<std::uint8_t>(count, 0), GivenMotion{});
+                        std::vector<std::uint8_t>(count, is_moved ? 1 : 0), motion);
   return body;
 }
 
@@ -72,6 +73,16 @@ World on_sphere(int stacks, int slices, int ball_stacks) {
   world.settings.steps_per_second = steps_per_second;
   world.soft = {make_obstacle(make_lying_sphere(4.0, stacks, slices)),
                 make_ball(ball_stacks, {0.3, 0.2, 5.3}, {0.5, 0.2, -6.0})};
+  return world;
+}
+
+/// It rises and sinks, and turns.
+World on_moved_sphere(int stacks, int slices, int ball_stacks) {
+  World world = on_sphere(stacks, slices, ball_stacks);
+  GivenMotion motion;
+  motion.keys.path = {{0.0, 0.0, 0.0, 0.0}, {0.5, 0.0, 0.0, 0.4}, {1.0, 0.0, 0.0, 0.0}};
+  motion.keys.rotation = {{0.0, 0.0, 0.0, 0.0}, {1.0, 10.0, 20.0, 30.0}};
+  world.soft[0] = make_obstacle(make_lying_sphere(4.0, stacks, slices), true, motion);
   return world;
 }
 
@@ -147,6 +158,8 @@ int main() {
   for (const int stacks : {8, 16}) {
     std::printf("a ball of %d stacks\n", stacks);
     compare("falls on a sphere", [&](int a, int b) { return on_sphere(a, b, stacks); },
+            {{"impact", 0, 60}, {"rolls", 60, 200}});
+    compare("on a moved sphere", [&](int a, int b) { return on_moved_sphere(a, b, stacks); },
             {{"impact", 0, 60}, {"rolls", 60, 200}});
     compare("rolls in a bowl", [&](int a, int b) { return in_bowl(a, b, stacks); },
             {{"rolls", 60, 480}, {"slows", 480, 720}});

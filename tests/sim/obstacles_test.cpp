@@ -1,6 +1,8 @@
 // Obstacles of any shape: soft bodies of which all vertices are pinned.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/soft/pins.h"
@@ -11,7 +13,7 @@ namespace pneuma::sim {
 namespace {
 
 SoftBody make_obstacle(const TriangleMesh& mesh, const Vec3& position,
-                       const Vec3& velocity = {0, 0, 0}) {
+                       const Vec3& velocity = {0, 0, 0}, const Vec3& angular_velocity = {0, 0, 0}) {
   SoftBody body = make_body(mesh, position);
   body.name = "obstacle";
   body.material.n = 0.0;
@@ -20,7 +22,8 @@ SoftBody make_obstacle(const TriangleMesh& mesh, const Vec3& position,
   GivenMotion motion;
   motion.position = position;
   motion.velocity = velocity;
-  const std::uint8_t moves = velocity.isZero() ? 0 : 1;
+  motion.angular_velocity = angular_velocity;
+  const std::uint8_t moves = velocity.isZero() && angular_velocity.isZero() ? 0 : 1;
   body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
                         std::vector<std::uint8_t>(count, moves), motion);
   return body;
@@ -104,12 +107,15 @@ TEST(Obstacles, ThatMoveTakeABoxAndABallAlong) {
 TEST(Obstacles, ThatAreFineAreNotCrossed) {
   TriangleMesh mesh = make_icosphere(2.0, 4);
   for (Vec3& x : mesh.vertices) x *= 1.0 + 0.1 * std::sin(6.0 * x.x()) * std::cos(7.0 * x.y());
-  for (const Vec3& velocity : {Vec3(0.0, 0.0, 0.0), Vec3(0.5, -0.3, 1.0)}) {
+  const Vec3 zero = Vec3::Zero();
+  for (const auto& [velocity, angular_velocity] :
+       {std::pair(zero, zero), std::pair(Vec3(0.5, -0.3, 1.0), zero),
+        std::pair(Vec3(0.5, -0.3, 1.0), Vec3(4.0, -6.0, 2.0)), std::pair(zero, Vec3(0, 0, 25))}) {
     for (const int subdivisions : {0, 1}) {
       World world;
       world.settings.ground.reset();
       world.settings.steps_per_second = 240;
-      world.soft = {make_obstacle(mesh, {0.0, 0.0, 0.0}, velocity),
+      world.soft = {make_obstacle(mesh, {0.0, 0.0, 0.0}, velocity, angular_velocity),
                     make_body(make_icosphere(0.9, subdivisions), {0.3, 0.2, 3.4})};
       SoftBody& ball = world.soft[1];
       ball.material.n = 0.1;
@@ -124,37 +130,112 @@ TEST(Obstacles, ThatAreFineAreNotCrossed) {
         ASSERT_EQ(i % 4 == 0 ? crossings(world).between_bodies : 0, 0) << "after step " << i;
         contacts += stepper.contacts().size();
       }
-      EXPECT_GT(contacts, 5u);
+      EXPECT_GT(contacts, 5u) << velocity.transpose() << ", " << angular_velocity.transpose();
     }
   }
 }
 
-/// The second time, whatever balls of different meshes need is there.
-TEST(Obstacles, ThatAreFineAllocateNothingTwice) {
-  World start;
-  start.settings.ground.reset();
-  start.settings.steps_per_second = 240;
-  start.soft = {make_obstacle(make_icosphere(2.0, 4), {0.0, 0.0, 0.0}),
+/// Two balls of different meshes that fall on it, and a box.
+World make_fine_obstacle_world(const Vec3& angular_velocity, double speed) {
+  World world;
+  world.settings.ground.reset();
+  world.settings.steps_per_second = 240;
+  world.soft = {make_obstacle(make_icosphere(2.0, 4), {0, 0, 0}, {0, 0, 0}, angular_velocity),
                 make_body(make_icosphere(0.5, 0), {0.6, 0.2, 2.7}),
                 make_body(make_icosphere(0.5, 1), {-0.6, 0.2, 2.7})};
-  for (SoftBody* ball : {&start.soft[1], &start.soft[2]}) {
+  for (SoftBody* ball : {&world.soft[1], &world.soft[2]}) {
     ball->material.n = 0.1;
-    for (int v = 0; v < ball->positions.size(); ++v) ball->velocities[v].z() = -5.0;
+    for (int v = 0; v < ball->positions.size(); ++v) ball->velocities[v].z() = -speed;
   }
-  World world = start;
-  Stepper stepper(world);
-  long before = 0;
-  for (int run = 0; run < 2; ++run) {
-    world = start;
-    before = allocation_count();
-    std::size_t contacts = 0;
-    for (int i = 0; i < 60; ++i) {
-      ASSERT_FALSE(stepper.step(world));
+  return world;
+}
+
+/// The second time, whatever balls of different meshes need is there.
+TEST(Obstacles, ThatAreFineAllocateNothingTwice) {
+  for (const Vec3& angular_velocity : {Vec3(0.0, 0.0, 0.0), Vec3(0.5, 0.2, 1.0)}) {
+    const World start = make_fine_obstacle_world(angular_velocity, 5.0);
+    World world = start;
+    Stepper stepper(world);
+    long before = 0;
+    for (int run = 0; run < 2; ++run) {
+      world = start;
+      before = allocation_count();
+      std::size_t contacts = 0;
+      for (int i = 0; i < 60; ++i) {
+        ASSERT_FALSE(stepper.step(world));
+        contacts += stepper.contacts().size();
+      }
+      EXPECT_GT(contacts, 5u);
+    }
+    EXPECT_EQ(allocation_count() - before, 0);
+  }
+}
+
+/// A step that someone looks into moves the obstacle's vertices with all others; another leaves
+/// them until its end. At 30 m/s it is done in parts.
+TEST(Obstacles, ThatAreMovedComeOutTheSameHoweverTheyAreLookedAt) {
+  for (const double speed : {5.0, 30.0}) {
+    World world = make_fine_obstacle_world({0.5, 0.2, 30.0}, speed);
+    world.rigid = {make_rigid({0.4, 0.4, 0.4}, {0.0, -0.5, 2.4})};
+    World looked_into = world;
+    std::size_t parts = 0, contacts = 0;
+    Stepper stepper(world);
+    Stepper other(looked_into, {.plan = {}, .after_part = [&](const World&) { ++parts; }});
+    for (int i = 0; i < 40; ++i) {
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->what;
+      ASSERT_FALSE(other.step(looked_into));
       contacts += stepper.contacts().size();
+      ASSERT_EQ(crossings(world).between_bodies, 0);
+      for (std::size_t body = 0; body < world.soft.size(); ++body) {
+        const SoftBody &one = world.soft[body], &same = looked_into.soft[body];
+        ASSERT_TRUE(one.positions.rows() == same.positions.rows()) << i;
+        ASSERT_TRUE(one.velocities.rows() == same.velocities.rows()) << i;
+      }
+      ASSERT_EQ(world.rigid[0].position, looked_into.rigid[0].position);
     }
     EXPECT_GT(contacts, 5u);
+    EXPECT_EQ(parts > 40, speed > 10.0);
   }
-  EXPECT_EQ(allocation_count() - before, 0);
+}
+
+/// Whoever moves it by hand moves it away from where its motion would have it.
+TEST(Obstacles, ThatLieElsewhereThanTheirMotionPutsThemAreNotCrossed) {
+  World world = make_fine_obstacle_world({0.5, 0.2, 1.0}, 5.0);
+  SoftBody& obstacle = world.soft[0];
+  for (int v = 0; v < obstacle.positions.size(); ++v) obstacle.positions[v].z() += 0.1;
+  Stepper stepper(world);
+  for (int i = 0; i < 40; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    ASSERT_EQ(crossings(world).between_bodies, 0);
+    if (i == 20) {
+      for (SoftBody& body : world.soft) {
+        for (int v = 0; v < body.positions.size(); ++v) body.positions[v].x() += 0.1;
+      }
+    }
+  }
+}
+
+/// It begins to move long after all has come to rest.
+TEST(Obstacles, ThatBeginToMoveWakeWhatSleepsOnThem) {
+  World world;
+  world.settings.steps_per_second = 240;
+  SoftBody slab = make_obstacle(make_box({3.0, 3.0, 1.0}, 8), {0.0, 0.0, 2.0});
+  GivenMotion motion;
+  motion.position = {0.0, 0.0, 2.0};
+  motion.keys.path = {{0.0, 0.0, 0.0, 0.0}, {8.0, 0.0, 0.0, 0.0}, {9.0, 0.0, 0.0, 1.0}};
+  const auto count = at(slab.positions.size());
+  slab.pins = make_pins(slab.positions, std::vector<std::uint8_t>(count, 1),
+                        std::vector<std::uint8_t>(count, 1), motion);
+  world.soft = {slab, make_ball({0.0, 0.0, 3.6})};
+  world.soft[1].material.rho_g = 0.5;
+  Stepper stepper(world);
+  for (int i = 0; i < 8 * 240; ++i) ASSERT_FALSE(stepper.step(world));
+  ASSERT_GE(world.rest[1].group, 0);
+  const double before = mean(world.soft[1].positions).z();
+  for (int i = 0; i < 480; ++i) ASSERT_FALSE(stepper.step(world));
+  EXPECT_NEAR(mean(world.soft[1].positions).z(), before + 1.0, 0.1);
+  EXPECT_NEAR(mean(world.soft[0].positions).z(), 3.0, 1e-9);
 }
 
 TEST(Obstacles, MayLieInEachOtherAndInTheGround) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,6 +11,7 @@
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/soft_mesh.h"
 #include "sim/swept/feature_ways.h"
+#include "sim/swept/obstacle_frame.h"
 
 namespace pneuma::sim {
 namespace {
@@ -82,31 +84,120 @@ MovingSurface make_falling_ball(const SoftMesh& mesh, const MovingSurface& obsta
   return ball;
 }
 
+/// Turned by up to so much (rad), and moved by up to a quarter of it (m), about where it was.
+ObstaclePlace make_place(double amount, std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto draw = [&] {
+    const double z = uniform(random), y = uniform(random), x = uniform(random);
+    return Vec3(x, y, z);
+  };
+  const Vec3 axis = draw().normalized(), moved = 0.25 * amount * draw();
+  return {Eigen::AngleAxisd(amount * uniform(random), axis).toRotationMatrix(), moved};
+}
+
+void put(const ObstaclePlace& place, const VertexArray& own, VertexArray& positions) {
+  for (int v = 0; v < own.size(); ++v) positions[v] = place * Vec3(own[v]);
+}
+
+double first_of(const MovingSurface& soft, const MovingSurface& obstacle,
+                const std::vector<NearFeatures>& found) {
+  double first = 1.0;
+  for (const NearFeatures& one : found) first = std::min(first, time_of(soft, obstacle, one));
+  return first;
+}
+
+/// At rest, and moved from one place to another, in halves of the step.
 TEST(ObstacleSearch, FindsWhatMeetsFirst) {
   const auto of_ball = make_soft_mesh(make_icosphere(0.7, 1));
   const auto of_obstacle = make_soft_mesh(make_bumpy_ball(3));
+  const MovingSurface own = [&] {
+    MovingSurface surface = make_surface(*of_obstacle, Vec3::Zero());
+    refit(surface, near);
+    return surface;
+  }();
+  ObstacleShape shape(of_obstacle->topology, of_obstacle->rest_positions);
+  shape.keep_place(own);
   std::mt19937 random(7);
   ObstacleSearch search;
   int met = 0;
-  for (int i = 0; i < 30; ++i) {
-    const bool is_still = i % 2 == 0;
-    MovingSurface obstacle = make_surface(*of_obstacle, Vec3::Zero());
-    const MovingSurface ball = make_falling_ball(*of_ball, obstacle, random);
-    if (!is_still) {
-      for (int v = 0; v < obstacle.end.size(); ++v) obstacle.end[v] += Vec3(0.02, -0.03, 0.05);
+  for (int i = 0; i < 60; ++i) {
+    MovingSurface obstacle = own;
+    ObstacleFrame frame;
+    if (i % 2 == 1) {
+      const double from = i % 4 == 1 ? 0.0 : 0.5;
+      const ObstaclePlace start = make_place(3.0, random);
+      const ObstaclePlace turn = make_place(0.3, random);
+      frame.set(start, {turn.axes * start.axes, start.origin + turn.origin}, from, from + 0.5);
+      put(frame.start(), own.start, obstacle.start);
+      put(frame.end(), own.start, obstacle.end);
     }
-    refit(obstacle, near);
-    ObstacleShape shape(of_obstacle->topology, of_obstacle->rest_positions);
-    if (is_still) shape.keep_place(obstacle);
+    const MovingSurface ball = make_falling_ball(*of_ball, obstacle, random);
+    MovingSurface seen = ball;
+    const double bow = frame.look_at(ball.start, ball.end, seen.start, seen.end);
     std::vector<NearFeatures> found;
-    search.find_first_to_pass({ball, obstacle, shape, true, near, least}, found);
-    double first = 1.0;
-    for (const NearFeatures& one : found) first = std::min(first, time_of(ball, obstacle, one));
+    search.find_first_to_pass(
+        {seen, own, shape, true, frame.own_length(near) + bow, frame.own_length(least) + bow},
+        found);
+    const double first = first_of(ball, obstacle, found);
     const double of_all = first_of_all(ball, obstacle);
     EXPECT_LE(first, of_all + 1e-3) << i;
     met += of_all < 1.0 ? 1 : 0;
   }
-  EXPECT_GT(met, 15);
+  EXPECT_GT(met, 30);
+}
+
+/// Straight ways in the world, at many moments of a step that turns the axes by up to 50 degrees.
+TEST(ObstacleFrame, BoundsHowFarWaysBendInItsAxes) {
+  std::mt19937 random(3);
+  double greatest = 0.0;  // of the bound that is used
+  for (int i = 0; i < 200; ++i) {
+    const ObstaclePlace start = make_place(3.0, random), turn = make_place(0.85, random);
+    const ObstaclePlace end{turn.axes * start.axes, start.origin + turn.origin};
+    const double from = i % 3 == 0 ? 0.25 : 0.0, to = i % 2 == 0 ? 0.5 : 1.0;
+    ObstacleFrame frame;
+    frame.set(start, end, from, to);
+    ASSERT_TRUE(frame.is_of_use());
+    VertexArray before(1), after(1), own_before(1), own_after(1);
+    before[0] = make_place(8.0, random).origin;
+    after[0] = before[0] + make_place(4.0, random).origin;
+    const double bow = frame.look_at(before, after, own_before, own_after);
+    EXPECT_LT((frame.start() * Vec3(own_before[0]) - before[0]).norm(), 1e-12);
+    EXPECT_LT((frame.end() * Vec3(own_after[0]) - after[0]).norm(), 1e-12);
+    for (double s = 0.05; s < 1.0; s += 0.05) {
+      const Mat3 axes = (1.0 - s) * frame.start().axes + s * frame.end().axes;
+      const Vec3 origin = (1.0 - s) * frame.start().origin + s * frame.end().origin;
+      const Vec3 own = axes.inverse() * ((1.0 - s) * before[0] + s * after[0] - origin);
+      const double off = (own - ((1.0 - s) * own_before[0] + s * own_after[0])).norm();
+      ASSERT_LE(off, bow + 1e-12);
+      greatest = std::max(greatest, off / bow);
+      const Vec3 arm = make_place(4.0, random).origin;
+      ASSERT_LE(arm.norm(), frame.own_length((axes * arm).norm()) + 1e-12);
+    }
+  }
+  EXPECT_GT(greatest, 0.5);
+}
+
+TEST(ObstacleFrame, BoundsTheWaysOfWhatLiesInIt) {
+  std::mt19937 random(5);
+  for (int i = 0; i < 100; ++i) {
+    ObstacleFrame frame;
+    frame.set(make_place(3.0, random), make_place(3.0, random), 0.0, 1.0);
+    Bounds own;
+    for (int corner = 0; corner < 2; ++corner) own.include(make_place(4.0, random).origin);
+    const Bounds way = frame.way_of(own);
+    const double longest = frame.longest_way(own);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int j = 0; j < 20; ++j) {
+      const double z = uniform(random), y = uniform(random), x = uniform(random);
+      const Vec3 vertex = own.low + own.size().cwiseProduct(Vec3(x, y, z));
+      const Vec3 from = frame.start() * vertex, to = frame.end() * vertex;
+      EXPECT_LE((to - from).norm(), longest + 1e-12);
+      for (const Vec3& point : {from, to}) {
+        EXPECT_TRUE((point.array() >= way.low.array() - 1e-12).all());
+        EXPECT_TRUE((point.array() <= way.high.array() + 1e-12).all());
+      }
+    }
+  }
 }
 
 /// The sphere of 20,480 triangles has 16 times as many as the other.
