@@ -52,7 +52,7 @@ bool SweptSearch::is_beside_obstacle(const BodyPair& bodies) const {
 /// Of a fine obstacle most of what is near could touch only if impulses let it: candidates are what
 /// may touch as the ends are, and are searched again whenever these are others. At first, what is
 /// nearest at the start: of what the free motion would go through, contacts need no more.
-void SweptSearch::offer_beside_obstacle(const BodyPair& bodies) {
+void SweptSearch::offer_beside_obstacle(const BodyPair& bodies, NearTriangles& near) {
   const auto [first, second] = bodies;
   const bool soft_is_first = !bodies_.is_obstacle(first);
   const int soft = soft_is_first ? first : second, obstacle = soft_is_first ? second : first;
@@ -60,11 +60,13 @@ void SweptSearch::offer_beside_obstacle(const BodyPair& bodies) {
       bodies_.beside_obstacle(soft, obstacle, near_distance(first, second),
                               least_of_wanted_beside * distance_wanted(first, second));
   pair.soft_is_first = soft_is_first;
+  if (!near.is_known) m_.obstacle_search.find_near_triangles(pair, near.triangles);
+  near.is_known = true;
   m_.found.clear();
   if (has_started_) {
-    m_.obstacle_search.find_first_to_pass(pair, m_.found);
+    m_.obstacle_search.find_first_to_pass(pair, near.triangles, m_.found);
   } else {
-    m_.obstacle_search.find_nearest_at_start(pair, m_.found);
+    m_.obstacle_search.find_nearest_at_start(pair, near.triangles, m_.found);
   }
   are_beside_obstacles_ = true;
   for (const NearFeatures& features : m_.found) {
@@ -96,12 +98,19 @@ bool SweptSearch::obstacle_is_nearest(const BodyPair& bodies, const NearFeatures
                            sine_of_nearest);
 }
 
+/// Those that are near while all ends are within their allowances are looked for once.
+NearTriangles& SweptSearch::next_near_triangles() {
+  if (next_near_ == m_.near_triangles.size()) m_.near_triangles.emplace_back();
+  return m_.near_triangles[next_near_++];
+}
+
 /// The other candidates stay.
 void SweptSearch::search_beside_obstacles() {
   std::swap(m_.candidates, m_.earlier_candidates);
   m_.candidates.clear();
   const std::vector<SweptCandidate>& earlier = m_.earlier_candidates;
   auto from = earlier.begin();
+  next_near_ = 0;
   for (const BodyPair& pair : m_.near_bodies) {
     const auto end = std::find_if(from, earlier.end(),
                                   [&](const SweptCandidate& one) { return one.bodies != pair; });
@@ -109,7 +118,7 @@ void SweptSearch::search_beside_obstacles() {
       m_.candidates.insert(m_.candidates.end(), from, end);
     } else {
       const std::size_t before = m_.candidates.size();
-      offer_beside_obstacle(pair);
+      offer_beside_obstacle(pair, next_near_triangles());
       if (m_.candidates.size() != before) wake_if_touched(pair);
     }
     from = end;

@@ -183,13 +183,15 @@ bool SweptBodies::any_driven_moves() const {
 
 BesideObstacle SweptBodies::beside_obstacle(int soft, int obstacle, double near, double least) {
   if (moved_[at(obstacle)]) {
-    return moved_[at(obstacle)]->beside(surface(soft), seen_[at(soft)], near, least);
+    return moved_[at(obstacle)]->beside(surface(soft), seen_[at(soft)], near, least,
+                                        allowance(soft));
   }
   return {.soft = surface(soft),
           .obstacle = surface(obstacle),
           .shape = *obstacles_[at(obstacle)],
           .near = near,
-          .least = least};
+          .least = least,
+          .allowance = allowance(soft)};
 }
 
 void SweptBodies::place_around(const World& world, const MotionStart& start, int obstacle,

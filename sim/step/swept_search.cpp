@@ -48,13 +48,14 @@ void SweptSearch::find_candidates() {
 void SweptSearch::search_ways() {
   m_.candidates.clear();
   are_beside_obstacles_ = false;
-  next_earlier_ = 0;
+  next_earlier_ = next_near_ = 0;
+  for (NearTriangles& near : m_.near_triangles) near.is_known = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
     if (!may_touch(pair)) continue;
     const std::size_t before = m_.candidates.size();
     if (is_beside_obstacle(pair)) {
-      offer_beside_obstacle(pair);
+      offer_beside_obstacle(pair, next_near_triangles());
       bodies_.may_meet(pair);
     } else if (!keep_earlier(pair) && !offer_near_boxes(pair)) {
       offer_near_features(pair);

@@ -40,6 +40,12 @@ struct NearGroups {
   std::vector<int> order;   // the boxes that are near nothing else, set by set
 };
 
+/// Of a soft body and an obstacle.
+struct NearTriangles {
+  std::vector<TrianglePair> triangles;
+  bool is_known = false;  // of the last search for what is near
+};
+
 /// Contacts of the same features, when another search has other candidates.
 struct RecalledContact {
   int first = 0;
@@ -90,6 +96,7 @@ struct SweptMemory {
   std::vector<SweptCandidate> candidates;
   std::vector<SweptCandidate> earlier_candidates;  // of the search before, in the same step
   ObstacleSearch obstacle_search;
+  std::vector<NearTriangles> near_triangles;  // of each soft body and obstacle that are near
   std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
   std::vector<NearFeatures> found;  // of two bodies
   std::vector<SweptContact> contacts;
@@ -178,7 +185,8 @@ class SweptSearch {
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
   void search_beside_obstacles();
   bool is_beside_obstacle(const BodyPair& bodies) const;
-  void offer_beside_obstacle(const BodyPair& bodies);
+  NearTriangles& next_near_triangles();
+  void offer_beside_obstacle(const BodyPair& bodies, NearTriangles& near);
   void offer_beside_obstacle(const BodyPair& bodies, const NearFeatures& features);
   bool obstacle_is_nearest(const BodyPair& bodies, const NearFeatures& features,
                            const ClosestPoints& closest) const;
@@ -234,6 +242,7 @@ class SweptSearch {
   bool has_started_ = false;           // the contacts of the start are found
   bool are_beside_obstacles_ = false;  // any candidates
   std::size_t next_earlier_ = 0;       // of the candidates of the search before
+  std::size_t next_near_ = 0;          // of the near triangles
 };
 
 }  // namespace pneuma::sim

@@ -68,13 +68,14 @@ Bounds MovedObstacle::own_bounds() const {
 }
 
 BesideObstacle MovedObstacle::beside(const MovingSurface& soft, MovingSurface& seen, double near,
-                                     double least) const {
+                                     double least, double allowance) const {
   const double bow = frame_.look_at(soft.start, soft.end, seen.start, seen.end);
   return {.soft = seen,
           .obstacle = own_,
           .shape = shape_,
           .near = frame_.own_length(near) + bow,
-          .least = frame_.own_length(least) + bow};
+          .least = frame_.own_length(least) + bow,
+          .allowance = frame_.own_change(allowance)};
 }
 
 Vec3 MovedObstacle::velocity(const SoftBody& body, int vertex) const {

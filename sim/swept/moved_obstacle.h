@@ -37,10 +37,10 @@ class MovedObstacle {
   /// its own axes.
   bool is_in_own_axes() const { return is_in_own_axes_; }
   const ObstacleFrame& frame() const { return frame_; }
-  /// Its features that a soft body may touch. `seen`: gets the ways of this in its axes; `near` and
-  /// `least`: m, in the world.
-  BesideObstacle beside(const MovingSurface& soft, MovingSurface& seen, double near,
-                        double least) const;
+  /// Its features that a soft body may touch. `seen`: gets the ways of this in its axes; `near`,
+  /// `least` and `allowance`: m, in the world.
+  BesideObstacle beside(const MovingSurface& soft, MovingSurface& seen, double near, double least,
+                        double allowance) const;
   /// About its way, with its margin.
   Bounds bounds_of_way() const { return frame_.way_of(own_bounds()); }
   /// m, of a vertex at most.

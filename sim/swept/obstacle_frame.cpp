@@ -48,7 +48,7 @@ double ObstacleFrame::look_at(const VertexArray& start, const VertexArray& end,
     own_to.put(v, e);
     way = std::max(way, dot(e - a, e - a));
   }
-  return (end_.axes - start_.axes).norm() * std::sqrt(way) / (4.0 * shortening_);
+  return bend_of_way() * std::sqrt(way);
 }
 
 Bounds ObstacleFrame::way_of(const Bounds& own) const {

@@ -41,12 +41,17 @@ class ObstacleFrame {
                  VertexArray& own_end) const;
   /// m, which may be that long in the world.
   double own_length(double length) const { return length / shortening_; }
+  /// m, by which a way changes at most, its bend included, when its end does by so much (m).
+  double own_change(double of_end) const { return (1.0 + bend_of_way()) * own_length(of_end); }
   /// About the way of what lies within these bounds in its own axes.
   Bounds way_of(const Bounds& own) const;
   /// m, of a vertex within these bounds, at most.
   double longest_way(const Bounds& own) const;
 
  private:
+  /// Of the length of a way in its axes.
+  double bend_of_way() const { return (end_.axes - start_.axes).norm() / (4.0 * shortening_); }
+
   ObstaclePlace start_, end_;
   double shortening_ = 1.0;
 };

@@ -51,7 +51,8 @@ Vec4d unit_normal(const VertexReader& x, const Triangle& corners) {
 
 ObstacleShape::Face face_of(const VertexReader& x, const Triangle& triangle) {
   const Vec4d normal = unit_normal(x, triangle);
-  return {{normal, dot(normal, x[triangle[0]])}, corner_columns(x, triangle)};
+  const Vec3x4 corners = corner_columns(x, triangle);
+  return {{normal, dot(normal, x[triangle[0]])}, greatest_lane(dots(normal, corners)), corners};
 }
 
 ObstacleShape::EdgeSides edge_sides_of(const MeshTopology& topology, const VertexReader& x,
@@ -149,24 +150,20 @@ void ObstacleShape::find_planes(const MovingSurface& surface) {
 }
 
 /// Goes down both trees.
-class ObstacleSearch::Descent {
+class ObstacleSearch::TriangleSearch {
  public:
-  Descent(const BesideObstacle& pair, bool may_pass, ObstacleSearch& search,
-          std::vector<NearFeatures>& pairs)
+  TriangleSearch(const BesideObstacle& pair, const WayBoxes& boxes, std::vector<TrianglePair>& near)
       : pair_(pair),
-        may_pass_(may_pass),
-        reach_(may_pass ? pair.least : pair.near),
+        boxes_(boxes),
         soft_(*pair.soft.tree),
         obstacle_(*pair.obstacle.tree),
-        soft_start_(pair.soft.start),
-        soft_end_(pair.soft.end),
-        search_(search),
-        boxes_(search.boxes_),
-        pairs_(pairs) {}
+        start_(pair.soft.start),
+        end_(pair.soft.end),
+        near_(near) {}
 
   void descend(int i, int j) {
     const WayBox &one = boxes_.nodes[at(i)], &other = pair_.obstacle.nodes[at(j)];
-    if (!overlap(one, other)) return;
+    if (!overlap(one, other) || is_above_plane(one, j)) return;
     const SurfaceTree::Node &a = soft_.nodes()[at(i)], &b = obstacle_.nodes()[at(j)];
     if (a.is_leaf()) {
       for (int s = a.first; s < a.end; ++s) meet_below(soft_.order()[at(s)], j);
@@ -180,9 +177,6 @@ class ObstacleSearch::Descent {
   }
 
  private:
-  using Face = ObstacleShape::Face;
-  using EdgeSides = ObstacleShape::EdgeSides;
-
   static double squared_size(const WayBox& box) {
     return dot(box.high - box.low, box.high - box.low);
   }
@@ -190,30 +184,62 @@ class ObstacleSearch::Descent {
   /// What of the obstacle is below a node.
   void meet_below(int triangle, int node) {
     const WayBox& box = boxes_.triangles[at(triangle)];
-    const SoftTriangle& soft = soft_triangle(triangle);
+    const Triangle& corners = soft_.topology().triangles()[at(triangle)];
+    const Vec3x4 from = corner_columns(start_, corners), to = corner_columns(end_, corners);
     const auto& nodes = obstacle_.nodes();
     for (const int end = nodes[at(node)].next; node < end;) {
-      if (!overlap(box, pair_.obstacle.nodes[at(node)]) || is_above_plane(soft, node)) {
+      if (!overlap(box, pair_.obstacle.nodes[at(node)]) || is_above_plane(from, to, node)) {
         node = nodes[at(node)].next;
         continue;
       }
       for (int t = nodes[at(node)].first; t < nodes[at(node)].end; ++t) {
         const int other = obstacle_.order()[at(t)];
-        if (overlap(box, pair_.obstacle.triangles[at(other)])) meet(triangle, other);
+        if (overlap(box, pair_.obstacle.triangles[at(other)])) near_.push_back({triangle, other});
       }
       ++node;
     }
   }
 
-  bool is_above_plane(const SoftTriangle& soft, int node) const {
+  /// A box that is wide enough.
+  bool is_above_plane(const WayBox& box, int node) const {
+    const ObstacleShape::Plane& plane = pair_.shape.planes()[at(node)];
+    const Vec4d lowest = min(plane.normal * box.low, plane.normal * box.high);
+    return lowest[0] + lowest[1] + lowest[2] > plane.height;
+  }
+  bool is_above_plane(const Vec3x4& from, const Vec3x4& to, int node) const {
     const ObstacleShape::Plane& plane = pair_.shape.planes()[at(node)];
     const double least = plane.height + pair_.near;
-    return all_of_lanes(dots(plane.normal, soft.corners_at_start) >= least) &&
-           all_of_lanes(dots(plane.normal, soft.corners_at_end) >= least);
+    return all_of_lanes(dots(plane.normal, from) >= least) &&
+           all_of_lanes(dots(plane.normal, to) >= least + pair_.allowance);
   }
+
+  const BesideObstacle& pair_;
+  const WayBoxes& boxes_;  // of the soft body
+  const SurfaceTree& soft_;
+  const SurfaceTree& obstacle_;
+  const VertexReader start_, end_;  // of the soft body
+  std::vector<TrianglePair>& near_;
+};
+
+/// Of near triangles, the features that matter.
+class ObstacleSearch::FeatureSearch {
+ public:
+  FeatureSearch(const BesideObstacle& pair, bool may_pass, ObstacleSearch& search,
+                std::vector<NearFeatures>& pairs)
+      : pair_(pair),
+        may_pass_(may_pass),
+        reach_(may_pass ? pair.least : pair.near),
+        soft_(*pair.soft.tree),
+        obstacle_(*pair.obstacle.tree),
+        start_(pair.soft.start),
+        end_(pair.soft.end),
+        search_(search),
+        pairs_(pairs) {}
 
   void meet(int triangle, int other) {
     const SoftTriangle& soft = soft_triangle(triangle);
+    const WayBox& box = pair_.obstacle.triangles[at(other)];
+    if (!overlap(soft.box, box)) return;
     const Triangle& corners = obstacle_.topology().triangles()[at(other)];
     const Face& face = pair_.shape.faces()[at(other)];
     const double beyond = clearance_beyond(soft, face);
@@ -221,9 +247,8 @@ class ObstacleSearch::Descent {
     const Vec4d heights = heights_above(soft, face.corners);
     const double lowest = smallest_lane(heights);
     if (lowest >= pair_.near) return;
-    const WayBox& box = pair_.obstacle.triangles[at(other)];
     for (const int v : soft_.topology().triangles()[at(triangle)]) {
-      if (soft_.owner_of_vertex(v) != triangle || !overlap(boxes_.vertices[at(v)], box)) continue;
+      if (soft_.owner_of_vertex(v) != triangle || !overlap(vertex_box(v), box)) continue;
       add({FeatureKind::vertex, v}, {FeatureKind::triangle, other});
     }
     if (std::max(lowest, beyond) >= reach_) return;
@@ -232,17 +257,21 @@ class ObstacleSearch::Descent {
       const double height = heights[static_cast<int>(i)];
       if (height >= reach_ || obstacle_.owner_of_vertex(v) != other) continue;
       if (!pair_.shape.is_touchable_vertex(v)) continue;
-      if (!overlap(boxes_.triangles[at(triangle)], pair_.obstacle.vertices[at(v)])) continue;
+      if (!overlap(soft.box, pair_.obstacle.vertices[at(v)])) continue;
       add({FeatureKind::triangle, triangle}, {FeatureKind::vertex, v});
     }
-    meet_edges(triangle, other);
+    meet_edges(triangle, soft.box, other);
   }
 
-  void meet_edges(int triangle, int other) {
+ private:
+  using Face = ObstacleShape::Face;
+  using EdgeSides = ObstacleShape::EdgeSides;
+
+  void meet_edges(int triangle, const WayBox& box, int other) {
     for (const int f : obstacle_.topology().triangle_edges()[at(other)]) {
       if (obstacle_.owner_of_edge(f) != other || !pair_.shape.is_touchable_edge(f)) continue;
       const WayBox around = edge_box(obstacle_, pair_.obstacle, f);
-      if (!overlap(boxes_.triangles[at(triangle)], around)) continue;
+      if (!overlap(box, around)) continue;
       const EdgeSides& sides = pair_.shape.edge_sides()[at(f)];
       for (const int e : soft_.topology().triangle_edges()[at(triangle)]) {
         if (soft_.owner_of_edge(e) != triangle) continue;
@@ -266,43 +295,47 @@ class ObstacleSearch::Descent {
                                          : NearFeatures{of_obstacle, of_soft});
   }
 
+  WayBox vertex_box(int vertex) const {
+    const Vec4d from = start_[vertex], to = end_[vertex];
+    return {min(from, to) - pair_.near, max(from, to) + pair_.near};
+  }
+
   const SoftEdge& soft_edge(int edge) {
     SoftEdge& soft = search_.edges_[at(edge)];
-    if (!soft.is_known) {
-      soft = {true, edge_sides_of(soft_.topology(), soft_start_, edge),
-              edge_box(soft_, boxes_, edge)};
-    }
+    if (search_.edge_known_in_[at(edge)] == search_.search_) return soft;
+    search_.edge_known_in_[at(edge)] = search_.search_;
+    const auto& [from, to] = soft_.topology().edges()[at(edge)];
+    soft.sides = edge_sides_of(soft_.topology(), start_, edge);
+    soft.box = vertex_box(from);
+    soft.box.include(vertex_box(to));
     return soft;
   }
 
   const SoftTriangle& soft_triangle(int triangle) {
     SoftTriangle& soft = search_.triangles_[at(triangle)];
-    if (soft.is_known) return soft;
+    if (search_.known_in_[at(triangle)] == search_.search_) return soft;
+    search_.known_in_[at(triangle)] = search_.search_;
     const Triangle& corners = soft_.topology().triangles()[at(triangle)];
-    soft.is_known = true;
-    soft.normal_at_start = unit_normal(soft_start_, corners);
-    soft.normal_at_end = unit_normal(soft_end_, corners);
-    soft.corners_at_start = corner_columns(soft_start_, corners);
-    soft.corners_at_end = corner_columns(soft_end_, corners);
-    const auto [first, middle, last] =
-        along_normal(soft, soft.corners_at_start, soft.corners_at_end);
-    soft.at_start = greatest_lane(first);
-    soft.between = greatest_lane(middle);
-    soft.at_end = greatest_lane(last);
+    soft.box = WayBox{};
+    for (const int v : corners) soft.box.include(vertex_box(v));
+    soft.normal_at_start = unit_normal(start_, corners);
+    soft.normal_at_end = unit_normal(end_, corners);
+    soft.corners_at_start = corner_columns(start_, corners);
+    soft.corners_at_end = corner_columns(end_, corners);
+    // Bernstein's coefficients of n(t) . x(t), both linear in time.
+    const Vec3x4 &from = soft.corners_at_start, &to = soft.corners_at_end;
+    soft.at_start = greatest_lane(dots(soft.normal_at_start, from));
+    soft.between =
+        greatest_lane(0.5 * (dots(soft.normal_at_start, to) + dots(soft.normal_at_end, from)));
+    soft.at_end = greatest_lane(dots(soft.normal_at_end, to));
     return soft;
-  }
-
-  /// Bernstein's coefficients of n(t) . x(t), both linear in time.
-  static std::array<Vec4d, 3> along_normal(const SoftTriangle& soft, const Vec3x4& from,
-                                           const Vec3x4& to) {
-    return {dots(soft.normal_at_start, from),
-            0.5 * (dots(soft.normal_at_start, to) + dots(soft.normal_at_end, from)),
-            dots(soft.normal_at_end, to)};
   }
 
   /// m, by which the corners of the obstacle's triangle stay above the plane at least.
   static Vec4d heights_above(const SoftTriangle& soft, const Vec3x4& corners) {
-    const auto [first, middle, last] = along_normal(soft, corners, corners);
+    const Vec4d first = dots(soft.normal_at_start, corners);
+    const Vec4d last = dots(soft.normal_at_end, corners);
+    const Vec4d middle = 0.5 * (first + last);
     return min(min(first - soft.at_start, last - soft.at_end), middle - soft.between);
   }
 
@@ -311,7 +344,7 @@ class ObstacleSearch::Descent {
   static double clearance_beyond(const SoftTriangle& soft, const Face& face) {
     const Vec4d first = dots(face.plane.normal, soft.corners_at_start) - face.plane.height;
     const Vec4d last = dots(face.plane.normal, soft.corners_at_end);
-    return smallest_lane(min(first, last - greatest_lane(dots(face.plane.normal, face.corners))));
+    return smallest_lane(min(first, last - face.top));
   }
 
   const BesideObstacle& pair_;
@@ -319,31 +352,40 @@ class ObstacleSearch::Descent {
   const double reach_;   // m, of all but vertices of the soft body
   const SurfaceTree& soft_;
   const SurfaceTree& obstacle_;
-  const VertexReader soft_start_, soft_end_;
+  const VertexReader start_, end_;  // of the soft body
   ObstacleSearch& search_;
-  const WayBoxes& boxes_;  // of the soft body
   std::vector<NearFeatures>& pairs_;
 };
 
+void ObstacleSearch::find_near_triangles(const BesideObstacle& pair,
+                                         std::vector<TrianglePair>& near) {
+  near.clear();
+  fit(pair.soft, pair.near + pair.allowance, boxes_);
+  TriangleSearch(pair, boxes_, near).descend(0, 0);
+}
+
 void ObstacleSearch::find_nearest_at_start(const BesideObstacle& pair,
+                                           std::span<const TrianglePair> near,
                                            std::vector<NearFeatures>& pairs) {
-  find(pair, false, pairs);
+  find(pair, false, near, pairs);
 }
 
 void ObstacleSearch::find_first_to_pass(const BesideObstacle& pair,
+                                        std::span<const TrianglePair> near,
                                         std::vector<NearFeatures>& pairs) {
-  find(pair, true, pairs);
+  find(pair, true, near, pairs);
 }
 
 void ObstacleSearch::find(const BesideObstacle& pair, bool may_pass,
-                          std::vector<NearFeatures>& pairs) {
-  fit(pair.soft, pair.near, boxes_);
+                          std::span<const TrianglePair> near, std::vector<NearFeatures>& pairs) {
   const MeshTopology& topology = pair.soft.tree->topology();
   triangles_.resize(std::max(triangles_.size(), at(topology.triangle_count())));
+  known_in_.resize(triangles_.size());
   edges_.resize(std::max(edges_.size(), at(topology.edge_count())));
-  for (SoftTriangle& triangle : triangles_) triangle.is_known = false;
-  for (SoftEdge& edge : edges_) edge.is_known = false;
-  Descent(pair, may_pass, *this, pairs).descend(0, 0);
+  edge_known_in_.resize(edges_.size());
+  ++search_;
+  FeatureSearch search(pair, may_pass, *this, pairs);
+  for (const auto& [triangle, other] : near) search.meet(triangle, other);
 }
 
 }  // namespace pneuma::sim

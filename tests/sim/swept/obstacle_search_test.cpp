@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/soft_mesh.h"
@@ -106,6 +108,15 @@ double first_of(const MovingSurface& soft, const MovingSurface& obstacle,
   return first;
 }
 
+std::vector<NearFeatures> find_first_to_pass(const BesideObstacle& pair) {
+  ObstacleSearch search;
+  std::vector<TrianglePair> triangles;
+  search.find_near_triangles(pair, triangles);
+  std::vector<NearFeatures> found;
+  search.find_first_to_pass(pair, triangles, found);
+  return found;
+}
+
 /// At rest, and moved from one place to another, in halves of the step.
 TEST(ObstacleSearch, FindsWhatMeetsFirst) {
   const auto of_ball = make_soft_mesh(make_icosphere(0.7, 1));
@@ -118,7 +129,6 @@ TEST(ObstacleSearch, FindsWhatMeetsFirst) {
   ObstacleShape shape(of_obstacle->topology, of_obstacle->rest_positions);
   shape.keep_place(own);
   std::mt19937 random(7);
-  ObstacleSearch search;
   int met = 0;
   for (int i = 0; i < 60; ++i) {
     MovingSurface obstacle = own;
@@ -134,16 +144,86 @@ TEST(ObstacleSearch, FindsWhatMeetsFirst) {
     const MovingSurface ball = make_falling_ball(*of_ball, obstacle, random);
     MovingSurface seen = ball;
     const double bow = frame.look_at(ball.start, ball.end, seen.start, seen.end);
-    std::vector<NearFeatures> found;
-    search.find_first_to_pass(
-        {seen, own, shape, true, frame.own_length(near) + bow, frame.own_length(least) + bow},
-        found);
+    const std::vector<NearFeatures> found = find_first_to_pass(
+        {seen, own, shape, true, frame.own_length(near) + bow, frame.own_length(least) + bow});
     const double first = first_of(ball, obstacle, found);
     const double of_all = first_of_all(ball, obstacle);
     EXPECT_LE(first, of_all + 1e-3) << i;
     met += of_all < 1.0 ? 1 : 0;
   }
   EXPECT_GT(met, 30);
+}
+
+/// Whether a pair comes within `near` at one of some moments.
+bool comes_near(const MovingSurface& soft, const MovingSurface& obstacle,
+                const NearFeatures& features) {
+  if (are_apart(soft, obstacle, features, near + greatest_change(soft, obstacle, features))) {
+    return false;
+  }
+  for (const double s : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+    if (closest_points_at(soft, obstacle, features, s).distance < near) return true;
+  }
+  return false;
+}
+
+/// Of the triangles that vertices and edges belong to, all whose features come near.
+std::set<std::pair<int, int>> near_triangles(const MovingSurface& soft,
+                                             const MovingSurface& obstacle) {
+  const SurfaceTree &a = *soft.tree, &b = *obstacle.tree;
+  std::set<std::pair<int, int>> near_ones;
+  for (int v = 0; v < a.topology().vertex_count(); ++v) {
+    for (int t = 0; t < b.topology().triangle_count(); ++t) {
+      if (comes_near(soft, obstacle, {{FeatureKind::vertex, v}, {FeatureKind::triangle, t}})) {
+        near_ones.emplace(a.owner_of_vertex(v), t);
+      }
+    }
+  }
+  for (int e = 0; e < a.topology().edge_count(); ++e) {
+    for (int f = 0; f < b.topology().edge_count(); ++f) {
+      if (comes_near(soft, obstacle, {{FeatureKind::edge, e}, {FeatureKind::edge, f}})) {
+        near_ones.emplace(a.owner_of_edge(e), b.owner_of_edge(f));
+      }
+    }
+  }
+  return near_ones;
+}
+
+/// Also when the ball ends elsewhere by the allowance, as the obstacle is turned and moved.
+TEST(ObstacleSearch, KnowsAllThatMayComeNear) {
+  constexpr double allowance = 0.03;
+  const auto of_ball = make_soft_mesh(make_icosphere(0.7, 1));
+  const auto of_obstacle = make_soft_mesh(make_bumpy_ball(3));
+  MovingSurface own = make_surface(*of_obstacle, Vec3::Zero());
+  refit(own, near);
+  ObstacleShape shape(of_obstacle->topology, of_obstacle->rest_positions);
+  shape.keep_place(own);
+  std::mt19937 random(11);
+  ObstacleSearch search;
+  std::size_t count = 0;
+  for (int i = 0; i < 10; ++i) {
+    MovingSurface obstacle = own;
+    ObstacleFrame frame;
+    const ObstaclePlace start = make_place(3.0, random), turn = make_place(0.4, random);
+    frame.set(start, {turn.axes * start.axes, start.origin + turn.origin}, 0.0, 1.0);
+    put(frame.start(), own.start, obstacle.start);
+    put(frame.end(), own.start, obstacle.end);
+    MovingSurface ball = make_falling_ball(*of_ball, obstacle, random);
+    MovingSurface seen = ball;
+    const double bow = frame.look_at(ball.start, ball.end, seen.start, seen.end);
+    std::vector<TrianglePair> found;
+    search.find_near_triangles(
+        {seen, own, shape, true, frame.own_length(near) + bow, 0.0, frame.own_change(allowance)},
+        found);
+    std::set<std::pair<int, int>> known;
+    for (const auto& [soft, other] : found) EXPECT_TRUE(known.emplace(soft, other).second);
+    for (int v = 0; v < ball.end.size(); ++v) {
+      ball.end[v] += allowance * make_place(4.0, random).origin.normalized();
+    }
+    const auto near_ones = near_triangles(ball, obstacle);
+    EXPECT_TRUE(std::ranges::includes(known, near_ones)) << i;
+    count += near_ones.size();
+  }
+  EXPECT_GT(count, 100u);
 }
 
 /// Straight ways in the world, at many moments of a step that turns the axes by up to 50 degrees.
@@ -203,7 +283,6 @@ TEST(ObstacleFrame, BoundsTheWaysOfWhatLiesInIt) {
 /// The sphere of 20,480 triangles has 16 times as many as the other.
 TEST(ObstacleSearch, FindsLittleMoreOfAFinerObstacle) {
   const auto of_ball = make_soft_mesh(make_icosphere(1.0, 2));
-  ObstacleSearch search;
   std::vector<std::size_t> counts;
   for (const int subdivisions : {3, 5}) {
     const auto of_obstacle = make_soft_mesh(make_icosphere(4.0, subdivisions));
@@ -213,8 +292,8 @@ TEST(ObstacleSearch, FindsLittleMoreOfAFinerObstacle) {
     shape.keep_place(obstacle);
     MovingSurface ball = make_surface(*of_ball, {0.1, 0.2, 5.0});
     for (int v = 0; v < ball.end.size(); ++v) ball.end[v].z() += 0.02;
-    std::vector<NearFeatures> found;
-    search.find_first_to_pass({ball, obstacle, shape, true, near, least}, found);
+    const std::vector<NearFeatures> found =
+        find_first_to_pass({ball, obstacle, shape, true, near, least});
     counts.push_back(found.size());
     refit(ball, near);
     std::vector<NearFeatures> all;
