@@ -67,6 +67,7 @@ class FrameMaker {
  private:
   void build(Readings& readings) {
     const Clock::time_point begin = Clock::now();
+    replay_.place_obstacles();
     next_ = builder_.build(replay_.world(), camera_.at(replay_.world()),
                            replay_.stepper().contacts(), show_);
     readings.build.push_back(seconds_since(begin));

@@ -165,8 +165,10 @@ SceneTimes measure_scene(const scenes::Scene& scene, const MeasureOptions& optio
   sim::Stepper lead_in(world, {.threads = options.threads, .plan = {}});
   advance(lead_in, world, part.begin, scene.name);
 
-  const sim::StepperOptions plain = {.threads = options.threads, .plan = {}};
-  const sim::StepperOptions profiled = {.threads = options.threads, .profile = true, .plan = {}};
+  const sim::StepperOptions plain = {
+      .threads = options.threads, .plan = {}, .may_leave_obstacles = true};
+  sim::StepperOptions profiled = plain;
+  profiled.profile = true;
   Replay steps(scene.name, world, part.length, plain);
   measure_steps(steps, options, times);
   Replay stages(scene.name, world, part.length, profiled);

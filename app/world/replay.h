@@ -21,8 +21,9 @@ class Replay {
   /// many. Apart from run() because it is not to be timed.
   void prepare(std::int64_t count);
 
-  /// Throws DivergenceError, and Interrupted.
+  /// Throws DivergenceError, and Interrupted. Obstacles may be left behind (sim::StepperOptions).
   void run(std::int64_t count);
+  void place_obstacles() { stepper_.place_obstacles(world_); }
 
   const sim::World& world() const { return world_; }
   const sim::Stepper& stepper() const { return stepper_; }

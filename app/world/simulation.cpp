@@ -89,17 +89,20 @@ Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads
       on_divergence_(on_divergence),
       steps_per_frame_(scenes::steps_per_frame(scene)),
       world_(std::move(world)),
-      stepper_(world_, {.threads = threads, .profile = true, .plan = {}}) {}
+      stepper_(world_,
+               {.threads = threads, .profile = true, .plan = {}, .may_leave_obstacles = true}) {}
 
 void Simulation::advance_frame() {
   step_parts_.clear();
   for (int i = 0; i < steps_per_frame_; ++i) step();
+  stepper_.place_obstacles(world_);
   require_all_near();
 }
 
 void Simulation::advance_step() {
   step_parts_.clear();
   step();
+  stepper_.place_obstacles(world_);
   if (world_.steps % steps_per_frame_ == 0) require_all_near();
 }
 
@@ -109,6 +112,7 @@ void Simulation::step() {
   driven_work_ = stepper_.driven_work();
   gas_work_ = stepper_.gas_work();
   if (!divergence) return;
+  stepper_.place_obstacles(world_);
   const bool may_divide = divides();
   if (may_divide) {
     for (int parts = 2; parts <= greatest_step_parts; parts *= 2) {

@@ -50,15 +50,6 @@ void place_pins(SoftBody& body, double time) {
   for_each_followed(body, time, [&](int v, const Vec3& place) { body.positions[v] = place; });
 }
 
-void drive_obstacle(SoftBody& body, double time, double step) {
-  const PinPlaces places(*body.pins, time);
-  for (int v = 0; v < body.positions.size(); ++v) {
-    const Vec3 place = places[v];
-    body.velocities[v] = (place - Vec3(body.positions[v])) / step;
-    body.positions[v] = place;
-  }
-}
-
 void hold_pins(SoftBody& body, const SoftState& start, double step) {
   if (!body.pins || is_still(body)) return;
   for (int v = 0; v < body.positions.size(); ++v) {

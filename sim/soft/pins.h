@@ -53,9 +53,6 @@ class PinPlaces {
 void aim_pins(SoftBody& body, const Settings& settings, std::int64_t steps);
 /// Puts them where they are at a time, s; others stay.
 void place_pins(SoftBody& body, double time);
-/// Of an obstacle all of whose vertices follow a motion, both at once: it has moved there in a step
-/// (s).
-void drive_obstacle(SoftBody& body, double time, double step);
 
 /// Over a step (s) pinned vertices keep the velocities that they had at its start: undoes what else
 /// has been done to them.

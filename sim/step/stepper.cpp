@@ -55,12 +55,13 @@ void aim_pins(World& world, std::span<const std::uint8_t> is_driven) {
 }
 
 /// At the end of a step.
-void place_pins(World& world, std::span<const std::uint8_t> is_driven) {
-  for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    if (is_driven[i] != 0) {
-      drive_obstacle(world.soft[i], time(world), time_step(world.settings));
+void place_pins(World& world, StepWorkspace& w) {
+  for (int i = 0; i < soft_count(world); ++i) {
+    SoftBody& body = world.soft[at(i)];
+    if (w.integrate_soft.is_driven[at(i)] == 0) {
+      place_pins(body, time(world));
     } else {
-      place_pins(world.soft[i], time(world));
+      w.swept->bodies.end_step(body, i, w.options.may_leave_obstacles);
     }
   }
 }
@@ -164,7 +165,7 @@ std::optional<Divergence> Stepper::step(World& world) {
   }
   if (workspace_->has_given_motions) {
     place_given_motions(world, time(world));
-    place_pins(world, workspace_->integrate_soft.is_driven);
+    place_pins(world, *workspace_);
   }
   if (gas_flow) gas_flow->end_step(world);
   return std::nullopt;
@@ -226,6 +227,10 @@ std::optional<Divergence> Stepper::step_by_potential(World& world) {
   if (world.settings.particles.shown) walk_to_be_shown(world, w);
   ++world.steps;
   return std::nullopt;
+}
+
+void Stepper::place_obstacles(World& world) {
+  if (workspace_->swept) workspace_->swept->bodies.place_left_behind(world);
 }
 
 double Stepper::contact_work() const {

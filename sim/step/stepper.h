@@ -38,6 +38,10 @@ struct StepperOptions {
   /// Called with the world after each part of a step that contacts divide, or after the whole one
   /// if they do not: between these calls surfaces of swept contacts move along straight ways.
   std::function<void(const World&)> after_part = nullptr;
+  /// Obstacles that are moved and keep their shape may be left in the world where they are until
+  /// Stepper::place_obstacles, so that a step takes no longer for all their vertices. Whoever looks
+  /// at them, copies the world or goes on with another stepper calls that first.
+  bool may_leave_obstacles = false;
 };
 
 struct StepWorkspace;
@@ -56,6 +60,9 @@ class Stepper {
   /// in its last valid state. Allocates nothing once the numbers of contacts, and
   /// of cells of the exact search, have peaked (but see sim/soft/vertex_matrix.h).
   [[nodiscard]] std::optional<Divergence> step(World& world);
+
+  /// Brings obstacles to where they are and gives them their velocities, if any were left behind.
+  void place_obstacles(World& world);
 
   const Plan& plan() const;
   /// The contacts that the last step found and resolved.

@@ -166,6 +166,16 @@ void SweptBodies::leave_in_place(std::span<const std::uint8_t> is_driven) {
   }
 }
 
+void SweptBodies::end_step(SoftBody& body, int number, bool may_leave_behind) {
+  moved_[at(number)]->end_step(body, may_leave_behind);
+}
+
+void SweptBodies::place_left_behind(World& world) {
+  for (std::size_t i = 0; i < world.soft.size(); ++i) {
+    if (moved_[i]) moved_[i]->catch_up(world.soft[i], world.settings, world.steps);
+  }
+}
+
 void SweptBodies::begin_step(const World& world) {
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
     if (moved_[i]) moved_[i]->begin_step(world.soft[i], world.settings, world.steps);

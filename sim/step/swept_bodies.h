@@ -36,6 +36,9 @@ class SweptBodies {
   explicit SweptBodies(const World& world);
   /// Per soft body: these obstacles are where the whole step began until it is done.
   void leave_in_place(std::span<const std::uint8_t> is_driven);
+  /// Moves such an obstacle, or leaves it behind if it may and if its motion says where it is.
+  void end_step(SoftBody& body, int number, bool may_leave_behind);
+  void place_left_behind(World& world);
   /// Of the whole step, before all else.
   void begin_step(const World& world);
   /// Whether a body of this step has a velocity.

@@ -32,6 +32,25 @@ void MovedObstacle::begin_step(const SoftBody& body, const Settings& settings, s
   end_ = {*body.pins, static_cast<double>(steps + 1) / steps_per_second};
 }
 
+void MovedObstacle::end_step(SoftBody& body, bool may_leave_behind) {
+  if (may_leave_behind && is_in_own_axes_) {
+    is_left_behind_ = true;
+    return;
+  }
+  for (int v = 0; v < body.positions.size(); ++v) {
+    const Vec3 place = end_[v];
+    body.velocities[v] = (place - start_of_step(body, v)) / step_;
+    body.positions[v] = place;
+  }
+  is_left_behind_ = false;
+}
+
+void MovedObstacle::catch_up(SoftBody& body, const Settings& settings, std::int64_t steps) {
+  if (!is_left_behind_) return;
+  begin_step(body, settings, steps - 1);
+  end_step(body, false);
+}
+
 bool MovedObstacle::moves() const {
   return start_.turn() != end_.turn() || start_.origin() != end_.origin();
 }
@@ -78,16 +97,19 @@ BesideObstacle MovedObstacle::beside(const MovingSurface& soft, MovingSurface& s
           .allowance = frame_.own_change(allowance)};
 }
 
+Vec3 MovedObstacle::start_of_step(const SoftBody& body, int vertex) const {
+  return is_left_behind_ ? start_[vertex] : Vec3(body.positions[vertex]);
+}
+
 Vec3 MovedObstacle::velocity(const SoftBody& body, int vertex) const {
-  return (end_[vertex] - Vec3(body.positions[vertex])) / step_;
+  return (end_[vertex] - start_of_step(body, vertex)) / step_;
 }
 
 /// To the last bit what hold_pins would make of it, part by part.
 Segment MovedObstacle::way(const SoftBody& body, const SoftState& start, int vertex) const {
-  const Vec3 now = body.positions[vertex];
-  if (!is_driven_) return {start.positions[vertex], now};
+  if (!is_driven_) return {start.positions[vertex], body.positions[vertex]};
   const Vec3 velocity = this->velocity(body, vertex);
-  Vec3 from = now;
+  Vec3 from = start_of_step(body, vertex);
   for (const double part : parts_done_) from += part * step_ * velocity;
   return {from, from + fraction_ * step_ * velocity};
 }

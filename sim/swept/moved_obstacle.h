@@ -23,6 +23,10 @@ class MovedObstacle {
   /// A step does not move it in the world, where it stays as the whole step began until it is done.
   void leave_in_place() { is_driven_ = true; }
   bool is_driven() const { return is_driven_; }
+  /// Moves it, or leaves it behind if it may and if its motion says where it is.
+  void end_step(SoftBody& body, bool may_leave_behind);
+  /// Brings one that was left behind to where it is after so many steps.
+  void catch_up(SoftBody& body, const Settings& settings, std::int64_t steps);
 
   /// Of a whole step, before all else.
   void begin_step(const SoftBody& body, const Settings& settings, std::int64_t steps);
@@ -56,14 +60,16 @@ class MovedObstacle {
  private:
   bool lies_in_own_axes(const SoftBody& body, const SoftState& start);
   Bounds own_bounds() const;
+  Vec3 start_of_step(const SoftBody& body, int vertex) const;
   Segment way(const SoftBody& body, const SoftState& start, int vertex) const;
 
   MovingSurface own_;  // as it lies in its own axes, fitted
   ObstacleShape shape_;
   bool is_driven_ = false;
-  double step_ = 0.0;      // s, the whole one
-  PinPlaces start_, end_;  // of it
-  ObstacleFrame frame_;    // of the part
+  bool is_left_behind_ = false;  // in an earlier step
+  double step_ = 0.0;            // s, the whole one
+  PinPlaces start_, end_;        // of it
+  ObstacleFrame frame_;          // of the part
   std::span<const double> parts_done_;
   double fraction_ = 1.0;
   bool is_in_own_axes_ = false;

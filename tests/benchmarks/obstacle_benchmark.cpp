@@ -101,9 +101,9 @@ struct StepCost {
 };
 
 /// The least of some runs, which are the same to the last bit.
-void measure(const World& scene, std::vector<StepCost>& steps) {
+void measure(const World& scene, bool leaves_obstacles, std::vector<StepCost>& steps) {
   World world = scene;
-  Stepper stepper(world);
+  Stepper stepper(world, {.plan = {}, .may_leave_obstacles = leaves_obstacles});
   for (StepCost& step : steps) {
     const double before = processor_time();
     if (const auto divergence = stepper.step(world)) {
@@ -121,12 +121,14 @@ struct Phase {
 };
 
 void compare(const char* name, const std::function<World(int, int)>& make,
-             const std::vector<Phase>& phases) {
+             const std::vector<Phase>& phases, bool leaves_obstacles = false) {
   const std::array<std::array<int, 2>, 2> sizes{{{11, 10}, {101, 100}}};  // 200, 20,000 triangles
   std::array<std::vector<StepCost>, 2> steps;
   for (auto& of_size : steps) of_size.resize(at(phases.back().end));
   for (int repetition = 0; repetition < repetitions; ++repetition) {
-    for (std::size_t i = 0; i < 2; ++i) measure(make(sizes[i][0], sizes[i][1]), steps[i]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      measure(make(sizes[i][0], sizes[i][1]), leaves_obstacles, steps[i]);
+    }
   }
   for (const Phase& phase : phases) {
     std::array<double, 2> time{}, most{};
@@ -159,8 +161,12 @@ int main() {
     std::printf("a ball of %d stacks\n", stacks);
     compare("falls on a sphere", [&](int a, int b) { return on_sphere(a, b, stacks); },
             {{"impact", 0, 60}, {"rolls", 60, 200}});
-    compare("on a moved sphere", [&](int a, int b) { return on_moved_sphere(a, b, stacks); },
-            {{"impact", 0, 60}, {"rolls", 60, 200}});
+    for (const bool leaves_obstacles : {false, true}) {
+      compare(
+          leaves_obstacles ? "moved, left behind" : "on a moved sphere",
+          [&](int a, int b) { return on_moved_sphere(a, b, stacks); },
+          {{"impact", 0, 60}, {"rolls", 60, 200}}, leaves_obstacles);
+    }
     compare("rolls in a bowl", [&](int a, int b) { return in_bowl(a, b, stacks); },
             {{"rolls", 60, 480}, {"slows", 480, 720}});
   }
