@@ -55,13 +55,6 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     know_obstacle(body);
     has_pins_ = has_pins_ || body.pins;
   }
-  if (std::ranges::any_of(moved_, [](const auto& moved) { return moved != nullptr; })) {
-    for (const SoftBody& body : world.soft) {
-      MovingSurface& seen = seen_.emplace_back();
-      seen.tree = surface(static_cast<int>(seen_.size()) - 1).tree;
-      seen.start = seen.end = VertexArray(body.positions.size());
-    }
-  }
   for (const RigidBox& box : world.rigid) {
     const TriangleMesh mesh = make_box(box.size, 1);
     corners_.push_back(to_vertex_array(mesh.vertices));
@@ -78,6 +71,13 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
   never_moves_.resize(surfaces_.size());
   obstacles_.resize(surfaces_.size());
   moved_.resize(surfaces_.size());
+  seen_.resize(surfaces_.size());
+  if (std::ranges::any_of(moved_, [](const auto& moved) { return moved != nullptr; })) {
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      seen_[i].tree = surfaces_[i].tree;
+      seen_[i].start = seen_[i].end = VertexArray(seen_[i].tree->topology().vertex_count());
+    }
+  }
   is_still_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
@@ -206,13 +206,34 @@ BesideObstacle SweptBodies::beside_obstacle(int soft, int obstacle, double near,
 
 void SweptBodies::place_around(const World& world, const MotionStart& start, int obstacle,
                                const Feature& feature) {
-  if (!is_in_own_axes(obstacle) || is_followed_[at(obstacle)] != 0) return;
+  if (!is_placed_as_needed(obstacle)) return;
   moved_[at(obstacle)]->place_around(world.soft[at(obstacle)], start.soft[at(obstacle)], feature,
                                      surfaces_[at(obstacle)]);
 }
 
 void SweptBodies::place_all(const World& world, const MotionStart& start, int body) {
-  if (is_in_own_axes(body) && is_followed_[at(body)] == 0) follow(world, start, body);
+  if (is_placed_as_needed(body)) follow(world, start, body);
+}
+
+void SweptBodies::find_features(const World& world, const MotionStart& start,
+                                const BodyPair& bodies, std::vector<NearFeatures>& found) {
+  const auto [first, second] = bodies;
+  found.clear();
+  if (is_placed_as_needed(first) == is_placed_as_needed(second)) {
+    place_all(world, start, first);
+    place_all(world, start, second);
+    find_near_features(surface(first), surface(second), found);
+    return;
+  }
+  const bool is_first = is_placed_as_needed(first);
+  const int obstacle = is_first ? first : second, other = is_first ? second : first;
+  const MovingSurface& own = moved_[at(obstacle)]->own();
+  MovingSurface& seen = seen_[at(other)];
+  moved_[at(obstacle)]->look_at(surface(other), seen);
+  find_near_features(is_first ? own : seen, is_first ? seen : own, found);
+  for (const NearFeatures& features : found) {
+    place_around(world, start, obstacle, is_first ? features.first : features.second);
+  }
 }
 
 void SweptBodies::set_end(const World& world) {
@@ -332,7 +353,7 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
       ways_.push_back(bounds_of_still(world, i));
-    } else if (is_in_own_axes(i) && is_followed_[at(i)] == 0) {
+    } else if (is_placed_as_needed(i)) {
       ways_.push_back(larger(root_bounds(i), allowance(i) - skin(i)));
     } else {
       if (is_driven(i) && is_followed_[at(i)] == 0) follow(world, start, i);

@@ -61,7 +61,10 @@ class SweptBodies {
   /// Of an obstacle only what has been placed has a start and an end, and its neighbours.
   void place_around(const World& world, const MotionStart& start, int obstacle,
                     const Feature& feature);
-  void place_all(const World& world, const MotionStart& start, int body);
+  /// The features of two bodies whose ways may come near each other, in the axes of an obstacle if
+  /// one is moved.
+  void find_features(const World& world, const MotionStart& start, const BodyPair& bodies,
+                     std::vector<NearFeatures>& found);
   /// m, half of what bodies of this kind keep between their surfaces.
   double skin(int body) const { return skins_[at(body)]; }
   double thinnest_skin() const { return *std::min_element(skins_.begin(), skins_.end()); }
@@ -166,6 +169,11 @@ class SweptBodies {
   }
   bool is_driven(int body) const { return moved_[at(body)] && moved_[at(body)]->is_driven(); }
   void see_in_own_axes(int obstacle);
+  /// Whether only its vertices that are reached have been placed.
+  bool is_placed_as_needed(int body) const {
+    return is_in_own_axes(body) && is_followed_[at(body)] == 0;
+  }
+  void place_all(const World& world, const MotionStart& start, int body);
   Vec3 driven_velocity(const World& world, const SurfacePoint& point) const;
   Bounds bounds_of_still(const World& world, int body);
   void fit_still(const World& world, int body);
@@ -192,7 +200,7 @@ class SweptBodies {
   std::vector<std::uint8_t> is_lone_;                      // per body
   std::vector<std::unique_ptr<ObstacleShape>> obstacles_;  // per body that never moves, or null
   std::vector<std::unique_ptr<MovedObstacle>> moved_;      // per body, or null
-  std::vector<MovingSurface> seen_;                        // per soft body: from an obstacle
+  std::vector<MovingSurface> seen_;                        // per body: from an obstacle
   std::vector<std::uint8_t> never_moves_;                  // per body
   std::vector<std::uint8_t> is_still_;     // per body: as it never moves, or is asleep
   std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still

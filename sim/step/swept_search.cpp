@@ -101,9 +101,7 @@ bool SweptSearch::may_touch(const BodyPair& bodies) const {
 }
 
 void SweptSearch::offer_near_features(const BodyPair& bodies) {
-  for (const int body : {bodies.first, bodies.second}) bodies_.place_all(world_, start_, body);
-  m_.found.clear();
-  find_near_features(bodies_.surface(bodies.first), bodies_.surface(bodies.second), m_.found);
+  bodies_.find_features(world_, start_, bodies, m_.found);
   for (const NearFeatures& features : m_.found) offer(bodies, features);
 }
 

@@ -86,14 +86,19 @@ Bounds MovedObstacle::own_bounds() const {
   return {to_vec3(around.low), to_vec3(around.high)};
 }
 
+void MovedObstacle::look_at(const MovingSurface& other, MovingSurface& seen) const {
+  const double bend = frame_.look_at(other.start, other.end, seen.start, seen.end);
+  refit(seen, frame_.own_change(other.margin) + bend);
+}
+
 BesideObstacle MovedObstacle::beside(const MovingSurface& soft, MovingSurface& seen, double near,
                                      double least, double allowance) const {
-  const double bow = frame_.look_at(soft.start, soft.end, seen.start, seen.end);
+  const double bend = frame_.look_at(soft.start, soft.end, seen.start, seen.end);
   return {.soft = seen,
           .obstacle = own_,
           .shape = shape_,
-          .near = frame_.own_length(near) + bow,
-          .least = frame_.own_length(least) + bow,
+          .near = frame_.own_length(near) + bend,
+          .least = frame_.own_length(least) + bend,
           .allowance = frame_.own_change(allowance)};
 }
 

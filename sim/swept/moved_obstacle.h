@@ -41,6 +41,11 @@ class MovedObstacle {
   /// its own axes.
   bool is_in_own_axes() const { return is_in_own_axes_; }
   const ObstacleFrame& frame() const { return frame_; }
+  /// As it lies in its own axes, fitted.
+  const MovingSurface& own() const { return own_; }
+  /// Gives `seen` the ways of another surface in these axes, and boxes about them that are wide
+  /// enough.
+  void look_at(const MovingSurface& other, MovingSurface& seen) const;
   /// Its features that a soft body may touch. `seen`: gets the ways of this in its axes; `near`,
   /// `least` and `allowance`: m, in the world.
   BesideObstacle beside(const MovingSurface& soft, MovingSurface& seen, double near, double least,
@@ -63,7 +68,7 @@ class MovedObstacle {
   Vec3 start_of_step(const SoftBody& body, int vertex) const;
   Segment way(const SoftBody& body, const SoftState& start, int vertex) const;
 
-  MovingSurface own_;  // as it lies in its own axes, fitted
+  MovingSurface own_;
   ObstacleShape shape_;
   bool is_driven_ = false;
   bool is_left_behind_ = false;  // in an earlier step

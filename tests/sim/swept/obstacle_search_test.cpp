@@ -190,7 +190,7 @@ std::set<std::pair<int, int>> near_triangles(const MovingSurface& soft,
 
 /// Also when the ball ends elsewhere by the allowance, as the obstacle is turned and moved.
 TEST(ObstacleSearch, KnowsAllThatMayComeNear) {
-  constexpr double allowance = 0.03;
+  constexpr double allowance = 0.2;  // m
   const auto of_ball = make_soft_mesh(make_icosphere(0.7, 1));
   const auto of_obstacle = make_soft_mesh(make_bumpy_ball(3));
   MovingSurface own = make_surface(*of_obstacle, Vec3::Zero());
@@ -200,7 +200,7 @@ TEST(ObstacleSearch, KnowsAllThatMayComeNear) {
   std::mt19937 random(11);
   ObstacleSearch search;
   std::size_t count = 0;
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 40; ++i) {
     MovingSurface obstacle = own;
     ObstacleFrame frame;
     const ObstaclePlace start = make_place(3.0, random), turn = make_place(0.4, random);
@@ -208,6 +208,9 @@ TEST(ObstacleSearch, KnowsAllThatMayComeNear) {
     put(frame.start(), own.start, obstacle.start);
     put(frame.end(), own.start, obstacle.end);
     MovingSurface ball = make_falling_ball(*of_ball, obstacle, random);
+    for (int v = 0; v < ball.end.size(); ++v) {  // it touches at the end
+      ball.end[v] = 0.8 * ball.start[v] + 0.2 * ball.end[v];
+    }
     MovingSurface seen = ball;
     const double bow = frame.look_at(ball.start, ball.end, seen.start, seen.end);
     std::vector<TrianglePair> found;
