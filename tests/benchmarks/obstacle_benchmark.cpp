@@ -86,6 +86,16 @@ World on_moved_sphere(int stacks, int slices, int ball_stacks) {
   return world;
 }
 
+/// A box in place of the ball.
+World with_box(World world) {
+  world.soft.resize(1);
+  RigidBox box = make_rigid({1.5, 1.5, 1.0}, {0.3, 0.2, 4.8});
+  box.velocity = {0.5, 0.2, -3.0};
+  box.surface = {0.3, 0.5};
+  world.rigid = {box};
+  return world;
+}
+
 World in_bowl(int stacks, int slices, int ball_stacks) {
   World world;
   world.settings.ground.reset();
@@ -170,4 +180,10 @@ int main() {
     compare("rolls in a bowl", [&](int a, int b) { return in_bowl(a, b, stacks); },
             {{"rolls", 60, 480}, {"slows", 480, 720}});
   }
+  std::printf("a box\n");
+  compare("falls on a sphere", [](int a, int b) { return with_box(on_sphere(a, b, 8)); },
+          {{"impact", 0, 60}, {"slides", 60, 200}});
+  compare(
+      "moved, left behind", [](int a, int b) { return with_box(on_moved_sphere(a, b, 8)); },
+      {{"impact", 0, 60}, {"slides", 60, 200}}, true);
 }
