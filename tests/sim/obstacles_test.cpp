@@ -247,13 +247,13 @@ TEST(Obstacles, ThatLieElsewhereThanTheirMotionPutsThemAreNotCrossed) {
     ASSERT_EQ(crossings(world).between_bodies, 0);
     if (i == 20) {
       for (SoftBody& body : world.soft) {
-        for (int v = 0; v < body.positions.size(); ++v) body.positions[v].x() += 0.1;
+        for (int v = 0; v < body.positions.size(); ++v) body.positions[v].x() += 0.4;
       }
     }
   }
 }
 
-/// It begins to move long after all has come to rest.
+/// It begins to move long after all has come to rest, whether or not it is left behind.
 TEST(Obstacles, ThatBeginToMoveWakeWhatSleepsOnThem) {
   World world;
   world.settings.steps_per_second = 240;
@@ -266,13 +266,18 @@ TEST(Obstacles, ThatBeginToMoveWakeWhatSleepsOnThem) {
                         std::vector<std::uint8_t>(count, 1), motion);
   world.soft = {slab, make_ball({0.0, 0.0, 3.6})};
   world.soft[1].material.rho_g = 0.5;
-  Stepper stepper(world);
-  for (int i = 0; i < 8 * 240; ++i) ASSERT_FALSE(stepper.step(world));
-  ASSERT_GE(world.rest[1].group, 0);
-  const double before = mean(world.soft[1].positions).z();
-  for (int i = 0; i < 480; ++i) ASSERT_FALSE(stepper.step(world));
-  EXPECT_NEAR(mean(world.soft[1].positions).z(), before + 1.0, 0.1);
-  EXPECT_NEAR(mean(world.soft[0].positions).z(), 3.0, 1e-9);
+  const World start = world;
+  for (const bool may_leave : {false, true}) {
+    world = start;
+    Stepper stepper(world, {.plan = {}, .may_leave_obstacles = may_leave});
+    for (int i = 0; i < 8 * 240; ++i) ASSERT_FALSE(stepper.step(world));
+    ASSERT_GE(world.rest[1].group, 0);
+    const double before = mean(world.soft[1].positions).z();
+    for (int i = 0; i < 480; ++i) ASSERT_FALSE(stepper.step(world));
+    EXPECT_NEAR(mean(world.soft[1].positions).z(), before + 1.0, 0.1);
+    stepper.place_obstacles(world);
+    EXPECT_NEAR(mean(world.soft[0].positions).z(), 3.0, 1e-9);
+  }
 }
 
 TEST(Obstacles, MayLieInEachOtherAndInTheGround) {
