@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "sim/rigid/rigid_motion.h"
 #include "sim/soft/damping.h"
 #include "sim/soft/pins.h"
 #include "sim/step/find_divergence.h"
@@ -102,6 +103,18 @@ void integrate_groups(World& world, std::vector<SoftState>& start, IntegrateSoft
   workers.for_blocks(static_cast<int>(memory.groups.size()), block);
 }
 
+std::optional<Divergence> integrate(const World& world, RigidBox& box) {
+  const auto move = is_as_printed(world.settings) ? move_as_printed : move_freely;
+  move(box, world.settings.gravity, time_step(world.settings));
+  if (box.position.allFinite() && box.orientation.coeffs().allFinite() &&
+      box.velocity.allFinite() && box.angular_velocity.allFinite()) {
+    return std::nullopt;
+  }
+  return Divergence{Stage::integrate_rigid, world.steps + 1, box.name,
+                    "its position, orientation or velocity is not a finite number: it was hit "
+                    "too hard"};
+}
+
 }  // namespace
 
 std::optional<Divergence> integrate_soft(World& world, std::vector<SoftState>& start,
@@ -150,6 +163,22 @@ std::optional<Divergence> integrate_soft_again(World& world, int body, const Sof
   moved.velocities = start.velocities;
   const int mesh = memory.mesh_of_body[at(body)];
   return integrate(world, moved, start, memory.scratch[at(thread)][at(mesh)]);
+}
+
+std::optional<Divergence> integrate_rigid(World& world, std::vector<RigidState>& start) {
+  keep_rigid(world, start);
+  const int soft = static_cast<int>(world.soft.size());
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    if (is_asleep(world, soft + static_cast<int>(i))) continue;
+    if (auto divergence = integrate(world, world.rigid[i])) return divergence;
+  }
+  return std::nullopt;
+}
+
+std::optional<Divergence> integrate_rigid_again(World& world, int box, const RigidState& start) {
+  RigidBox& moved = world.rigid[at(box)];
+  set_state(moved, start);
+  return integrate(world, moved);
 }
 
 }  // namespace pneuma::sim
