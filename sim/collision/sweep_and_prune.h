@@ -1,9 +1,10 @@
-// Which of many bounding spheres overlap (section 5.1), by sort and sweep.
+// Which of many bounding spheres, or boxes, overlap (section 5.1), by sort and sweep.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "sim/collision/packed_bounds.h"
 #include "sim/collision/packed_spheres.h"
 
 namespace pneuma::sim {
@@ -15,21 +16,28 @@ class SweepAndPrune {
  public:
   /// Fills `pairs`, whose old content is dropped.
   void find(std::span<const BoundingSphere> spheres, std::vector<BodyPair>& pairs);
+  /// The same of boxes along the axes, which touch if they share a point.
+  void find(std::span<const Bounds> boxes, std::vector<BodyPair>& pairs);
 
  private:
   struct Entry {
-    double low;  // where the sphere begins and ends along the axis of the sweep
+    double low;  // where the shape begins and ends along the axis of the sweep
     double high;
     int index;
   };
 
-  void line_up(std::span<const BoundingSphere> spheres);
-  void compare_with_next(std::size_t i, const BoundingSphere& sphere,
+  template <class Shape, class Packed>
+  void find(std::span<const Shape> shapes, Packed& packed, std::vector<BodyPair>& pairs);
+  template <class Shape, class Packed>
+  void line_up(std::span<const Shape> shapes, Packed& packed);
+  template <class Shape, class Packed>
+  void compare_with_next(std::size_t i, const Shape& shape, const Packed& packed,
                          std::vector<BodyPair>& pairs) const;
   void sort_by(int BodyPair::*body, std::size_t bodies, std::vector<BodyPair>& pairs);
 
   std::vector<Entry> entries_;  // in the order in which they begin
   PackedSpheres spheres_;       // in that order
+  PackedBounds boxes_;          // or these
   std::vector<int> starts_;     // of the pairs of each body
   std::vector<BodyPair> sorted_;
 };

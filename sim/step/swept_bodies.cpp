@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "sim/collision/bounding_sphere.h"
 #include "sim/mesh/primitives.h"
 #include "sim/rigid/inertia.h"
 #include "sim/rigid/rigid_motion.h"
@@ -345,7 +344,7 @@ void SweptBodies::refit_anew(int body, double allowed) {
 void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
                                    std::vector<BodyPair>& pairs) {
   ways_.clear();
-  spheres_.clear();
+  reached_.clear();
   is_refitted_.assign(surfaces_.size(), 0);
   for (int i = 0; i < count(); ++i) {
     if (is_still_[at(i)] != 0) {
@@ -357,9 +356,10 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
       ways_.push_back(is_followed_[at(i)] != 0 ? refit_way(world, start, i)
                                                : bounds_of_way(world, start, i));
     }
-    spheres_.push_back({ways_.back().centre(), 0.5 * ways_.back().size().norm()});
+    const double reach = is_rigid(i) ? near_of_side * shortest_sides_[at(box(i))] : 0.0;
+    reached_.push_back({ways_.back().low.array() - reach, ways_.back().high.array() + reach});
   }
-  sweep_and_prune_.find(spheres_, pairs);
+  sweep_and_prune_.find(reached_, pairs);
   std::erase_if(pairs, [&](const BodyPair& pair) { return !may_be_near(pair); });
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {

@@ -224,7 +224,7 @@ class SweptBodies {
   std::vector<std::uint8_t> moved_again_;  // per soft body, in this step
   std::vector<SoftState> kicked_;          // per soft body
   std::vector<Bounds> ways_;               // per body, with what it keeps around it
-  std::vector<BoundingSphere> spheres_;    // about these
+  std::vector<Bounds> reached_;            // the same, with what a box reaches for others
   SweepAndPrune sweep_and_prune_;
 };
 

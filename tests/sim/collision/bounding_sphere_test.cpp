@@ -93,6 +93,36 @@ TEST(SweepAndPrune, FindsThePairsThatTryingAllFinds) {
   EXPECT_GT(total, 10'000U);
 }
 
+std::vector<BodyPair> try_all(const std::vector<Bounds>& boxes) {
+  std::vector<BodyPair> pairs;
+  for (int i = 0; i < static_cast<int>(boxes.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
+      const Bounds &a = boxes[at(i)], &b = boxes[at(j)];
+      if ((a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all()) {
+        pairs.push_back({i, j});
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Cubes that spheres just fit into, one of them not a number.
+TEST(SweepAndPrune, FindsThePairsOfBoxesThatTryingAllFinds) {
+  SweepAndPrune finder;
+  std::vector<BodyPair> pairs;
+  for (const Vec3& shape : {Vec3(1, 1, 1), Vec3(100, 1, 1), Vec3(1, 30, 1), Vec3(1, 1, 0.01)}) {
+    std::vector<Bounds> boxes;
+    for (const BoundingSphere& sphere : scatter(500, shape, 7)) {
+      const Vec3 half = Vec3::Constant(sphere.radius);
+      boxes.push_back({sphere.centre - half, sphere.centre + half});
+    }
+    boxes[3].high.y() = std::numeric_limits<double>::quiet_NaN();
+    finder.find(boxes, pairs);
+    EXPECT_EQ(pairs, try_all(boxes));
+    EXPECT_GT(pairs.size(), 200U);
+  }
+}
+
 TEST(SweepAndPrune, TouchingAndConcentricSpheresArePairs) {
   SweepAndPrune finder;
   std::vector<BodyPair> pairs;
