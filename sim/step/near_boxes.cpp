@@ -32,21 +32,25 @@ OrientedBox SweptSearch::start_box(int body) const {
 
 /// m, of a corner of one box against one of another, at most: the same motion of both is left out.
 double SweptSearch::greatest_relative_way(int first, int second) const {
-  const MovingSurface &one = bodies_.surface(first), &other = bodies_.surface(second);
-  constexpr int corners = 8;
-  std::array<Vec3, corners> of_one, of_other;
-  Vec3 mean = Vec3::Zero();
-  for (int i = 0; i < corners; ++i) {
-    of_one[at(i)] = one.end[i] - one.start[i];
-    of_other[at(i)] = other.end[i] - other.start[i];
-    mean += (of_one[at(i)] + of_other[at(i)]) / (2.0 * corners);
-  }
-  double squared_of_one = 0.0, squared_of_other = 0.0;
-  for (int i = 0; i < corners; ++i) {
-    squared_of_one = std::max(squared_of_one, (of_one[at(i)] - mean).squaredNorm());
-    squared_of_other = std::max(squared_of_other, (of_other[at(i)] - mean).squaredNorm());
-  }
-  return std::sqrt(squared_of_one) + std::sqrt(squared_of_other);
+  constexpr std::size_t corners = 8;
+  using Ways = std::array<Vec4d, corners>;
+  Vec4d mean{};
+  const auto ways_of = [&](int body) {
+    const VertexReader start(bodies_.surface(body).start), end(bodies_.surface(body).end);
+    Ways ways;
+    for (std::size_t i = 0; i < corners; ++i) {
+      ways[i] = end[static_cast<int>(i)] - start[static_cast<int>(i)];
+      mean += 1.0 / (2.0 * corners) * ways[i];
+    }
+    return ways;
+  };
+  const Ways of_first = ways_of(first), of_second = ways_of(second);
+  const auto greatest = [&](const Ways& ways) {
+    double squared = 0.0;
+    for (const Vec4d way : ways) squared = std::max(squared, dot(way - mean, way - mean));
+    return std::sqrt(squared);
+  };
+  return greatest(of_first) + greatest(of_second);
 }
 
 /// Boxes that are too far apart to touch, and too slow.
