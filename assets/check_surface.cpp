@@ -56,7 +56,8 @@ void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, do
   if (!open.empty()) {
     faults.push_back(edges_fault(
         mesh, open,
-        fmt::format("the surface is open, and gas would leave it: {} with one triangle only",
+        fmt::format("the surface is open, so it has no inside, which gas and contacts need (also "
+                    "those of an obstacle): {} with one triangle only",
                     counted(open.size(), "boundary edge", "boundary edges"))));
   }
   const auto crowded = those(edges, [](const Edge& edge) { return edge.triangles.size() > 2; });
@@ -86,7 +87,8 @@ void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, do
   faults.push_back(
       std::string(was_repaired ? "no repair is known for this; mend"
                                : with_repair + " mends what is small; else mend") +
-      " it in a modelling program: close holes, take away inner and doubled faces, merge needles");
+      " it in a modelling program: close holes, take away inner and doubled faces, merge needles" +
+      (open.empty() ? "" : "; give a sheet or an open bowl a wall, such as by Blender's Solidify"));
   throw ModelError(fmt::format("{}", fmt::join(faults, "\n  ")));
 }
 

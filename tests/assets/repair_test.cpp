@@ -139,6 +139,8 @@ TEST(Repair, LeavesTheMouthOfABowlOpen) {
     return std::ranges::any_of(triangle, [&](int v) { return bowl.vertices[at(v)].z() > 0.01; });
   });
   EXPECT_TRUE(holds(refusal(bowl, true), "the surface is open"));
+  EXPECT_TRUE(holds(refusal(bowl, true), "those of an obstacle"));
+  EXPECT_TRUE(holds(refusal(bowl, true), "give a sheet or an open bowl a wall"));
 }
 
 TEST(Repair, WeldsACrack) {
