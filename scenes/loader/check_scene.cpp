@@ -178,13 +178,15 @@ class Checks {
     if (scene_.settings.contact != sim::ContactMethod::impulses) return;
     if (!body.pinned.empty()) {
       report_.add(reader_.origin({&body.pinned, &scene_.settings.contact}, header),
-                  "pinned vertices need swept contacts; set simulation.contact = \"swept\" and no "
-                  "method = \"paper\", or leave pinned out");
+                  "pinned vertices need swept contacts or the contact potential; set "
+                  "simulation.contact = \"swept\" or \"potential\" and no method = \"paper\", or "
+                  "leave pinned out");
     }
     if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
     report_.add(reader_.origin({&body.kind, &scene_.settings.contact}, header),
-                fmt::format("kind = \"{}\" needs swept contacts; set simulation.contact = "
-                            "\"swept\" and no method = \"paper\", or make the body rigid",
+                fmt::format("kind = \"{}\" needs swept contacts or the contact potential; set "
+                            "simulation.contact = \"swept\" or \"potential\" and no method = "
+                            "\"paper\", or make the body rigid",
                             kind_word(body.kind)));
   }
 

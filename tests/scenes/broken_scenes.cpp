@@ -169,7 +169,8 @@ const std::vector<BrokenScene> inapplicable_keys = {
      "[simulation]\ncontact = \"impulses\"\n[[body]]\nkind = \"static\"\n",
      4,
      8,
-     {"kind = \"static\" needs swept contacts"}},
+     {"kind = \"static\" needs swept contacts or the contact potential; set simulation.contact = "
+      "\"swept\" or \"potential\""}},
     {"rigid_sphere", rigid("shape = \"sphere\""), 3, 9, {"a rigid body is always a box"}},
 };
 

@@ -47,9 +47,9 @@ TEST(PinnedKeys, SayWhatIsAllowed) {
 
 TEST(PinnedKeys, NeedSweptContacts) {
   expect_refused("pinned = [[0, 0, 0, 1, 1, 1]]\n[simulation]\ncontact = \"impulses\"\n",
-                 {"x.toml:2:10", "pinned vertices need swept contacts"});
+                 {"x.toml:2:10", "pinned vertices need swept contacts or the contact potential"});
   expect_refused("pinned = [[0, 0, 0, 1, 1, 1]]\n[simulation]\nmethod = \"paper\"\n",
-                 {"pinned vertices need swept contacts"});
+                 {"pinned vertices need swept contacts or the contact potential"});
 }
 
 TEST(Obstacles, AreBoxesUnlessToldOtherwise) {
