@@ -43,13 +43,28 @@ Section body_section(BodyScene& body) {
   const bool box = rigid || body.shape == Shape::box;
   const bool model = !rigid && body.shape == Shape::model;
 
-  const Applicability round{"spheres, icospheres and tori", sphere || torus || icosphere, true};
-  const Applicability tori{"tori", torus, true};
+  // A rigid body has no other shape to be given.
+  const auto by_shape = [&](std::string_view shape) { return rigid ? std::string_view() : shape; };
+
+  const Applicability round{.only_for = "spheres, icospheres and tori",
+                            .applies = sphere || torus || icosphere,
+                            .by_shape = true,
+                            .made_one_by = by_shape("shape = \"sphere\"")};
+  const Applicability tori{.only_for = "tori",
+                           .applies = torus,
+                           .by_shape = true,
+                           .made_one_by = by_shape("shape = \"torus\"")};
   const Applicability stacked{"spheres and tori", sphere || torus, true};
-  const Applicability icospheres{"icospheres", icosphere, true};
+  const Applicability icospheres{.only_for = "icospheres",
+                                 .applies = icosphere,
+                                 .by_shape = true,
+                                 .made_one_by = by_shape("shape = \"icosphere\"")};
   const Applicability soft_boxes{"soft boxes", soft && box, true};
   const Applicability boxes{"boxes", box, true};
-  const Applicability models{"models", model, true};
+  const Applicability models{.only_for = "models",
+                             .applies = model,
+                             .by_shape = true,
+                             .made_one_by = by_shape("shape = \"model\"")};
   const Applicability soft_bodies{"soft bodies", soft};
   const Applicability with_k{soft ? "soft bodies without stiffness" : "soft bodies",
                              soft && !body.stiffness};

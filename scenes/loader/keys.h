@@ -59,15 +59,16 @@ struct Key {
   Range range = {};
   std::string_view unit = {};  // empty: none
   std::string_view meaning;
-  TextCheck check = nullptr;         // of strings
-  std::string_view only_for = {};    // "soft bodies"; empty: for all
-  bool applies = true;               // to the struct at hand
-  bool of_shape = false;             // decides a soft body's mesh
-  bool of_method = false;            // set by simulation.method = "paper", and refused beside it
-  const void* decided_by = nullptr;  // the member that decides whether the key applies, where a
-                                     // file's key is only idle while that is not written
-  bool selects = false;              // decides which other keys apply, so it is read first
-  bool or_number = false;            // a string's key that also takes a whole number as its digits
+  TextCheck check = nullptr;          // of strings
+  std::string_view only_for = {};     // "soft bodies"; empty: for all
+  std::string_view made_one_by = {};  // "shape = \"torus\"": what makes the struct at hand such
+  bool applies = true;                // to the struct at hand
+  bool of_shape = false;              // decides a soft body's mesh
+  bool of_method = false;             // set by simulation.method = "paper", and refused beside it
+  const void* decided_by = nullptr;   // the member that decides whether the key applies, where a
+                                      // file's key is only idle while that is not written
+  bool selects = false;               // decides which other keys apply, so it is read first
+  bool or_number = false;             // a string's key that also takes a whole number as its digits
 };
 
 /// One table of a scene file.

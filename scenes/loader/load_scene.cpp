@@ -1,6 +1,7 @@
 #include "scenes/loader/load_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -187,6 +188,17 @@ class Loader {
   std::map<std::string_view, const Table*> tables_;  // those read so far, by path
 };
 
+/// "write supply.n = VALUE; its keys: supply.n, supply.smooth": a table's first key is its main
+/// one.
+std::string how_to_write(std::string_view table) {
+  const std::vector<const Key*> keys = keys_of_body_table(table);
+  std::vector<std::string_view> names;
+  for (const Key* key : keys) names.push_back(key->name);
+  const std::string_view beside = keys.front()->made_one_by;
+  return fmt::format("write {} = VALUE{}{}; its keys: {}", names.front(),
+                     beside.empty() ? "" : " beside ", beside, fmt::join(names, ", "));
+}
+
 /// The keys of a table within a body become keys of the body: "file" in [body.model] becomes
 /// "model.file".
 Table flattened(Table body, Report& report) {
@@ -196,8 +208,8 @@ Table flattened(Table body, Report& report) {
     if (!is_body_table(member.key)) {
       flat.push_back(std::move(member));
     } else if (inner_table == nullptr) {
-      report.add(member.at, fmt::format("{0} must be a table, written {0}.KEY = VALUE; got {1}",
-                                        member.key, describe(member.value)));
+      report.add(member.at, fmt::format("{} must be a table; {}; got {}", member.key,
+                                        how_to_write(member.key), describe(member.value)));
     } else {
       for (Member& inner : *inner_table) {
         inner.key = fmt::format("{}.{}", member.key, inner.key);

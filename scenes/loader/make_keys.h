@@ -55,11 +55,13 @@ struct Applicability {
   bool applies;
   bool by_shape = false;             // whether the body's shape decides
   const void* decided_by = nullptr;  // Key::decided_by
+  std::string_view made_one_by = {};
 };
 
 /// Marks a key as one for such structs only.
 inline Key only(const Applicability& applicability, Key key) {
   key.only_for = applicability.only_for;
+  key.made_one_by = applicability.made_one_by;
   key.applies = applicability.applies;
   key.of_shape = applicability.by_shape;
   key.decided_by = applicability.decided_by;

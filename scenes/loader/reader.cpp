@@ -49,6 +49,13 @@ std::string belongs_elsewhere(std::string_view key) {
 /// "simulation" of "simulation.particles"; of a table at the top itself.
 std::string_view table_around(std::string_view table) { return table.substr(0, table.find('.')); }
 
+/// "suply.n" of a table that no body has: its keys are not the body's then.
+std::string dotted_name(const Member& member) {
+  const Table* inner = std::get_if<Table>(&member.value.data);
+  if (inner == nullptr || inner->empty()) return member.key;
+  return fmt::format("{}.{}", member.key, inner->front().key);
+}
+
 bool overridden(const Table& table, const Section& section) {
   return std::any_of(section.keys.begin(), section.keys.end(), [&](const Key& key) {
     const Member* member = key.selects ? find(table, key.name) : nullptr;
@@ -116,7 +123,8 @@ void Reader::refuse_inapplicable(const Section& section, const Key& key, const M
     idle_overrides_[member.value.at.override_index] =
         fmt::format("{}, and this scene has none", only_for);
   } else {
-    report_.add(member.at, fmt::format("{}; this is {}", only_for, section.what));
+    report_.add(member.at, fmt::format("{}; this is {}{}{}", only_for, section.what,
+                                       key.made_one_by.empty() ? "" : "; write ", key.made_one_by));
   }
 }
 
@@ -146,8 +154,11 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
                        member.key);
   }
   if (hint.empty()) hint = meant_key(member.key);
-  if (hint.empty()) hint = base::suggestion_and_all(member.key, allowed);
-  report_.add(member.at, fmt::format("unknown key {} {}{}", base::in_quotes(member.key),
+  const bool belongs_here = hint.empty();
+  const std::string name =
+      belongs_here && section.table == "body" ? dotted_name(member) : member.key;
+  if (belongs_here) hint = base::suggestion_and_all(name, allowed);
+  report_.add(member.at, fmt::format("unknown key {} {}{}", base::in_quotes(name),
                                      place_of(section.table), hint));
 }
 

@@ -54,6 +54,15 @@ const std::vector<std::string_view>& body_tables() {
   return names;
 }
 
+std::vector<const Key*> keys_of_body_table(std::string_view table) {
+  std::vector<const Key*> keys;
+  for (const Key& key : default_sections().back().keys) {
+    const std::size_t dot = key.name.find('.');
+    if (dot != key.name.npos && key.name.substr(0, dot) == table) keys.push_back(&key);
+  }
+  return keys;
+}
+
 bool is_body_table(std::string_view name) {
   const std::vector<std::string_view>& names = body_tables();
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/loader/keys.h"
+
 namespace pneuma::scenes {
 
 /// Every table but [[body]], with its path: "simulation", "simulation.particles", "ground", ...
@@ -21,5 +23,9 @@ std::string table_suggestion(std::string_view name);
 /// the body.
 const std::vector<std::string_view>& body_tables();
 bool is_body_table(std::string_view name);
+
+/// Those of a table within a [[body]], as body_tables() has it: "model.file", "model.component",
+/// ...
+std::vector<const Key*> keys_of_body_table(std::string_view table);
 
 }  // namespace pneuma::scenes

@@ -86,9 +86,16 @@ TEST(Model, OverridesAreAsStrictAsOthers) {
 
 TEST(Model, MistakesInTheFileHaveTheirPlace) {
   expect_in(refusal("[[body]]\nshape = \"model\"\n"), {"x.toml:1:1", "model.file = \"...\""});
-  expect_in(refusal("[[body]]\nmodel = \"cat.ply\"\n"), {"x.toml:2:1", "model must be a table"});
+  expect_in(refusal("[[body]]\nmodel = \"cat.ply\"\n"),
+            {"x.toml:2:1",
+             "model must be a table; write model.file = VALUE beside shape = "
+             "\"model\"; its keys: model.file, model.component,"});
+  expect_in(refusal("[[body]]\nleak = 0.1\n"), {"write leak.area = VALUE; its keys: leak.area, "});
   expect_in(refusal("[[body]]\nmodel.file = \"cat.ply\"\n"),
-            {"x.toml:2:7", "model.file applies to models only; this is a soft sphere"});
+            {"x.toml:2:7",
+             "model.file applies to models only; this is a soft sphere; write shape = \"model\""});
+  const std::string rigid = refusal("[[body]]\nkind = \"rigid\"\nmodel.file = \"cat.ply\"\n");
+  EXPECT_EQ(rigid.find("write shape"), rigid.npos) << rigid;
   expect_in(refusal(one_model + "radius = 2\n"), {"x.toml:5:1", "this is a soft model"});
   expect_in(refusal(one_model + "model.colour = 2\n"), {"x.toml:5:", "'model.colour'"});
   expect_in(refusal(one_model + "model.file.name = 2\n"), {"x.toml:5:"});
