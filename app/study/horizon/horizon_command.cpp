@@ -29,7 +29,9 @@ namespace {
 struct HorizonArguments : StudyOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> overrides;
-  HorizonOptions options;
+  std::optional<double> seconds;
+  std::optional<double> difference;
+  std::optional<int> tries;
   bool quiet = false;
 };
 
@@ -88,12 +90,18 @@ nlohmann::json horizon_json(const Horizon& horizon) {
           {"at_the_end", horizon.differences.back().size}};
 }
 
+/// A short study is so where nothing else was typed.
+HorizonOptions horizon_options(const HorizonArguments& typed) {
+  HorizonOptions options;
+  if (typed.is_short) options = {.tries = 1, .seconds = 1.0};
+  if (typed.seconds) options.seconds = typed.seconds;
+  options.difference = typed.difference.value_or(options.difference);
+  options.tries = typed.tries.value_or(options.tries);
+  return options;
+}
+
 ExitCode run_horizon_study(const HorizonArguments& typed) {
-  HorizonOptions options = typed.options;
-  if (typed.is_short) {
-    options.tries = 1;
-    options.seconds = std::min(options.seconds.value_or(1.0), 1.0);
-  }
+  const HorizonOptions options = horizon_options(typed);
   std::vector<scenes::Scene> scenes;
   for (const std::string& name : typed.scenes) scenes.push_back(open_scene(name, typed.overrides));
   const StudyFolder folder(typed.out);
@@ -134,18 +142,16 @@ void add_horizon_study(CLI::App& study, Action& action, std::span<const std::str
       ->type_name("SCENE");
   add_override_option(*command, typed->overrides);
   command
-      ->add_option("--seconds", typed->options.seconds,
+      ->add_option("--seconds", typed->seconds,
                    "Simulated time, at most the scene's own [all of it; with --short 1]")
       ->type_name("S")
       ->check(CLI::Range(0.1, 3600.0));
   command
-      ->add_option("--difference", typed->options.difference,
+      ->add_option("--difference", typed->difference,
                    "At the start, root mean square over the vertices, in rest radii [1e-9]")
       ->type_name("X")
       ->check(CLI::Range(1e-14, 1e-2));
-  command
-      ->add_option("--tries", typed->options.tries,
-                   "With other differences each [3; with --short 1]")
+  command->add_option("--tries", typed->tries, "With other differences each [3; with --short 1]")
       ->type_name("N")
       ->check(CLI::Range(1, 100));
   add_study_options(*command, *typed, command_line, "A second of each: to see that it works");

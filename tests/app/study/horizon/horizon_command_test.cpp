@@ -27,6 +27,15 @@ TEST(StudyHorizons, WritesTableDiagramAndJson) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 31);
 }
 
+TEST(StudyHorizons, OfAShortOneTakeWhatIsTyped) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_pneuma("study horizons one_sphere --short --seconds 2 --quiet --out '" +
+                 folder.path().string() + "'");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(read_text(folder / "horizons.json"))["scenes"][0]["seconds"], 2);
+}
+
 TEST(StudyHorizons, RefusesADifferenceThatIsNotSmall) {
   EXPECT_EQ(run_pneuma("study horizons one_sphere --difference 1 2>/dev/null").exit_code, 2);
 }
