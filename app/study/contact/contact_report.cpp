@@ -30,6 +30,11 @@ std::string heading(const ContactStudy& study) {
     text += labelled(
         "", fmt::format("Not until the {:.4g} s asked for: {}.", study.seconds, reference.limit));
   }
+  if (!reaches_a_contact(study)) {
+    text += labelled("", fmt::format("Nothing touches until then, the first time at {:.4g} s: the "
+                                     "runs below say nothing of contacts.",
+                                     study.first_contact));
+  }
   std::string distances;
   for (std::size_t i = 0; i < study.limit.distances.size(); ++i) {
     distances += fmt::format("{}{:.1e} at {:.3g} m", i == 0 ? "" : ", ", study.limit.errors[i],
@@ -154,6 +159,7 @@ nlohmann::json contact_json(const ContactStudy& study) {
           {"title", study.title},
           {"seconds_asked_for", study.seconds},
           {"seconds_compared", reference.seconds},
+          {"first_contact_s", study.first_contact},
           {"rest_radius_m", study.rest_radius},
           {"reference",
            {{"method", reference.method},

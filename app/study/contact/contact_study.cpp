@@ -83,7 +83,8 @@ template <class Counts>
 ContactChoice cheapest(const ContactStudy& study, std::string purpose, double greatest,
                        const Counts& counts) {
   ContactChoice choice{.purpose = std::move(purpose), .form = {}, .run = {}};
-  choice.known = study.limit.reference.uncertainty <= known_fraction * greatest;
+  choice.known =
+      reaches_a_contact(study) && study.limit.reference.uncertainty <= known_fraction * greatest;
   const auto is_good = [&](ContactForm form, const ErrorRun& run) {
     return counts(form, run) && error_of(run) <= greatest;
   };
@@ -99,7 +100,9 @@ bool gives_a_guarantee(ContactForm form, const ErrorRun& run) {
 ContactChoice guarantee(const ContactStudy& study) {
   ContactChoice choice =
       cheapest(study, "guarantee", max_error(Accuracy::picture), gives_a_guarantee);
-  if (!choice.form) choose_first(study, gives_a_guarantee, is_better, choice);
+  if (!choice.form && reaches_a_contact(study)) {
+    choose_first(study, gives_a_guarantee, is_better, choice);
+  }
   return choice;
 }
 
@@ -109,6 +112,10 @@ std::string_view to_string(ContactForm form) {
   static constexpr auto names =
       std::to_array<std::string_view>({"swept", "impulses", "potential", "paper"});
   return base::enum_name(names, form);
+}
+
+bool reaches_a_contact(const ContactStudy& study) {
+  return study.limit.reference.seconds > study.first_contact;
 }
 
 ContactOptions full_contact_options() {
@@ -126,7 +133,7 @@ ContactOptions short_contact_options() {
   options.errors.steps_per_second.resize(4);  // to 1/120 s
   options.errors.repeats = 1;
   options.errors.longest_run = 1.0;
-  options.limit = {.halvings = 2, .longest_run = 2.0};
+  options.limit = {.halvings = 4, .longest_run = 2.0};
   return options;
 }
 
@@ -161,6 +168,7 @@ ContactStudy study_contacts(const scenes::Scene& scene, const ContactOptions& op
   say("what touches");
   const Flight flight = flight_of(scene, options);
   study.seconds = flight.seconds;
+  study.first_contact = *flight.first_contact;
   study.rest_radius = radius_of_first_body(flight.world);
   study.limit = find_contact_limit(flight, options.limit, say);
   ErrorMeter meter(flight.world, study.limit.reference.trajectory);

@@ -37,11 +37,16 @@ struct ContactRuns {
 struct ContactStudy {
   std::string name;  // of the scene
   std::string title;
-  double seconds = 0.0;      // asked for
-  double rest_radius = 0.0;  // m, of the first body
+  double seconds = 0.0;        // asked for
+  double first_contact = 0.0;  // s
+  double rest_radius = 0.0;    // m, of the first body
   ContactLimit limit;
   std::vector<ContactRuns> forms;
 };
+
+/// Whether anything touches in the time that is compared; otherwise the runs say nothing of
+/// contacts.
+bool reaches_a_contact(const ContactStudy& study);
 
 /// A run that is good enough for something, the cheapest there is.
 struct ContactChoice {

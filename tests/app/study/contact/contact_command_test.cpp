@@ -18,6 +18,7 @@ TEST(StudyContacts, WritesTablesDiagramAndJson) {
   EXPECT_EQ(result.exit_code, 0);
   const auto json = nlohmann::json::parse(result.output);
   EXPECT_EQ(json["scenes"][0]["scene"], "one_sphere");
+  EXPECT_GT(json["scenes"][0]["seconds_compared"], json["scenes"][0]["first_contact_s"]);
   EXPECT_EQ(json["scenes"][0]["forms"].size(), 4U);
   EXPECT_EQ(json["scenes"][0]["choices"].size(), 4U);
   EXPECT_EQ(nlohmann::json::parse(read_text(folder / "contacts.json")), json);

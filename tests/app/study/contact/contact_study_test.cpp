@@ -98,6 +98,15 @@ TEST(ContactChoices, AreTheCheapestThatAreGoodEnough) {
   EXPECT_EQ(choices[1].run.steps_per_second, 60);
 }
 
+TEST(ContactChoices, AreNoneWhereNothingTouches) {
+  ContactStudy study = made_up_contacts();
+  EXPECT_EQ(contact_text(study).find("Nothing touches"), std::string::npos);
+  study.first_contact = 1.1;
+  for (const ContactChoice& choice : choose_contacts(study)) EXPECT_FALSE(choice.form);
+  EXPECT_NE(contact_text(study).find("Nothing touches until then, the first time at 1.1 s"),
+            std::string::npos);
+}
+
 TEST(ContactChoices, TakeTheBestGuaranteeWhereNoneIsGoodEnough) {
   ContactStudy study = made_up_contacts();
   study.forms[1].runs[1].errors.greatest.position = 0.2;
