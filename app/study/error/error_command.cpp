@@ -54,6 +54,7 @@ CLI::Validator is_whole_number_of_samples() {
 
 ErrorOptions sweep(const ErrorArguments& typed) {
   ErrorOptions options = typed.is_short ? short_sweep() : full_sweep();
+  options.flight.are_options = true;
   options.flight.body = typed.flight.body;
   options.flight.free_flight = typed.flight.free_flight;
   options.flight.tumbling = typed.flight.tumbling;
@@ -181,8 +182,9 @@ void add_error_study(CLI::App& study_command, Action& action,
   add_override_option(*command, typed->overrides);
   command->add_option("--body", typed->flight.body, "Only this body of the scene")
       ->type_name("NAME");
-  command->add_flag("--free-flight", typed->flight.free_flight,
-                    "Without ground, boxes and contacts; so is any scene in which nothing touches");
+  command->add_flag(
+      "--free-flight", typed->flight.free_flight,
+      "Without ground, boxes, obstacles and contacts; so is a scene in which nothing touches");
   command->add_flag("--tumbling", typed->flight.tumbling,
                     "Start with spin, shear and slack springs");
   command

@@ -36,42 +36,57 @@ void keep_body(sim::World& world, const std::string& name) {
   std::erase_if(world.rigid, other);
 }
 
-void check(const scenes::Scene& scene, const sim::World& world) {
+/// How to measure a body without the others: by options that the command has, or by another.
+std::string way_out(const FlightOptions& options, std::string_view what) {
+  return options.are_options
+             ? fmt::format("name {} with --body", what)
+             : fmt::format("`pneuma study error --body NAME` measures {} alone", what);
+}
+
+void check_soft_body(const scenes::Scene& scene, const sim::SoftBody& body,
+                     const FlightOptions& options) {
+  const auto unknown = [&](std::string_view what) {
+    return fmt::format("{}: {}, which the solutions to compare with know nothing of: ", scene.name,
+                       what);
+  };
+  if (sim::is_kinematic(body)) {
+    throw UsageError(
+        unknown(body.name + " is an obstacle of triangles (static, moved or wholly pinned)") +
+        (options.are_options ? "name a soft body with --body, or add --free-flight"
+                             : "`pneuma study error --free-flight` measures the "
+                               "bodies without it"));
+  }
+  if (body.pins) {
+    throw UsageError(unknown(body.name + " is pinned") + way_out(options, "another body"));
+  }
+  if (body.supply) {
+    throw UsageError(unknown(fmt::format("the gas of {} comes and goes", body.name)) +
+                     way_out(options, "another body"));
+  }
+  if (body.material.damping != sim::Damping::literal) return;
+  throw UsageError(fmt::format(
+      "{}: the damping of {} is literal, which depends on the step and so has no solution to "
+      "compare with: add --set body.damping=dashpot; `pneuma study choices` measures literal "
+      "damping",
+      scene.name, body.name));
+}
+
+void check(const scenes::Scene& scene, const sim::World& world, const FlightOptions& options) {
   const bool has_boxes = world.settings.contact == sim::ContactMethod::potential &&
                          !std::ranges::all_of(world.rigid, &sim::RigidBox::is_kinematic);
   if (world.soft.empty() && !has_boxes) {
     throw UsageError(fmt::format(
-        "{}: no soft body is left to study; name one with --body, leave that option out, or set "
-        "simulation.contact = \"potential\", which free boxes alone can be studied under",
-        scene.name));
+        "{}: no soft body is left to study{}; simulation.contact = \"potential\" has solutions "
+        "for free boxes alone as well",
+        scene.name, options.body.empty() ? "" : "; name one with --body, or leave that out"));
   }
   if (!world.valves.empty() || !world.springs.empty()) {
     throw UsageError(fmt::format(
         "{}: valves or springs join its bodies, which the solutions to compare with know nothing "
-        "of: name one body with --body, which then is alone",
-        scene.name));
+        "of: {}",
+        scene.name, way_out(options, "one body")));
   }
-  for (const sim::SoftBody& body : world.soft) {
-    if (body.pins) {
-      throw UsageError(
-          fmt::format("{}: {} is pinned, which the solutions to compare with know nothing of: name "
-                      "another body "
-                      "with --body",
-                      scene.name, body.name));
-    }
-    if (body.supply) {
-      throw UsageError(fmt::format(
-          "{}: the gas of {} comes and goes, which the solutions to compare with know nothing of: "
-          "name another body with --body",
-          scene.name, body.name));
-    }
-    if (body.material.damping != sim::Damping::literal) continue;
-    throw UsageError(fmt::format(
-        "{}: the damping of {} is literal, which depends on the step and so has no solution to "
-        "compare with: add --set body.damping=dashpot; `pneuma study choices` measures literal "
-        "damping",
-        scene.name, body.name));
-  }
+  for (const sim::SoftBody& body : world.soft) check_soft_body(scene, body, options);
 }
 
 void set_tumbling(sim::SoftBody& body) {
@@ -117,8 +132,10 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
   if (options.free_flight) {
     flight.world.settings.ground.reset();
     flight.world.rigid.clear();
+    std::erase_if(flight.world.soft,
+                  [](const sim::SoftBody& body) { return sim::is_kinematic(body); });
   }
-  check(scene, flight.world);
+  check(scene, flight.world, options);
   if (options.tumbling) std::ranges::for_each(flight.world.soft, set_tumbling);
   // Boxes alone turn by their own equation, which only the contact potential's solutions have.
   if (!options.free_flight) flight.first_contact = find_first_contact(flight.world, flight.seconds);

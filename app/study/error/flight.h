@@ -11,11 +11,13 @@ namespace pneuma::app {
 
 struct FlightOptions {
   std::string body;          // only this one; empty: all
-  bool free_flight = false;  // without ground, boxes and contacts
+  bool free_flight = false;  // without ground, boxes, obstacles and contacts
   /// Soft bodies start with spin, shear and slack springs: nine tenths as large as their scene has
   /// them, with 3 rad/s about (1, 1, 1) and du/dz = 2/s added to their velocities.
   bool tumbling = false;
   double seconds = 1.0;  // simulated, at most as long as the scene
+  /// The command has --body and --free-flight, so that messages may name them.
+  bool are_options = false;
 };
 
 struct Flight {
@@ -35,8 +37,8 @@ double whole_samples(double seconds);
 
 /// Asked for or not, a world in which nothing touches in the time is in free flight. Throws
 /// UsageError for a body that is not there, when nothing is left that could have an error, for a
-/// pinned body, and for `literal` damping, which is no differential equation; and
-/// scenes::SceneError.
+/// pinned body or an obstacle of triangles, and for `literal` damping, which is no differential
+/// equation; and scenes::SceneError.
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options);
 
 }  // namespace pneuma::app

@@ -84,6 +84,36 @@ TEST(Flight, LastsWholeSamplesAndNoLongerThanTheScene) {
   EXPECT_DOUBLE_EQ(prepare_flight(small_scene(), options(0.01)).seconds, 1.0 / 15.0);
 }
 
+const std::string dish = "[[body]]\nname = \"dish\"\nkind = \"static\"\nshape = \"torus\"\n";
+
+std::string refusal(const std::string& more, const FlightOptions& options) {
+  try {
+    prepare_flight(small_scene(more), options);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Flight, WithAnObstacleOfTrianglesSaysSoAndNamesOnlyWhatTheCommandHas) {
+  const std::string of_others = refusal(dish, options(0.5));
+  EXPECT_NE(of_others.find("dish is an obstacle of triangles"), of_others.npos) << of_others;
+  EXPECT_NE(of_others.find("`pneuma study error --free-flight`"), of_others.npos) << of_others;
+  FlightOptions with_options = options(0.5);
+  with_options.are_options = true;
+  const std::string own = refusal(dish, with_options);
+  EXPECT_NE(own.find("name a soft body with --body, or add --free-flight"), own.npos) << own;
+  const std::string pinned = refusal("pinned = [[-99, -99, 0, 99, 99, 50]]\n", options(0.5));
+  EXPECT_NE(pinned.find("ball is pinned"), pinned.npos) << pinned;
+  EXPECT_NE(pinned.find("`pneuma study error --body NAME`"), pinned.npos) << pinned;
+}
+
+TEST(Flight, ThatIsFreeHasNoObstacles) {
+  const Flight flight = prepare_flight(small_scene(dish), options(0.5, true));
+  ASSERT_EQ(flight.world.soft.size(), 1u);
+  EXPECT_EQ(flight.world.soft[0].name, "ball");
+}
+
 TEST(Flight, RefusesWhatCannotBeStudied) {
   EXPECT_THROW(prepare_flight(small_scene(), options(0.5, false, "bal")), UsageError);
   EXPECT_THROW(prepare_flight(small_scene(box), options(0.5, true, "box")), UsageError);
