@@ -71,15 +71,26 @@ std::string what_is_near(const sim::World& world, const std::string& name) {
   return fmt::format("; near it are {} and {}", fmt::join(near, ", "), last);
 }
 
+/// No step helps a body that has no room, and after parts of the step no shorter one of that size.
+std::string what_to_do(const sim::World& world, const sim::Divergence& divergence,
+                       bool tried_parts) {
+  const bool are_one = world.settings.contact == sim::ContactMethod::potential;
+  const std::string crushed = crushed_between(world, divergence.body, are_one);
+  if (!crushed.empty()) return fmt::format(". {}: let what is moved leave it more room", crushed);
+  const bool names_shorter_step = sim::is_implicit(world.settings.integrator);
+  const bool has_remedy = !divergence.remedy.empty() && !(tried_parts && names_shorter_step);
+  return (has_remedy ? "; " + divergence.remedy : "") + cause_and_remedy(world, divergence);
+}
+
 }  // namespace
 
 DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
-                                 const sim::World& world) {
+                                 const sim::World& world, bool tried_parts) {
   const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
-  return DivergenceError(
-      fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name, divergence.step,
-                  time, sim::to_string(divergence.stage), divergence.body, divergence.what,
-                  what_is_near(world, divergence.body), cause_and_remedy(world, divergence)));
+  return DivergenceError(fmt::format(
+      "{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name, divergence.step, time,
+      sim::to_string(divergence.stage), divergence.body, divergence.what,
+      what_is_near(world, divergence.body), what_to_do(world, divergence, tried_parts)));
 }
 
 Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
@@ -119,7 +130,7 @@ void Simulation::step() {
       if (step_in_parts(parts)) return;
     }
   }
-  const DivergenceError error = divergence_error(scene_.name, *divergence, world_);
+  const DivergenceError error = divergence_error(scene_.name, *divergence, world_, may_divide);
   if (!may_divide) throw error;
   DivergenceError of_parts(
       fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));

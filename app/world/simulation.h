@@ -14,9 +14,9 @@
 namespace pneuma::app {
 
 /// Names the scene, step, time, stage and body, what is near it, what happened, its likely cause
-/// and what to do. `world`: in its last valid state.
+/// and what to do. `world`: in its last valid state. `tried_parts` of the step diverged too.
 DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
-                                 const sim::World& world);
+                                 const sim::World& world, bool tried_parts = false);
 
 /// What to do about a step that diverges.
 enum class OnDivergence {

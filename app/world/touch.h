@@ -1,6 +1,7 @@
-// Bodies that touch, apart from those that are in each other.
+// Bodies that touch, apart from those that are in each other, and those that are crushed by them.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sim/inspect/crossings.h"
@@ -26,5 +27,10 @@ bool is_beyond_touch(const sim::World& world, int first, int second);
 /// The pairs of different bodies among the crossings that are in each other by more than a touch.
 std::vector<sim::CrossingPair> crossings_beyond_touch(const sim::World& world,
                                                       const sim::Crossings& crossings);
+
+/// "ball is crushed between left and right, to 3 of its 113 m^3": the body of that name, or another
+/// if `any`, has less than half of its volume at rest, and lies between one that is moved and one
+/// that does not give way. Empty where there is none.
+std::string crushed_between(const sim::World& world, const std::string& name, bool any);
 
 }  // namespace pneuma::app

@@ -195,20 +195,20 @@ class PotentialStep {
     if (halvings < max_halvings()) return failure("", "");
     const std::string parts = std::to_string(1 << max_halvings());
     if (!limit.is_limited) {
-      return failure(first_body(), std::string(why) + ", even in " + parts +
-                                       " parts; a smaller "
-                                       "simulation.potential.stiffness or an implicit "
-                                       "integrator does");
+      Divergence stiff = failure(first_body(), std::string(why) + ", even in " + parts + " parts");
+      stiff.remedy = "a smaller simulation.potential.stiffness or an implicit integrator does";
+      return stiff;
     }
     const bool on_ground = limit.pair < 0;
     const int surface = on_ground ? surface_of(limit.vertex) : pair.first;
     const std::string other = on_ground ? "the ground" : body_name(world_, pair.second);
-    return failure(body_name(world_, surface),
-                   "it comes so near to " + other + ", at " + features(limit, pair) +
-                       ", that it would pass through it, even in a " + parts +
-                       "th of the step; a step of 1/" +
-                       std::to_string(2 * world_.settings.steps_per_second) +
-                       " s or an implicit integrator may do");
+    Divergence near =
+        failure(body_name(world_, surface),
+                "it comes so near to " + other + ", at " + features(limit, pair) +
+                    ", that it would pass through it, even in a " + parts + "th of the step");
+    near.remedy = "a step of 1/" + std::to_string(2 * world_.settings.steps_per_second) + " s" +
+                  (m_.implicit_step ? "" : " or an implicit integrator") + " may do";
+    return near;
   }
 
   Divergence spinning(int box, int halvings) const {

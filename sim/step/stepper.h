@@ -25,9 +25,10 @@ struct Divergence {
   Stage stage;
   std::int64_t step;  // the step that failed, counted from 1
   std::string body;
-  std::string what;       // happened, with its values
-  int vertex = -1;        // of a soft body: in which it shows, or its fastest; -1: none
-  bool inverted = false;  // the body became flat or turned inside out
+  std::string what;         // happened, with its values
+  int vertex = -1;          // of a soft body: in which it shows, or its fastest; -1: none
+  bool inverted = false;    // the body became flat or turned inside out
+  std::string remedy = {};  // what may do instead of the step, if that is known
 };
 
 struct StepperOptions {

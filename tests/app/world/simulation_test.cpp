@@ -51,6 +51,46 @@ TEST(DivergenceError, NamesWhatIsNear) {
   EXPECT_EQ(said("far").find("near"), std::string::npos) << said("far");
 }
 
+/// A flat ball between two boxes, of which the left one comes nearer.
+sim::World pressed_ball(double speed) {
+  sim::World world;
+  world.settings.ground.reset();
+  world.soft.push_back(sim::make_body(sim::make_sphere(3.0, 8, 8), {0.0, 0.0, 0.0}));
+  world.soft[0].name = "ball";
+  for (int v = 0; v < world.soft[0].positions.size(); ++v) world.soft[0].positions[v][0] *= 0.2;
+  for (const double x : {-1.12, 1.12}) {
+    world.rigid.push_back(sim::make_rigid({1.0, 9.0, 9.0}, {x, 0.0, 0.0}, 1.0));
+    world.rigid.back().name = x < 0.0 ? "left" : "right";
+    world.rigid.back().is_kinematic = true;
+  }
+  world.rigid[0].velocity.x() = speed;
+  return world;
+}
+
+std::string said_of_pressed_ball(const sim::World& world, bool tried_parts) {
+  sim::Divergence divergence{Stage::integrate_soft, 7, "ball", "it broke"};
+  divergence.remedy = "magic does";
+  return divergence_error("scene", divergence, world, tried_parts).what();
+}
+
+TEST(DivergenceError, OfABodyWithoutRoomNamesWhatCrushesItAndNoStep) {
+  const std::string crushed = said_of_pressed_ball(pressed_ball(1.0), true);
+  EXPECT_NE(crushed.find("ball is crushed between left and right, to "), std::string::npos)
+      << crushed;
+  EXPECT_EQ(crushed.find("a step of"), std::string::npos) << crushed;
+  EXPECT_EQ(crushed.find("magic"), std::string::npos) << crushed;
+  const std::string still = said_of_pressed_ball(pressed_ball(0.0), true);
+  EXPECT_EQ(still.find("crushed"), std::string::npos) << still;
+  EXPECT_NE(still.find("Use a step of"), std::string::npos) << still;
+}
+
+TEST(DivergenceError, AdvisesNoShorterStepOnceShorterOnesHaveFailed) {
+  sim::World world = pressed_ball(0.0);
+  world.settings.integrator = sim::Integrator::implicit_euler;
+  EXPECT_NE(said_of_pressed_ball(world, false).find("; magic does"), std::string::npos);
+  EXPECT_EQ(said_of_pressed_ball(world, true).find("magic"), std::string::npos);
+}
+
 /// Thrown at the ground so hard that no whole step holds it.
 scenes::Scene thrown_scene(double k) {
   return scenes::parse_scene(
