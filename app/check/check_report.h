@@ -24,7 +24,8 @@ struct CheckReport {
   std::optional<RunStatistics> run;
 };
 
-/// The summary as comments, then the effective scene, so that the whole is a scene file again.
+/// A summary as comments, the effective scene, and the run as comments again, so that the whole is
+/// a scene file again.
 std::string check_text(const CheckReport& report);
 nlohmann::json check_json(const CheckReport& report);
 

@@ -278,10 +278,12 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
 }
 
 std::string check_text(const CheckReport& report) {
-  std::string text = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
-                     steps_text(report.steps) + gas_text(report.gas);
-  if (report.run) text = run_statistics_text(*report.run, report.scene.settings) + '\n' + text;
-  return as_comments(text) + '\n' + scenes::print_scene(report.scene);
+  const std::string before = plan_text(report.plan) + '\n' + size_text(report.size, report.scene) +
+                             steps_text(report.steps) + gas_text(report.gas);
+  const std::string text = as_comments(before) + '\n' + scenes::print_scene(report.scene);
+  if (!report.run) return text;
+  // Last, where it is seen: the scene is long.
+  return text + '\n' + as_comments(run_statistics_text(*report.run, report.scene.settings));
 }
 
 }  // namespace pneuma::app

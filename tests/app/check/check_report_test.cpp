@@ -84,6 +84,12 @@ TEST(CheckText, IsASceneFileOfTheSameScene) {
   EXPECT_EQ(scenes::scene_fingerprint(read), scenes::scene_fingerprint(report.scene));
 }
 
+TEST(CheckText, EndsWithTheRun) {
+  const std::string text = check_text(report_of(sphere_text, true));
+  EXPECT_LT(text.find("[[body]]"), text.find("# Run of "));
+  EXPECT_GT(text.find("state hash"), text.find("speed at the end"));
+}
+
 TEST(CheckText, HasTheRunOnlyWhenThereWasOne) {
   EXPECT_EQ(check_text(report_of(sphere_text)).find("state hash"), std::string::npos);
   EXPECT_NE(check_text(report_of(sphere_text, true)).find("state hash"), std::string::npos);
