@@ -104,7 +104,12 @@ std::string heat_map_script(const HeatMap& given, const std::string& name) {
   // red and green.
   text += "set palette defined (0 '#440154', 1 '#3b528b', 2 '#21908c', 3 '#5dc963', 4 '#fde725')\n";
   text += fmt::format("set cblabel {} noenhanced\n", quoted(map.value_label));
-  if (needs_logarithm(map)) text += "set logscale cb\nset format cb '10^{%T}'\n";
+  if (needs_logarithm(map))
+    text += "set logscale cb\nset format cb '10^{%T}'\n";
+  else
+    text += "set format cb '%.4g'\n";
+  // Beside the map there is room for the colour bar, its numbers and what they mean.
+  text += "set rmargin at screen 0.8\n";
   text += "unset key\nset tics out\nset grid noxtics noytics\n";
   text += fmt::format(
       "set terminal svg size 960,600 background rgb 'white' font 'sans,14'\nset output {}\n",

@@ -104,6 +104,24 @@ std::vector<Measure> default_measures() {
   return measures;
 }
 
+std::string_view unit_of(const Measure& measure) {
+  if (measure.path == "/seconds") return "s";
+  // The longer endings first: "_m_per_s" ends in "_s" too.
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> units = {
+      {{"_m_per_s", "m/s"}, {"_m3", "m^3"}, {"_J", "J"}, {"_m", "m"}, {"_s", "s"}}};
+  // What is nearest to the value says its unit: "penetration_m/at_s" is a time.
+  std::string_view path = measure.path;
+  while (!path.empty()) {
+    const std::size_t slash = path.rfind('/');
+    const std::string_view name = path.substr(slash + 1);
+    for (const auto& [ending, unit] : units) {
+      if (name.ends_with(ending)) return unit;
+    }
+    path = path.substr(0, slash);
+  }
+  return {};
+}
+
 bool is_of_length(const Measure& measure) {
   return measure.path == "/seconds" || measure.path == "/steps";
 }

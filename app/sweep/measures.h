@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/check/run_statistics.h"
@@ -24,6 +25,9 @@ std::vector<std::string> measure_names();
 
 /// Those of a sweep that names none.
 std::vector<Measure> default_measures();
+
+/// "J", as the names on its path end in; empty for what has none.
+std::string_view unit_of(const Measure& measure);
 
 /// Whether it says how far a run came, which means something also where it diverged.
 bool is_of_length(const Measure& measure);

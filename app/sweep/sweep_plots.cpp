@@ -41,6 +41,12 @@ DiagramAxis axis_of(const Parameter& parameter) {
   return {.label = parameter.key, .logarithmic = is_logarithmic(parameter)};
 }
 
+/// "energy, J".
+std::string label_of(const Measure& measure) {
+  const std::string_view unit = unit_of(measure);
+  return unit.empty() ? measure.name : fmt::format("{}, {}", measure.name, unit);
+}
+
 /// A file's name of it: only letters that every system takes.
 std::string file_text(std::string text) {
   std::ranges::replace_if(
@@ -60,7 +66,7 @@ class ScenePlot {
     Diagram diagram;
     diagram.title = title();
     diagram.x = axis_of(sweep_.parameters[x]);
-    diagram.y = {.label = measure_.name};
+    diagram.y = {.label = label_of(measure_)};
     const bool random = sweep_.parameters[x].is_random();
     std::map<std::string, DiagramSeries> series;
     for_each([&](const SweepRun& run, double value) {
@@ -87,7 +93,7 @@ class ScenePlot {
           {.x = number_of(run.values[x]), .y = number_of(run.values[y]), .value = value});
     });
     for (auto& [name, map] : maps) {
-      map.value_label = measure_.name;
+      map.value_label = label_of(measure_);
       map.x = axis_of(sweep_.parameters[x]);
       map.y = axis_of(sweep_.parameters[y]);
       map.random = sweep_.parameters[x].is_random() || sweep_.parameters[y].is_random();

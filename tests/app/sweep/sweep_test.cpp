@@ -281,6 +281,19 @@ values = [1, 2]
   EXPECT_EQ(unknown, 2) << script;
 }
 
+TEST(Measures, HaveTheUnitOfTheirPath) {
+  for (const auto& [name, unit] : {std::pair("energy_drift", "J"),
+                                   {"penetration", "m"},
+                                   {"speed", "m/s"},
+                                   {"volume", "m^3"},
+                                   {"seconds", "s"},
+                                   {"penetration_m.at_s", "s"},
+                                   {"crossings", ""},
+                                   {"steps", ""}}) {
+    EXPECT_EQ(unit_of(find_measure(name)), unit) << name;
+  }
+}
+
 TEST(HeatMap, CellsReachHalfWayToTheNextAndLeaveNoGap) {
   HeatMap map{"title", "value", {.label = "x"}, {.label = "y"}, false, {}};
   for (const double x : {1.0, 3.0}) {
@@ -290,6 +303,7 @@ TEST(HeatMap, CellsReachHalfWayToTheNextAndLeaveNoGap) {
   for (const char* cell : {"\n1 0 0 2 -0.5 0.5 0\n", "\n1 1 0 2 0.5 2 1\n", "\n3 3 2 4 2 4 9\n"}) {
     EXPECT_NE(script.find(cell), std::string::npos) << script;
   }
+  EXPECT_NE(script.find("set rmargin at screen 0.8\n"), script.npos) << script;
   EXPECT_THROW(heat_map_script({}, "name"), std::invalid_argument);
 }
 
