@@ -12,8 +12,6 @@
 namespace pneuma::app {
 namespace {
 
-constexpr int smallest_side = 16;
-
 sim::World checked_world(const scenes::Scene& scene) {
   sim::World world = build_world(scene);
   refuse_start_overlap(scene, world);
@@ -22,9 +20,9 @@ sim::World checked_world(const scenes::Scene& scene) {
 
 int picture_side(const char* name, const std::optional<int>& given, int of_scene) {
   const int side = given.value_or(of_scene);
-  if (side >= smallest_side && side <= scenes::greatest_picture_side) return side;
+  if (side >= scenes::smallest_picture_side && side <= scenes::greatest_picture_side) return side;
   throw UsageError(fmt::format("{} = {}: a picture has {} to {} pixels along a side", name, side,
-                               smallest_side, scenes::greatest_picture_side));
+                               scenes::smallest_picture_side, scenes::greatest_picture_side));
 }
 
 }  // namespace

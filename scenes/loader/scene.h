@@ -176,6 +176,7 @@ struct Limits {
 };
 
 /// Pixels along a side of the largest picture that the renderer makes.
+inline constexpr int smallest_picture_side = 16;
 inline constexpr int greatest_picture_side = 16384;
 
 /// MiB to which the limit of scene files can be raised.

@@ -30,7 +30,9 @@ TEST(AppendSize, SetsWidthAndHeightOfTheScenesPictures) {
   append_size("640x480", overrides);
   EXPECT_EQ(overrides,
             (std::vector<std::string>{"body.k=3", "picture.width=640", "picture.height=480"}));
-  EXPECT_THROW(append_size("640", overrides), UsageError);
+  for (const char* wrong : {"640", "10x10", "640x15", "99999x99999"}) {
+    EXPECT_THROW(append_size(wrong, overrides), UsageError) << wrong;
+  }
 }
 
 }  // namespace
