@@ -122,9 +122,9 @@ struct RunNotices {
     crossed.add(simulation, frame, progress);
     pressed.add(simulation.world());
   }
-  void summarise(Progress& progress) const {
+  void summarise(Progress& progress, bool is_resumed) const {
     divided.summarise(progress);
-    crossed.summarise(progress);
+    crossed.summarise(progress, is_resumed);
     pressed.summarise(progress);
   }
 };
@@ -191,7 +191,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   writer.wait();
   state.elapsed += watch.lap();
   progress.say(summary_line(state));
-  notices.summarise(progress);
+  notices.summarise(progress, first > 0);
 }
 
 }  // namespace pneuma::app

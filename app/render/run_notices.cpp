@@ -38,16 +38,18 @@ void CrossedFrames::add(const Simulation& simulation, const FrameState& state, P
                            is_swept ? "" : "; simulation.contact = \"swept\" keeps bodies apart"));
 }
 
-void CrossedFrames::summarise(Progress& progress) const {
+void CrossedFrames::summarise(Progress& progress, bool is_resumed) const {
+  const std::string frames = is_resumed ? fmt::format("the {} frames drawn now", frames_)
+                                        : fmt::format("{} frames", frames_);
   if (count_ > 0) {
-    progress.say(fmt::format("bodies pass through each other in {} of {} frames", count_, frames_));
+    progress.say(fmt::format("bodies pass through each other in {} of {}", count_, frames));
   }
   if (of_themselves_ > 0) {
     progress.say(
-        fmt::format("{} passes through itself in {} of {} frames; bending of the body makes that "
+        fmt::format("{} passes through itself in {} of {}; bending of the body makes that "
                     "rarer, and simulation.contact = \"potential\" with simulation.integrator = "
                     "\"implicit_euler\" rules it out, for several times the time",
-                    itself_, of_themselves_, frames_));
+                    itself_, of_themselves_, frames));
   }
 }
 

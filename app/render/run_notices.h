@@ -28,7 +28,8 @@ class DividedSteps {
 class CrossedFrames {
  public:
   void add(const Simulation& simulation, const FrameState& state, Progress& progress);
-  void summarise(Progress& progress) const;
+  /// `is_resumed`: earlier frames of the run are not counted.
+  void summarise(Progress& progress, bool is_resumed) const;
   std::int64_t count() const { return count_; }
 
  private:

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/world/build_world.h"
+#include "scenes/loader/load_scene.h"
 #include "sim/mesh/primitives.h"
 #include "tests/support/worlds.h"
 
@@ -28,6 +30,23 @@ std::string said_of(double share, bool leaks = false) {
   testing::internal::CaptureStderr();
   pressed.summarise(progress);
   return testing::internal::GetCapturedStderr();
+}
+
+TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
+  const scenes::Scene scene = scenes::parse_scene("[[body]]\n", "one.toml");
+  const Simulation simulation(scene, build_world(scene), 1);
+  FrameState state;
+  state.crosses_itself = "body1";
+  CrossedFrames crossed;
+  Progress progress(Progress::Style::lines);
+  crossed.add(simulation, state, progress);
+  for (const bool is_resumed : {false, true}) {
+    testing::internal::CaptureStderr();
+    crossed.summarise(progress, is_resumed);
+    const std::string said = testing::internal::GetCapturedStderr();
+    const char* of = is_resumed ? "in 1 of the 1 frames drawn now;" : "in 1 of 1 frames;";
+    EXPECT_NE(said.find(of), std::string::npos) << said;
+  }
 }
 
 TEST(PressedBodies, AreNamedWithTheShareThatIsLeft) {
