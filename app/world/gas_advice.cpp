@@ -72,6 +72,7 @@ GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, i
   advice.left_out = advice.vertices > max_vertices && sim::gas_strength(body.material) > 0.0;
   if (!advice.left_out) advice.settled = settled_volume(body);
   advice.k = body.material.k;
+  advice.n = body.material.n;
   if (advice.blown_up()) advice.max_held = max_held(body);
   predict_pressed(body, settings, advice);
   return advice;
@@ -135,8 +136,9 @@ std::string weight_warning(const GasAdvice& advice) {
   const double k = *advice.strengthened * advice.k;
   return fmt::format(
       "{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
-      "with inflation as it is, or with gauge_pressure = {:.3g} Pa{}",
-      crushed, *advice.strengthened, k, k / k_per_stiffness, advice.carrying_pressure, lighter);
+      "with n = {:.4g} mol (inflation stays as it is), or with gauge_pressure = {:.3g} Pa{}",
+      crushed, *advice.strengthened, k, k / k_per_stiffness, *advice.strengthened * advice.n,
+      advice.carrying_pressure, lighter);
 }
 
 }  // namespace pneuma::app

@@ -19,6 +19,7 @@ struct GasAdvice {
   std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
                                    // can hold in its shape; none: it cannot hold it at all
   double k = 0.0;                  // N/m, of its springs
+  double n = 0.0;                  // mol, of its gas
   // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
   // it, or no weight.
   std::optional<double> pressed;

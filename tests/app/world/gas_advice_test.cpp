@@ -61,14 +61,16 @@ TEST(GasAdvice, TooHeavyBodiesAreCarriedByTheSpringsAndGasThatItNames) {
            "density = 300\nthickness = 0.02\n" +
            springs_and_gas;
   };
-  for (const std::string how : {"k = 50\ninflation = 1.1\n", "k = 50\ngauge_pressure = 40\n"}) {
+  for (const std::string how :
+       {"k = 50\ninflation = 1.1\n", "k = 50\ngauge_pressure = 40\n", "k = 50\nn = 1.8\n"}) {
     const GasAdvice heavy = advices_on(ball(how)).at(0);
     ASSERT_TRUE(heavy.crushed());
     const std::string warning = weight_warning(heavy);
     const std::string k = number_after(warning, "k = ");
     const std::string gas =
-        how.find("inflation") != std::string::npos
-            ? "inflation = 1.1\n"
+        how.find("inflation") != std::string::npos ? "inflation = 1.1\n"
+        : how.find("\nn = ") != std::string::npos
+            ? "n = " + number_after(warning, "with n = ") + "\n"
             : "gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n";
     const std::string carried = ball("k = " + k + "\n" + gas);
     EXPECT_FALSE(advices_on(carried).at(0).crushed()) << warning;
