@@ -94,7 +94,10 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
   Simulation simulation(scene, start, request.threads);
   ProgressState state;
   const auto keep_frames_so_far = [&] {
-    if (state.drawn > 0) print_path(sink->finish());
+    if (state.drawn == 0) return;
+    print_path(sink->finish());
+    fmt::print(stderr, "partial: {} of {} frames, up to t = {:.2f} s\n", state.drawn,
+               frames.last - frames.first + 1, state.time);
   };
   try {
     run_frames(simulation, frames, *sink, state, progress);

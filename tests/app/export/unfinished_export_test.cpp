@@ -70,7 +70,8 @@ TEST_F(UnfinishedExport, AnInterruptedRunHasItsFramesSoFar) {
   request.out = out().string();
   request.format = export_format("glb", true);
   request.format.open = open_stopped<true>;
-  EXPECT_EXIT(export_until_stopped(request), testing::ExitedWithCode(130), "");
+  EXPECT_EXIT(export_until_stopped(request), testing::ExitedWithCode(130),
+              "partial: 3 of [0-9]+ frames, up to t = [0-9.]+ s");
   const json gltf = gltf_in(file("fall.glb"));
   EXPECT_EQ(gltf["meshes"][0]["primitives"][0]["targets"].size(), 2u);
 
