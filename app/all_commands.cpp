@@ -1,9 +1,12 @@
 #include "app/all_commands.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "app/host/exit_code_words.h"
 #include "app/host/version.h"
 #include "app/runs/runs_commands.h"
 #include "app/study/study_command.h"
@@ -28,6 +31,7 @@ void add_all_commands(CLI::App& cli, Action& action, std::span<const std::string
   add_list_command(cli, action);
   add_doctor_command(cli, action);
   add_examples(cli, {"pneuma doctor", "pneuma list", "pneuma render one_sphere --out pictures"});
+  cli.footer(fmt::format("{}\n\nExit codes: {}", cli.get_footer(), exit_code_words));
 }
 
 }  // namespace pneuma::app

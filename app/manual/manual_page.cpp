@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/host/exit_code_words.h"
 #include "app/manual/write_manual.h"
 
 namespace pneuma::app {
@@ -43,9 +44,7 @@ std::string section(const CommandModel& command) {
   return text;
 }
 
-constexpr const char* after_commands = R"(.SH EXIT STATUS
-0 done; 1 an error of the program itself; 2 the command line is wrong; 3 scene or model invalid or not readable;
-4 no OpenGL; 5 the simulation diverged; 6 input or output failed; 7 a check failed; 130 interrupted.
+constexpr const char* after_exit_codes = R"(
 Of a sweep: that of its first run that failed, after all of them are done.
 .SH FILES
 Scenes are found by name in ./scenes, in share/pneuma/scenes beside the program's folder, and in pneuma/scenes of the
@@ -73,7 +72,7 @@ std::string manual_page(const CommandModel& program, const std::string& version)
       examples += fmt::format(".EX\n{}\n.EE\n", roff(example));
     }
   }
-  return text + after_commands + examples;
+  return text + fmt::format(".SH EXIT STATUS\n{}", exit_code_words) + after_exit_codes + examples;
 }
 
 }  // namespace pneuma::app

@@ -38,6 +38,10 @@ TEST(SetOption, BeforeTheSceneIsApplied) {
   EXPECT_SAYS(run_pneuma("check --set body.k=61.5 one_sphere").output, "k = 61.5");
 }
 
+TEST(Help, ListsTheExitCodes) {
+  EXPECT_SAYS(run_pneuma("--help").output, "Exit codes: 0 done; 1 ");
+}
+
 TEST(EmptyValue, IsNoValue) {
   for (const char* typed : {"render one_sphere --out ''", "export one_sphere --out ''",
                             "render one_sphere --video ''", "check ''"}) {
