@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/collision/packed_bounds.h"
 #include "sim/collision/packed_spheres.h"
+#include "sim/mesh/packed_bounds.h"
 
 namespace pneuma::sim {
 
