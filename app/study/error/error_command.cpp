@@ -9,6 +9,7 @@
 #include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/host/errors.h"
 #include "app/host/timing_conditions.h"
@@ -65,10 +66,8 @@ ErrorOptions sweep(const ErrorArguments& typed) {
   }
   if (!typed.integrators.empty()) options.tolerances.clear();
   if (!typed.steps_per_second.empty()) {
-    options.steps_per_second = typed.steps_per_second;
-    std::ranges::sort(options.steps_per_second);
-    const auto twice = std::ranges::unique(options.steps_per_second);
-    options.steps_per_second.erase(twice.begin(), twice.end());
+    const std::set<int> ascending(typed.steps_per_second.begin(), typed.steps_per_second.end());
+    options.steps_per_second.assign(ascending.begin(), ascending.end());
   }
   return options;
 }
