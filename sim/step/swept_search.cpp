@@ -49,7 +49,7 @@ void SweptSearch::search_ways() {
   m_.candidates.clear();
   are_beside_obstacles_ = false;
   next_earlier_ = next_near_ = 0;
-  for (NearTriangles& near : m_.near_triangles) near.is_known = false;
+  for (NearTriangles& triangles : m_.near_triangles) triangles.is_known = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
   for (const BodyPair& pair : m_.near_bodies) {
     if (!may_touch(pair)) continue;
