@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -34,6 +35,11 @@ std::string heading(const ContactStudy& study) {
     text += labelled("", fmt::format("Nothing touches until then, the first time at {:.4g} s: the "
                                      "runs below say nothing of contacts.",
                                      study.first_contact));
+  }
+  if (std::ranges::count(study.forms, ContactForm::impulses, &ContactRuns::form) == 0) {
+    text += labelled("Left out",
+                     "impulses and the paper's contacts, which know no static and no "
+                     "moved boxes.");
   }
   std::string distances;
   for (std::size_t i = 0; i < study.limit.distances.size(); ++i) {

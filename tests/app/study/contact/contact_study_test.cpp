@@ -144,6 +144,22 @@ TEST(ContactStudy, ComparesAllFormsWithOneMotion) {
   }
 }
 
+TEST(ContactStudy, ComparesAStaticBoxOnlyByContactsThatKnowIt) {
+  scenes::Scene scene = balls(0.02);
+  scenes::BodyScene& box = scene.bodies.emplace_back();
+  box.name = "table";
+  box.kind = scenes::BodyKind::fixed;
+  box.shape = scenes::Shape::box;
+  box.position = {0.0, 0.0, -9.0};
+  ContactOptions options = short_contact_options();
+  options.errors.steps_per_second = {60};
+  const ContactStudy study = study_contacts(scene, options, says_nothing);
+  ASSERT_EQ(study.forms.size(), 2U);
+  EXPECT_EQ(study.forms[0].form, ContactForm::swept);
+  EXPECT_EQ(study.forms[1].form, ContactForm::potential);
+  EXPECT_NE(contact_text(study).find("no static"), std::string::npos);
+}
+
 TEST(ContactStudy, RefusesWhereNothingTouches) {
   EXPECT_THROW(study_contacts(small_scene(), short_contact_options(), says_nothing), UsageError);
 }
