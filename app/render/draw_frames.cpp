@@ -191,7 +191,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   writer.wait();
   state.elapsed += watch.lap();
   progress.say(summary_line(state));
-  notices.summarise(progress, first > 0);
+  notices.summarise(progress, !output.log.is_new());
 }
 
 }  // namespace pneuma::app
