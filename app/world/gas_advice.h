@@ -34,7 +34,7 @@ struct GasAdvice {
 };
 
 /// Vertices of all distinct bodies for which there is advice: before a run it is to take well below
-/// a second, where it is asked for some ten (settled_volume.h).
+/// a second, where it is asked for some tens (settled_volume.h).
 inline constexpr int quick_advice = 3'000, patient_advice = 100'000;
 
 /// Of one body for each mesh and material, up to so many vertices in all. There is no advice

@@ -127,8 +127,9 @@ std::optional<sim::SoftBody> find_settled_by_short_steps(const sim::SoftBody& bo
     double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
     for (int i = 0; i < steps; ++i) {
       if (stepper.step(world)) return std::nullopt;
-      least = std::min(least, volume_of(world));
-      greatest = std::max(greatest, volume_of(world));
+      const double now = volume_of(world);
+      least = std::min(least, now);
+      greatest = std::max(greatest, now);
     }
     if (greatest - least < settled_swing * greatest) return std::move(world.soft.front());
   }

@@ -60,6 +60,17 @@ std::size_t next_key(std::span<const KeyFrame> keys, double time) {
   return next;
 }
 
+/// The derivative of value_at, per second.
+Vec3 rate_at(std::span<const KeyFrame> keys, bool smooth, double time) {
+  if (keys.empty() || time < time_of(keys.front()) || time >= time_of(keys.back())) {
+    return Vec3::Zero();
+  }
+  const std::size_t next = next_key(keys, time);
+  const double seconds = duration(keys[next - 1], keys[next]);
+  if (!smooth) return slope(keys[next - 1], keys[next]);
+  return cubic_rate(keys, next - 1, (time - time_of(keys[next - 1])) / seconds) / seconds;
+}
+
 /// The rotation vector in world axes that turns one orientation into another, rad.
 Vec3 rotation_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::AngleAxisd turn(to * from.conjugate());
@@ -76,16 +87,6 @@ Vec3 value_at(std::span<const KeyFrame> keys, bool smooth, double time) {
   const double part = (time - time_of(keys[next - 1])) / duration(keys[next - 1], keys[next]);
   if (smooth) return cubic(keys, next - 1, part);
   return (1.0 - part) * value_of(keys[next - 1]) + part * value_of(keys[next]);
-}
-
-Vec3 rate_at(std::span<const KeyFrame> keys, bool smooth, double time) {
-  if (keys.empty() || time < time_of(keys.front()) || time >= time_of(keys.back())) {
-    return Vec3::Zero();
-  }
-  const std::size_t next = next_key(keys, time);
-  const double seconds = duration(keys[next - 1], keys[next]);
-  if (!smooth) return slope(keys[next - 1], keys[next]);
-  return cubic_rate(keys, next - 1, (time - time_of(keys[next - 1])) / seconds) / seconds;
 }
 
 Pose pose_at(const GivenMotion& motion, double time) {

@@ -21,15 +21,12 @@ struct Pose {
 /// At a time in s.
 Pose pose_at(const GivenMotion& motion, double time);
 
-/// The derivative of value_at, per second; at a key of even speeds that after it.
-Vec3 rate_at(std::span<const KeyFrame> keys, bool smooth, double time);
-
 struct Velocities {
   Vec3 linear;   // m/s
   Vec3 angular;  // rad/s, world axes
 };
 
-/// The derivative of pose_at.
+/// The derivative of pose_at; at a key of even speeds that after it.
 Velocities velocities_at(const GivenMotion& motion, double time);
 
 /// Gives each box that has a motion the velocities that lead to where it is at

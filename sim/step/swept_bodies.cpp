@@ -1,14 +1,11 @@
 #include "sim/step/swept_bodies.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "sim/mesh/primitives.h"
-#include "sim/rigid/inertia.h"
-#include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stages.h"
 #include "sim/swept/soft_way.h"
@@ -357,7 +354,7 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
                                                : bounds_of_way(world, start, i));
     }
     const double reach = is_rigid(i) ? near_of_side * shortest_sides_[at(box(i))] : 0.0;
-    reached_.push_back({ways_.back().low.array() - reach, ways_.back().high.array() + reach});
+    reached_.push_back(larger(ways_.back(), reach));
   }
   sweep_and_prune_.find(reached_, pairs);
   std::erase_if(pairs, [&](const BodyPair& pair) { return !may_be_near(pair); });

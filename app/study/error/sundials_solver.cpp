@@ -169,10 +169,10 @@ class ContactEquation {
 
   /// Its corners.
   void move_box(int i, const sim::GivenMotion& motion, double time) {
-    const auto [position, orientation] = pose_at(motion, time);
+    const sim::Pose pose = pose_at(motion, time);
     const auto [velocity, angular_velocity] = velocities_at(motion, time);
-    surfaces_.place_box({position, orientation}, i, positions_);
-    move_corners({position, orientation, velocity, angular_velocity},
+    surfaces_.place_box(pose, i, positions_);
+    move_corners({pose.position, pose.orientation, velocity, angular_velocity},
                  surfaces_.of_box(i).first_vertex, positions_, velocities_);
   }
 
