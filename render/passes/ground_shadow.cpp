@@ -159,9 +159,14 @@ void GroundShadow::measure_cover(const ShadowMap& map, const ShadowDepths& shado
     std::ranges::fill(covered, 0.0f);
     for (int row = first(y); row < first(y + 1); ++row) {
       const float* depths = shadow_depths.row(row);
+      const float across = 1.0f / static_cast<float>(map_size);
+      const Vec3f begin = {0.5f * across, (static_cast<float>(row) + 0.5f) * across, 1.0f};
+      const float of_ground = ground.dot(begin), slope = ground.x() * across;
       for (std::size_t i = 0; i < nearest.size(); ++i) {
+        // What is sunk lies behind the ground.
+        const float limit = std::min(1.0f, of_ground + slope * static_cast<float>(i));
         nearest[i] = std::min(nearest[i], depths[i]);
-        covered[i] += depths[i] < 1.0f ? 1.0f : 0.0f;
+        covered[i] += depths[i] < limit ? 1.0f : 0.0f;
       }
     }
     for (int x = 0; x < inner; ++x) {

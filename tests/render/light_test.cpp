@@ -406,6 +406,19 @@ TEST(BetweenBodies, TheGroundIsDarkestWhereABoxStands) {
   EXPECT_GT(at_side, darkness(0.6f, 0.07f) + 4);
 }
 
+TEST(GroundShadow, IsNotOfWhatIsBelowTheGround) {
+  const auto pixel = [](float x, bool has_box) {
+    Frame frame;
+    frame.camera = {{0, -0.1f, 12}, Vec3f::Zero(), 40.0f};
+    frame.light.direction = {-0.5f, 0, -1};
+    frame.light.between_bodies = false;
+    if (has_box) frame.meshes = {make_box({0, 0, -0.5f}, {2, 2, 2}, {0.8f, 0.8f, 0.8f})};
+    return pixel_of(draw_once(frame, small_picture()), frame.camera, {x, 0, 0})[1];
+  };
+  EXPECT_NEAR(pixel(1.4f, true), pixel(1.4f, false), 1);      // towards the light
+  EXPECT_LT(pixel(-1.12f, true), pixel(-1.12f, false) - 20);  // half a metre casts a shadow
+}
+
 TEST(Elements, SendLessOverGroundInShadow) {
   const Mesh box = make_box({0, 0, 2}, {1, 1, 1}, {0.5f, 0.5f, 0.5f});
   const std::vector<Vec3f> albedo(box.positions.size(), Vec3f::Constant(0.2f));
