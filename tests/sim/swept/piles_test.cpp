@@ -9,6 +9,7 @@
 #include "sim/inspect/inspect.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/rotation.h"
+#include "sim/soft/equilibrium.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 
@@ -204,6 +205,31 @@ TEST(Piles, ACarriedHeapStaysWhereItIs) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double way = (world.rigid[i].position - before[i].position).norm();
     EXPECT_LT(way, 5e-5) << i;  // 1.1e-5; without what held it at the start of the last step 1.7e-4
+  }
+}
+
+/// A firm one: a soft ball tips what stands on it.
+TEST(Piles, ABallOfGasCarriesTenBoxesForAMinute) {
+  World world = make_tower({});
+  world.settings.steps_per_second = 360;
+  SoftBody ball = make_body(make_icosphere(2.0, 2), {0.0, 0.0, 2.01});
+  ball.material.k = 1200.0;
+  ball.material.n = 10.0;
+  ball.material.vertex_mass = 0.08;
+  ball.material.rho_g = 0.1;
+  const auto held = find_equilibrium(ball.mesh->topology, ball.positions, ball.material);
+  ball.mesh = make_soft_mesh(*ball.mesh, held.rest_lengths);
+  world.soft.push_back(ball);
+  for (int i = 0; i < 10; ++i) {
+    world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 5.02 + 2.005 * i}));
+  }
+  const Pile pile = run_pile(world, 60.0);
+  EXPECT_LT(pile.deepest, 0.01);
+  EXPECT_LT(pile.speed, 0.01);
+  EXPECT_EQ(crossings(world).between_bodies, 0);
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    EXPECT_GT(world.rigid[i].position.z(), 4.5 + 2.0 * static_cast<double>(i)) << i;
+    EXPECT_LT(world.rigid[i].position.head<2>().norm(), 0.2) << i;
   }
 }
 
