@@ -21,8 +21,8 @@ struct FunctionValue {
 inline FunctionValue barrier(double s) {
   if (s >= 1.0) return {};
   if (!(s > 0.0)) {
-    const double infinite = std::numeric_limits<double>::infinity();
-    return {infinite, -infinite, infinite};
+    const double endless = std::numeric_limits<double>::infinity();
+    return {endless, -endless, endless};
   }
   const double less = s - 1.0, log = std::log(s);
   return {-less * less * log, -2.0 * less * log - less * less / s,

@@ -111,6 +111,7 @@ class ReturnedEnergy {
     m_.work_of_islands.assign(r_.returns.size(), 0.0);
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) m_.work_of_islands[island(i)] += work(i);
     add_work_of_start();
+    add_work_of_ground();
     r_.given.resize(m_.contacts.size());
     for (std::size_t i = 0; i < r_.returns.size(); ++i) {
       double& of_island = m_.work_of_islands[i];
@@ -138,6 +139,15 @@ class ReturnedEnergy {
     for (std::size_t i = 0; i < m_.first_contacts.size(); ++i) {
       const int island = m_.solver.island_of(m_.first_contacts[i], m_.first_impulses[i]);
       if (island >= 0) m_.work_of_islands[at(island)] += m_.work_of_start[i];
+    }
+  }
+
+  /// On vertices that meet it by themselves.
+  void add_work_of_ground() {
+    for (std::size_t i = 0; i < m_.on_ground.size(); ++i) {
+      if (!m_.on_ground[i].is_held) continue;
+      const int island = m_.solver.island_of(static_cast<int>(i));
+      if (island >= 0) m_.work_of_islands[at(island)] += m_.on_ground[i].work;
     }
   }
 
@@ -201,9 +211,11 @@ GroupMotion motion_of_island(World& world, SweptMemory& memory, int island) {
   return {world, memory.members};
 }
 
-bool has_pins(const World& world, SweptMemory& memory, int island) {
+/// Of the soft bodies of an island.
+template <class Is>
+bool any_soft_body(const World& world, SweptMemory& memory, int island, const Is& is) {
   for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
-    if (world.soft[at(i)].pins && memory.solver.island_of(i) == island) return true;
+    if (is(at(i)) && memory.solver.island_of(i) == island) return true;
   }
   return false;
 }
@@ -219,7 +231,9 @@ Holder holder_of(const World& world, SweptMemory& memory, int island) {
     if (body != swept_ground && memory.bodies.moves(world, body)) return Holder::moved;
     holder = Holder::at_rest;
   }
-  return has_pins(world, memory, island) ? Holder::moved : holder;
+  const auto any = [&](const auto& is) { return any_soft_body(world, memory, island, is); };
+  if (any([&](std::size_t i) { return world.soft[i].pins != nullptr; })) return Holder::moved;
+  return any([&](std::size_t i) { return memory.on_ground[i].is_held; }) ? Holder::at_rest : holder;
 }
 
 /// J, of one step from rest.

@@ -399,4 +399,14 @@ bool SweptBodies::search_is_valid() const {
   return true;
 }
 
+Vec3 SweptBodies::within_allowance(int body, int vertex, const Vec3& end, const Vec3& place) const {
+  const Vec3 searched = searched_ends_[at(body)][vertex];
+  const double allowed = allowance(body) * allowance(body);
+  if ((place - searched).squaredNorm() <= allowed) return place;
+  const Vec3 off = end - searched, way = place - end;
+  const double along = off.dot(way), left = std::max(0.0, allowed - off.squaredNorm());
+  const double squared = way.squaredNorm();
+  return end + (std::sqrt(along * along + squared * left) - along) / squared * way;
+}
+
 }  // namespace pneuma::sim

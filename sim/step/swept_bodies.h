@@ -104,6 +104,8 @@ class SweptBodies {
   double allowance(int body) const { return allowances_[at(body)]; }
   /// Whether all ends are still within the allowances.
   bool search_is_valid() const;
+  /// From where a vertex ends towards another place, as far as its body's allowance reaches, m.
+  Vec3 within_allowance(int body, int vertex, const Vec3& end, const Vec3& place) const;
 
   /// The axes of a box at the start of the step and at its end.
   const Mat3& start_axes(int body) const { return start_axes_[at(box(body))]; }
@@ -117,6 +119,7 @@ class SweptBodies {
   template <class Visit>
   void for_each_node(const SurfacePoint& point, const Visit& visit) const;
   int node_count() const { return first_nodes_.back(); }
+  int node_of(int soft, int vertex) const { return first_nodes_[at(soft)] + vertex; }
   /// m, at the start of the step, of what is at a point of a box at its end.
   Vec3 point_before(const World& world, const MotionStart& start, int body,
                     const Vec3& at_end) const;

@@ -10,7 +10,7 @@ namespace pneuma::sim {
 namespace {
 
 /// Features that are nearer than the distance wanted by this factor are in contact.
-constexpr double near = 1.5;
+constexpr double near_of_wanted = 1.5;
 /// What features keep of their distance on their way: of that at the start, and of that wanted.
 constexpr double kept_of_start = 0.1;
 constexpr double kept_of_wanted = 0.05;
@@ -28,8 +28,8 @@ double SweptSearch::distance_wanted(int first, int second) const {
 }
 
 double SweptSearch::near_distance(int first, int second) const {
-  if (second == swept_ground) return (near - 1.0) * bodies_.skin(first);
-  return near * distance_wanted(first, second);
+  if (second == swept_ground) return (near_of_wanted - 1.0) * bodies_.skin(first);
+  return near_of_wanted * distance_wanted(first, second);
 }
 
 void SweptSearch::start() {
@@ -41,6 +41,7 @@ void SweptSearch::start() {
 
 void SweptSearch::find_candidates() {
   has_started_ = false;
+  std::ranges::fill(m_.on_ground, OnGround{});
   m_.earlier_candidates.clear();
   search_ways();
 }
@@ -48,6 +49,9 @@ void SweptSearch::find_candidates() {
 void SweptSearch::search_ways() {
   m_.candidates.clear();
   are_beside_obstacles_ = false;
+  // Implicit integrators keep volumes, which moves all vertices.
+  const bool is_explicit = !is_implicit(world_.settings.integrator);
+  for (OnGround& on_ground : m_.on_ground) on_ground.meets_alone = is_explicit;
   next_earlier_ = next_near_ = 0;
   for (NearTriangles& triangles : m_.near_triangles) triangles.is_known = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
@@ -57,6 +61,9 @@ void SweptSearch::search_ways() {
     if (is_beside_obstacle(pair)) {
       offer_beside_obstacle(pair, next_near_triangles());
       bodies_.may_meet(pair);
+      // Candidates are what may touch as the ends are now, and no others.
+      m_.on_ground[at(pair.first)].meets_alone = false;
+      m_.on_ground[at(pair.second)].meets_alone = false;
     } else if (!keep_earlier(pair) && !offer_near_boxes(pair)) {
       offer_near_features(pair);
     }
@@ -105,15 +112,33 @@ void SweptSearch::offer_near_features(const BodyPair& bodies) {
   for (const NearFeatures& features : m_.found) offer(bodies, features);
 }
 
+void SweptSearch::mark_candidates() {
+  std::ranges::fill(m_.is_in_candidate, std::uint8_t{0});
+  const auto mark = [&](int body, const Feature& feature) {
+    if (body == swept_ground) return;
+    bodies_.for_each_node({body, feature}, [&](int node) { m_.is_in_candidate[at(node)] = 1; });
+  };
+  for (const SweptCandidate& candidate : m_.candidates) {
+    mark(candidate.bodies.first, candidate.features.first);
+    mark(candidate.bodies.second, candidate.features.second);
+  }
+}
+
+/// Impulses keep from the ground what other impulses may move, and what would come so far below it
+/// that it might not be put back onto it by itself.
 void SweptSearch::find_near_ground() {
+  mark_candidates();
   for (int i = 0; i < bodies_.count(); ++i) {
     if (bodies_.is_lone(i) || is_fixed(world_, i)) continue;
     const MovingSurface& surface = bodies_.surface(i);
     const double height = near_distance(i, swept_ground) + bodies_.allowance(i);
+    const double deepest = -bodies_.allowance(i);
     const SoftBody* body = bodies_.is_rigid(i) ? nullptr : &world_.soft[at(i)];
     for (int v = 0; v < surface.start.size(); ++v) {
       if (body && is_pinned(*body, v)) continue;
-      if (std::min(surface.start[v].z(), surface.end[v].z()) >= height) continue;
+      const double lowest = std::min(surface.start[v].z(), surface.end[v].z());
+      if (lowest >= height) continue;
+      if (body && lowest > deepest && is_alone(i, v)) continue;
       m_.candidates.push_back({{i, swept_ground}, {{FeatureKind::vertex, v}, {}}, {}});
     }
   }

@@ -68,6 +68,13 @@ struct MetFreely {
   Vec3 impulse = Vec3::Zero();  // N s, on the first
 };
 
+/// Of a soft body: its vertices that have a part in no candidate and meet the ground by themselves.
+struct OnGround {
+  bool meets_alone = false;  // it has such vertices
+  bool is_held = false;      // one of them has met the ground
+  double work = 0.0;         // J, of what the ground changed their velocities by
+};
+
 /// What a box that moves freely has contacts with at the start of the step.
 struct Partner {
   int contacts = 0;
@@ -83,7 +90,9 @@ struct SweptMemory {
         starts(max_halvings + 1),
         near_groups(world.rigid.size()),
         carried_boxes(world),
-        fall_asleep(world) {
+        fall_asleep(world),
+        on_ground(world.soft.size()),
+        is_in_candidate(at(bodies.node_count())) {
     members.reserve(at(bodies.count()));
     parts_done.reserve(1u << max_halvings);
   }
@@ -122,11 +131,13 @@ struct SweptMemory {
   NearGroups near_groups;
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
-  std::vector<BodyPair> paired;  // bodies with candidates
-  std::vector<BodyRest> rest;    // as the step found it
-  VertexArray before_ground;     // of a soft body that meets nothing else
-  double work = 0.0;             // J, of all contacts of the last step
-  double driven_work = 0.0;      // J, of the bodies that are moved
+  std::vector<BodyPair> paired;               // bodies with candidates
+  std::vector<BodyRest> rest;                 // as the step found it
+  std::vector<OnGround> on_ground;            // per soft body
+  std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
+  VertexArray before_ground;                  // of a soft body that meets nothing else
+  double work = 0.0;                          // J, of all contacts of the last step
+  double driven_work = 0.0;                   // J, of the bodies that are moved
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.
@@ -138,6 +149,13 @@ class SweptSearch {
 
   /// What may meet.
   void find_candidates();
+  /// Whether a vertex of a soft body meets the ground by itself: within the body's allowance,
+  /// nothing can touch what has a part in no candidate. Of the candidates as last marked.
+  bool is_alone(int soft, int vertex) const {
+    return m_.on_ground[at(soft)].meets_alone &&
+           !m_.is_in_candidate[at(bodies_.node_of(soft, vertex))];
+  }
+  void mark_candidates();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
   /// The contacts that the free motion would use up.

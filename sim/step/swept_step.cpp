@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "sim/base/text.h"
-#include "sim/inspect/inspect.h"
-#include "sim/response/ground_contact.h"
 #include "sim/soft/pins.h"
+#include "sim/step/alone_on_ground.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/free_impacts.h"
 #include "sim/step/returned_energy.h"
@@ -224,6 +223,7 @@ class SweptStep {
     m_.end_velocities.clear();
     m_.given_at_start.clear();
     bodies_.begin_at_end(world_);
+    if (world_.settings.ground) m_.work += resolve_alone_on_ground(world_, search_, w_);
     for (const SweptCandidate& candidate : m_.candidates) {
       if (!has_met(candidate)) touch(candidate);
     }
@@ -241,7 +241,6 @@ class SweptStep {
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
     report();
-    if (world_.settings.ground) meet_ground();
     if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
@@ -354,21 +353,6 @@ class SweptStep {
                              .normal = contact.normal,
                              .impulse = impulse});
     }
-  }
-
-  /// Those that nothing else can touch.
-  void meet_ground() {
-    for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
-      if (!bodies_.is_lone(i) || is_fixed(world_, i)) continue;
-      const double before = energy_if_measured(i);
-      meet_ground_alone(world_, i, start().soft[at(i)], w_.contacts, m_.before_ground);
-      m_.work += energy_if_measured(i) - before;
-    }
-  }
-
-  double energy_if_measured(int soft) const {
-    if (!w_.options.measure_work) return 0.0;
-    return energy(world_.soft[at(soft)], world_.settings.gravity).total();
   }
 
   std::string name(int body) const {

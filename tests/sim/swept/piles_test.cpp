@@ -188,29 +188,41 @@ TEST(Piles, WhatHoldsACarriedCubeIsKeptOfBothMoments) {
 TEST(Piles, ACarriedHeapStaysWhereItIs) {
   World world = make_tower({});
   world.soft.push_back(make_soft_torus(2.2));
-  world.rigid.push_back(make_rigid({18.0, 18.0, 1.0}, {0.0, 0.0, 5.2}, 2.0));
+  world.soft[0].material.rho_g = 0.1;
+  world.rigid.push_back(make_rigid({18.0, 18.0, 1.0}, {0.0, 0.0, 5.2}, 18.0));
+  EXPECT_FALSE(run(world, 8.0));  // it comes to rest under the weight that it will carry
+  RigidBox& plate = world.rigid[0];
+  plate.mass = 2.0;
+  const double height = plate.position.z();
   for (int layer = 0; layer < 8; ++layer) {
-    const double shifted = layer % 2;  // by half a brick
-    for (const double x : {-2.05, 0.0}) {
-      for (const double y : {-2.05, 0.0}) {
-        const Vec3 place(x + shifted, y + shifted, 6.25 + 1.02 * layer);
+    const double shifted = 0.6 * (layer % 2);
+    for (const double x : {-1.005, 1.005}) {
+      for (const double y : {-1.005, 1.005}) {
+        const Vec3 place(x + shifted, y + shifted, height + 1.01 + 1.01 * layer);
         world.rigid.push_back(make_rigid({2.0, 2.0, 1.0}, place, 0.5));
       }
     }
   }
   Stepper stepper(world);
-  for (int i = 0; i < 600; ++i) ASSERT_FALSE(stepper.step(world));
-  const std::vector<RigidBox> before = world.rigid;
-  ASSERT_FALSE(stepper.step(world));
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    const double way = (world.rigid[i].position - before[i].position).norm();
-    EXPECT_LT(way, 5e-5) << i;  // 1.1e-5; without what held it at the start of the last step 1.7e-4
+  for (int i = 0; i < 540; ++i) ASSERT_FALSE(stepper.step(world));
+  std::vector<double> ways(world.rigid.size(), 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const std::vector<RigidBox> before = world.rigid;
+    ASSERT_FALSE(stepper.step(world));
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      ways[k] += (world.rigid[k].position - before[k].position).norm() / 60.0;
+    }
   }
+  // 2.6e-5, the tolerance of the impulses; without what held it at the start of the last
+  // step 1.2e-4
+  for (std::size_t k = 0; k < ways.size(); ++k) EXPECT_LT(ways[k], 5e-5) << k;
 }
 
-/// A firm one: a soft ball tips what stands on it.
+/// A firm one, once the tower has come to rest: nothing holds up a ball that rolls, so that awake
+/// it would roll out from under the tower within half a minute, at finer steps too.
 TEST(Piles, ABallOfGasCarriesTenBoxesForAMinute) {
   World world = make_tower({});
+  world.settings.sleep_speed = Settings{}.sleep_speed;
   world.settings.steps_per_second = 360;
   SoftBody ball = make_body(make_icosphere(2.0, 2), {0.0, 0.0, 2.01});
   ball.material.k = 1200.0;

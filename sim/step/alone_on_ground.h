@@ -1,0 +1,15 @@
+// Vertices of soft bodies that nothing but the ground can touch: of bodies that come near no other,
+// and of others that have a part in no pair of features that may touch. They meet it each for
+// itself (ERRATA rows 31, 67 and 70). Private to sim/step.
+#pragma once
+
+#include "sim/step/swept_search.h"
+#include "sim/step/workspace.h"
+
+namespace pneuma::sim {
+
+/// Resolves their contacts, which the workspace gets besides those it has. Returns what that does
+/// to the energy, J, if that is measured.
+double resolve_alone_on_ground(World& world, SweptSearch& search, StepWorkspace& workspace);
+
+}  // namespace pneuma::sim
