@@ -23,8 +23,8 @@ double greatest(const std::vector<std::vector<double>>& values);
 /// 1, 2 or 5 times a power of ten: the first that is not below `value`; 1 for 0.
 double round_end(double value);
 
-/// Colours the frame's meshes, which are those of the world, and adds the legend. Bodies without
-/// values become grey.
+/// Colours the frame's meshes, which are those of the world's bodies and then of its joints, and
+/// adds the legend. What has no values becomes grey.
 void add_field(const sim::World& world, const Show& show, render::Frame& frame);
 
 }  // namespace pneuma::app

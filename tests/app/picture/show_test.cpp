@@ -117,6 +117,37 @@ TEST(ColourField, ColoursMeshesByTheLegend) {
   EXPECT_FALSE(Made().frame("ghost").legend);
 }
 
+TEST(ColourField, LeavesSpringsAndValvesGrey) {
+  const scenes::Scene scene = scenes::parse_scene(R"(
+[[body]]
+name = "left"
+[[body]]
+name = "right"
+position = [9.0, 0.0, 0.0]
+[[spring]]
+from = "left"
+to = "right"
+[[valve]]
+from = "left"
+to = "right"
+)",
+                                                  "x.toml");
+  const sim::World world = build_world(scene);
+  for (const char* field : {"strain", "velocity", "pressure"}) {
+    const render::Frame frame =
+        FrameBuilder(scene, world).build(world, {}, {}, parse_show("--show", field));
+    EXPECT_NO_THROW(render::check_frame(frame)) << field;
+    ASSERT_EQ(frame.meshes.size(), 4) << field;
+    const render::Colour ball = frame.meshes[0].colours.at(0);
+    EXPECT_NE(ball.x(), ball.y()) << field;
+    for (const std::size_t joint : {2, 3}) {
+      const render::Mesh& mesh = frame.meshes[joint];
+      ASSERT_EQ(mesh.colours.size(), mesh.positions.size()) << field;
+      for (const render::Colour& grey : mesh.colours) EXPECT_EQ(grey.x(), grey.y()) << field;
+    }
+  }
+}
+
 TEST(FieldScale, OnlyGrowsAndIsThatOfTheRunSoFar) {
   const Pictures pictures = {.show = parse_show("--show", "velocity"), .overlay = std::nullopt};
   FieldScale whole(pictures), resumed(pictures);
