@@ -151,7 +151,7 @@ void make_video(const RunFolder& folder, const Frames& frames, int frames_per_se
     fmt::print("{}\n", video);
     return;
   }
-  const auto command = video_command(folder, frames.first, frames_per_second, video);
+  const auto command = video_command(folder, frames, frames_per_second, video);
   if (const auto ffmpeg = find_program("ffmpeg")) {
     run_command(*ffmpeg, command);
     fmt::print("{}\n", video);

@@ -47,10 +47,11 @@ std::vector<std::string> ffmpeg_command(const std::vector<std::string>& input,
 
 }  // namespace
 
-std::vector<std::string> video_command(const RunFolder& folder, std::int64_t first,
+std::vector<std::string> video_command(const RunFolder& folder, const Frames& frames,
                                        int frames_per_second, const std::string& video) {
   return ffmpeg_command({"-framerate", std::to_string(frames_per_second), "-start_number",
-                         std::to_string(first), "-i", as_file(frame_pattern(folder))},
+                         std::to_string(frames.first), "-i", as_file(frame_pattern(folder)),
+                         "-frames:v", std::to_string(frames.last - frames.first + 1)},
                         video);
 }
 

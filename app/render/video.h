@@ -1,16 +1,16 @@
 // Frames to a video, by ffmpeg where it is installed.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "app/render/log/run_folder.h"
+#include "app/terminal/frame_range.h"
 
 namespace pneuma::app {
 
-/// ffmpeg's arguments, itself among them, for frames from `first` on.
-std::vector<std::string> video_command(const RunFolder& folder, std::int64_t first,
+/// ffmpeg's arguments, itself among them, for these frames, whatever else is beside them.
+std::vector<std::string> video_command(const RunFolder& folder, const Frames& frames,
                                        int frames_per_second, const std::string& video);
 
 /// Throws base::IoError when no file can be written there: no such folder, a folder itself, or no

@@ -225,11 +225,20 @@ OpenedFolder continue_run(const RunFolder& folder, const Json& identity,
     }
     return {true, std::nullopt, record, std::move(lost)};
   }
-  if (fs::exists(folder.frame(identity.at("first_frame").get<std::int64_t>()))) {
-    refuse(folder, fmt::format("frames of {} but no record of their run", folder.name()),
-           "start again with --overwrite, or choose another folder with --out");
-  }
   return {};
+}
+
+/// Throws where pictures are called as those of this run, which no record or journal says are
+/// its own.
+void require_no_pictures(const RunFolder& folder) {
+  const std::vector<std::string> pictures = folder.pictures();
+  if (pictures.empty()) return;
+  refuse(folder,
+         fmt::format("{}{}, but no record of a run of {}", pictures.front(),
+                     pictures.size() > 1 ? fmt::format(", ..., {}", pictures.back()) : "",
+                     folder.name()),
+         "choose another folder with --out, or let the run replace those that it makes itself with "
+         "--overwrite");
 }
 
 }  // namespace
@@ -287,6 +296,7 @@ OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Js
   folder.make();
   const std::vector<std::string> runs = folder.runs();
   if (runs.empty()) {
+    if (existing != ExistingRun::overwrite) require_no_pictures(folder);
     folder.remove_temporary_files();
     return {};
   }

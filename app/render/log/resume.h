@@ -30,7 +30,7 @@ struct OpenedFolder {
 /// unfinished again. One that diverged may go on with another [simulation] than it
 /// had, and with other steps of those that diverge. Pictures that a finished run has lost can be
 /// drawn again unless its settings changed on the way. Throws base::IoError when the folder holds
-/// another run, or one that is going on.
+/// another run, or one that is going on, or pictures of no recorded run.
 OpenedFolder open_folder(const RunFolder& folder, ExistingRun existing, const Json& identity,
                          const std::string& scene_toml);
 

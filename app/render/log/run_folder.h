@@ -36,10 +36,13 @@ class RunFolder {
   /// made in it.
   void make() const;
 
-  /// The names of all runs, finished or not, that have files in the folder.
+  /// The names of all runs, finished or not, that the folder has a record or journal of.
   std::vector<std::string> runs() const;
+  /// Files that are called as this run's pictures, in their order.
+  std::vector<std::string> pictures() const;
 
-  /// Removes the files of all of those runs, and nothing else. Throws base::IoError.
+  /// Removes the files of all of those runs: of their pictures those frames that record or journal
+  /// name, and sheets. Throws base::IoError.
   void remove_runs() const;
 
   /// Removes what killed runs of this name left half written.

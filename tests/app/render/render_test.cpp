@@ -207,31 +207,6 @@ TEST_F(RenderTest, PutsFramesOnASheet) {
   EXPECT_GT(sheet.height, 2 * 48);
 }
 
-TEST_F(RenderTest, DoesNotReplaceARunUnasked) {
-  render("--frames 2");
-  const auto before = pictures();
-  const std::string record_before = read_text(out() / "run.json");
-  const ProgramResult result = render("--frames 3");
-  EXPECT_EQ(result.exit_code, 6);
-  for (const char* way_out : {"--overwrite", "--resume", "--out"}) {
-    EXPECT_NE(result.output.find(way_out), std::string::npos) << result.output;
-  }
-  EXPECT_EQ(pictures(), before);
-  EXPECT_EQ(read_text(out() / "run.json"), record_before);
-}
-
-TEST_F(RenderTest, ReplacesARunWhenAskedButNothingElse) {
-  render("--frames 5 --sheet 2x2");
-  write_text(out() / "notes.txt", "mine");
-  write_text(out() / "photo.png", "mine");
-  EXPECT_EQ(render("--frames 2 --overwrite").exit_code, 0);
-  EXPECT_EQ(names(pictures()),
-            (std::set<std::string>{"fall_00000.png", "fall_00001.png", "photo.png"}));
-  EXPECT_EQ(read_text(out() / "notes.txt"), "mine");
-  EXPECT_EQ(read_text(out() / "photo.png"), "mine");
-  EXPECT_EQ(record()["frames"].size(), 2u);
-}
-
 TEST_F(RenderTest, FindsScenesByName) {
   EXPECT_EQ(run_pneuma("render one_sphere --frames 1 --size 64x48 --set duration=0.5 --out '" +
                        out().string() + "' 2>&1")

@@ -15,13 +15,14 @@ namespace pneuma::app {
 namespace {
 
 TEST(VideoCommand, ReadsTheFramesByAPattern) {
-  const auto command = video_command(RunFolder("a 100% new", "ball"), 7, 25, "-x.mp4");
+  const auto command = video_command(RunFolder("a 100% new", "ball"), {7, 9}, 25, "-x.mp4");
   const auto follows = [&](const std::string& option, const std::string& value) {
     const auto at = std::find(command.begin(), command.end(), option);
     return at != command.end() && at + 1 != command.end() && at[1] == value;
   };
   EXPECT_TRUE(follows("-framerate", "25"));
   EXPECT_TRUE(follows("-start_number", "7"));
+  EXPECT_TRUE(follows("-frames:v", "3"));
   EXPECT_TRUE(follows("-i", "file:a 100%% new/ball_%05d.png"));
   EXPECT_EQ(command.back(), "file:-x.mp4");
 }

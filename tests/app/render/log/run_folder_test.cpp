@@ -64,7 +64,8 @@ class RunsInFolder : public testing::Test {
     write_text(temporary_ / name, text);
   }
   void write_header(const std::string& name, const std::string& scene) const {
-    write(name, Json({{"run", {{"scene", scene}}}}).dump() + "\n");
+    const Json run = {{"scene", scene}, {"first_frame", 0}, {"last_frame", 5}};
+    write(name, Json({{"run", run}}).dump() + "\n");
   }
   RunFolder folder() const { return {temporary_.path(), "ball"}; }
   using Names = std::vector<std::string>;
@@ -72,15 +73,17 @@ class RunsInFolder : public testing::Test {
   TemporaryFolder temporary_;
 };
 
-TEST_F(RunsInFolder, AreFoundByFramesRecordOrJournal) {
+TEST_F(RunsInFolder, AreFoundByRecordOrJournal) {
   write("photo.png");
   write("ball.toml");
   EXPECT_EQ(folder().runs(), Names{});
   write("ball_00007.png");
-  EXPECT_EQ(folder().runs(), Names{"ball"});
+  write("ball_sheet.png");
+  EXPECT_EQ(folder().runs(), Names{});
+  EXPECT_EQ(folder().pictures(), (Names{"ball_00007.png", "ball_sheet.png"}));
   write_header("run.json", "cube");
   write_header("torus.journal", "torus");
-  EXPECT_EQ(folder().runs(), (Names{"ball", "cube", "torus"}));
+  EXPECT_EQ(folder().runs(), (Names{"cube", "torus"}));
 }
 
 TEST_F(RunsInFolder, DoNotIncludeOtherProgramsJournals) {
@@ -110,7 +113,34 @@ TEST_F(RunsInFolder, AreRemovedAndNothingElse) {
   EXPECT_EQ(names_in(temporary_.path()), others);
 }
 
+TEST_F(RunsInFolder, KeepFramesThatTheirRecordsDoNotName) {
+  const std::set<std::string> others = {"ball_00006.png", "ball_99999.png",
+                                        "ball_99999999999999999999.png", "ball_overlay_00006.png",
+                                        "cube_00009.png"};
+  for (const std::string& name : others) write(name);
+  for (const char* name : {"ball_00005.png", "ball_overlay_00005.png", "cube_00010.png"}) {
+    write(name);
+  }
+  write_header("ball.journal", "ball");
+  const Json later = {{"scene", "cube"}, {"first_frame", 10}, {"last_frame", 19}};
+  write("run.json", Json({{"run", later}}).dump());
+  folder().remove_runs();
+  EXPECT_EQ(names_in(temporary_.path()), others);
+}
+
+TEST_F(RunsInFolder, LoseAlsoTheFramesOfALaterEnd) {
+  const auto run = [](int last) {
+    return Json{{"run", {{"scene", "ball"}, {"first_frame", 0}, {"last_frame", last}}}};
+  };
+  write("ball.journal",
+        run(5).dump() + "\n" + Json({{"change", run(9)}, {"first_frame", 5}}).dump() + "\n");
+  write("ball_00009.png");
+  folder().remove_runs();
+  EXPECT_EQ(names_in(temporary_.path()), std::set<std::string>{});
+}
+
 TEST_F(RunsInFolder, LeaveFoldersAlone) {
+  write_header("run.json", "ball");
   fs::create_directory(temporary_ / "ball_00000.png");
   write("ball_00000.png/precious", "");
   EXPECT_THROW(folder().remove_runs(), base::IoError);
