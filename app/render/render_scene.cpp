@@ -162,8 +162,24 @@ void make_video(const RunFolder& folder, const Frames& frames, int frames_per_se
   }
 }
 
+/// What was chosen for a model does not replace a scene of the user's own, or one that he has
+/// edited. Before the run, which may take long.
+void check_kept_scene(const scenes::Scene& scene, const RunFolder& folder, ExistingRun existing) {
+  const std::filesystem::path file = folder.scene();
+  std::error_code ignored;
+  if (existing == ExistingRun::overwrite || !std::filesystem::exists(file, ignored)) return;
+  const std::vector<std::uint8_t> bytes = base::read_file(file.string());
+  if (std::string(bytes.begin(), bytes.end()) == scenes::print_scene(scene)) return;
+  throw base::IoError(fmt::format(
+      "{} is there already and is not the scene that is chosen for the model and would be written "
+      "there; to draw that file, name it in place of the model; to keep it, choose another folder "
+      "with --out; to replace it, use --overwrite",
+      file.string()));
+}
+
 /// What was chosen for a model, as a scene file of its own.
-void keep_scene(const scenes::Scene& scene, const RunFolder& folder) {
+void keep_scene(const scenes::Scene& scene, const RunFolder& folder, ExistingRun existing) {
+  check_kept_scene(scene, folder, existing);  // it may have been edited during the run
   const std::string text = scenes::print_scene(scene);
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   base::write_file_atomically(folder.scene().string(), {bytes, text.size()});
@@ -232,8 +248,10 @@ ExitCode render_scene(const RenderRequest& request) {
       fmt::print("{}\n", pictures.path().string());
       return make_more(request, scene, pictures, {0, request.turntable - 1});
     }
+    const bool is_model = assets::has_model_ending(request.scene);
+    if (is_model) check_kept_scene(scene, folder, request.existing);
     make_frames(request, scene, frames, folder, progress);
-    if (assets::has_model_ending(request.scene)) keep_scene(scene, folder);
+    if (is_model) keep_scene(scene, folder, request.existing);
     fmt::print("{}\n", folder.path().string());
     return make_more(request, scene, folder, frames);
   } catch (const Interrupted&) {

@@ -59,5 +59,30 @@ TEST_F(ReplacedFiles, SaysWhichPicturesOfNoRunAreInItsWay) {
   EXPECT_EQ(read_text(out() / "fall_99999.png"), "mine");
 }
 
+TEST_F(ReplacedFiles, DoesNotReplaceASceneBesideAModelUnasked) {
+  const fs::path model = folder_ / "tetrahedron.obj", kept = folder_ / "tetrahedron.toml";
+  write_text(model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto render_model = [&](const std::string& options) {
+    return run_pneuma("render '" + model.string() + "' --out '" + folder_.path().string() +
+                      "' --frames 1 --size 64x48 " + options + " 2>&1");
+  };
+  write_text(kept, "mine");
+  ProgramResult result = render_model("");
+  EXPECT_EQ(result.exit_code, 6);
+  for (const char* word : {"tetrahedron.toml is there already", "--overwrite", "--out"}) {
+    EXPECT_NE(result.output.find(word), std::string::npos) << result.output;
+  }
+  EXPECT_EQ(read_text(kept), "mine");
+  EXPECT_FALSE(fs::exists(folder_ / "run.json")) << "before the run";
+
+  EXPECT_EQ(render_model("--overwrite").exit_code, 0);
+  const std::string chosen = read_text(kept);
+  EXPECT_NE(chosen.find("shape = \"model\""), std::string::npos) << chosen;
+  EXPECT_EQ(render_model("--resume").exit_code, 0) << "the same file is in nobody's way";
+  write_text(kept, chosen + "# edited\n");
+  EXPECT_EQ(render_model("--resume").exit_code, 6);
+  EXPECT_EQ(read_text(kept), chosen + "# edited\n");
+}
+
 }  // namespace
 }  // namespace pneuma
