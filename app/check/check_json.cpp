@@ -55,6 +55,7 @@ json gas_json(const std::vector<GasAdvice>& gas) {
                       {"blown_up", advice.blown_up()},
                       {"crushed", advice.crushed()},
                       {"max_held_mol", number(advice.max_held)}});
+    if (advice.filled_at) result.back()["filled_at_s"] = *advice.filled_at;
   }
   return result;
 }

@@ -162,9 +162,8 @@ class Builder {
     const auto held =
         body.rest == scenes::Rest::equilibrium ? held_mesh(body, *mesh, material) : mesh;
     for (const Start& start : starts) add_soft(body, start, held, material);
-    for (sim::SoftBody& copy : std::span(world_.soft).last(starts.size())) {
-      copy.supply = gas_supply(body);
-    }
+    const auto supply = gas_supply(body);
+    for (sim::SoftBody& copy : std::span(world_.soft).last(starts.size())) copy.supply = supply;
     if (!body.pinned.empty()) pin_copies(body, starts);
   }
 

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "app/world/distinct_bodies.h"
 #include "app/world/fill_body.h"
 #include "app/world/settled_volume.h"
 #include "sim/base/text.h"
 #include "sim/mesh/measure.h"
+#include "sim/rigid/given_motion.h"
 #include "sim/soft/equilibrium.h"
 #include "sim/soft/gas_law.h"
 
@@ -32,6 +35,36 @@ std::optional<double> max_held(const sim::SoftBody& body) {
   }
 }
 
+bool has_valve(const sim::World& world, const sim::SoftBody& body) {
+  const auto is_end = [&](int end) { return &world.soft[sim::at(end)] == &body; };
+  return std::ranges::any_of(world.valves, [&](const sim::Valve& valve) {
+    return is_end(valve.first) || is_end(valve.second);
+  });
+}
+
+/// With the most gas that its keys give it, and when, if that is more than at the start. Where gas
+/// also flows by itself, keys say what is pumped in and not what is there.
+sim::SoftBody most_filled(const sim::World& world, const sim::SoftBody& body,
+                          std::optional<double>& filled_at) {
+  sim::SoftBody filled = body;
+  if (!body.supply || body.supply->leak.area > 0.0 || has_valve(world, body)) return filled;
+  const sim::GasSupply& supply = *body.supply;
+  for (const auto* keys : {&supply.n, &supply.temperature}) {
+    for (const sim::KeyFrame& key : *keys) {
+      sim::SoftMaterial then = body.material;
+      const auto value = [&](const std::vector<sim::KeyFrame>& of) {
+        return sim::value_at(of, supply.smooth, key[0]).x();
+      };
+      if (!supply.n.empty()) then.n = value(supply.n);
+      if (!supply.temperature.empty()) then.temperature = value(supply.temperature);
+      if (sim::gas_strength(then) <= sim::gas_strength(filled.material)) continue;
+      filled.material = then;
+      filled_at = key[0];
+    }
+  }
+  return filled;
+}
+
 /// m^2 as seen from above; of a body with folds more, as what is hidden counts too.
 double ground_plan(const sim::SoftBody& body) {
   double twice = 0.0;
@@ -42,21 +75,38 @@ double ground_plan(const sim::SoftBody& body) {
   return 0.5 * twice;
 }
 
+/// Weight of a body without gas over k times the length of an edge, above which it falls flat:
+/// vertices of the closed meshes here snap through by less than that of springs that only stretch.
+constexpr double limp_weight = 0.1;
+
+/// Whether springs alone, without hinges and unless it hangs, have more to carry than they can.
+bool is_limp(const sim::SoftBody& body, double weight) {
+  const std::vector<double>& lengths = body.mesh->rest_lengths;
+  if (body.material.bending > 0.0 || body.pins || lengths.empty()) return false;
+  const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+  const double edge = sum / static_cast<double>(lengths.size());
+  return weight > limp_weight * body.material.k * edge;
+}
+
 /// Springs are left out: they hold a shape against its gas, and hardly against a weight.
 void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, GasAdvice& advice) {
-  const sim::GasLaw law = sim::gas_law(body.material);
   const double gravity = -settings.gravity.z();
-  if (!settings.ground || gravity <= 0.0 || law.strength == 0.0) return;
+  if (!settings.ground || gravity <= 0.0) return;
+  const sim::GasLaw law = sim::gas_law(body.material);
   const double area = ground_plan(body);
-  const double weight = body.material.vertex_mass * advice.vertices * gravity;
-  const double needed = law.ambient_pressure + weight / area;
+  advice.weight = body.material.vertex_mass * advice.vertices * gravity;
+  const double needed = law.ambient_pressure + advice.weight / area;
+  advice.carrying_pressure =
+      std::max(0.0, needed * std::pow(carried_share, law.exponent) - law.ambient_pressure);
+  if (law.strength == 0.0) {
+    advice.limp = is_limp(body, advice.weight);
+    return;
+  }
   advice.pressed = advice.volume * std::pow(sim::absolute_pressure(law, advice.volume) / needed,
                                             1.0 / law.exponent);
   advice.light_vertex_mass = body.material.vertex_mass *
                              sim::gauge_pressure(law, carried_share * advice.volume) * area /
-                             weight;
-  advice.carrying_pressure =
-      std::max(0.0, needed * std::pow(carried_share, law.exponent) - law.ambient_pressure);
+                             advice.weight;
   const double pressure = sim::gauge_pressure(law, advice.volume);
   // Beside an ambient pressure gas is not in proportion to what springs hold.
   if (pressure > 0.0 && law.ambient_pressure == 0.0) {
@@ -64,8 +114,9 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
   }
 }
 
-GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, int max_vertices) {
+GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int max_vertices) {
   GasAdvice advice;
+  const sim::SoftBody body = most_filled(world, at_start, advice.filled_at);
   advice.body = body.name;
   advice.vertices = body.mesh->topology.vertex_count();
   advice.volume = sim::volume(body.mesh->topology, body.positions);
@@ -73,21 +124,23 @@ GasAdvice gas_advice(const sim::SoftBody& body, const sim::Settings& settings, i
   if (!advice.left_out) advice.settled = settled_volume(body);
   advice.k = body.material.k;
   advice.n = body.material.n;
+  advice.temperature = body.material.temperature;
   if (advice.blown_up()) advice.max_held = max_held(body);
-  predict_pressed(body, settings, advice);
+  predict_pressed(body, world.settings, advice);
+  advice.limp &= !has_valve(world, at_start);
   return advice;
 }
 
 }  // namespace
 
-bool GasAdvice::crushed() const { return pressed && *pressed < least_share * volume; }
+bool GasAdvice::crushed() const { return limp || (pressed && *pressed < least_share * volume); }
 
 bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
 
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
   for (const DistinctBody& body : distinct_bodies(world)) {
-    advices.push_back(gas_advice(*body.first, world.settings, max_vertices));
+    advices.push_back(gas_advice(world, *body.first, max_vertices));
     advices.back().count = body.count;
     if (!advices.back().left_out) max_vertices -= advices.back().vertices;
   }
@@ -95,7 +148,11 @@ std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
 }
 
 std::string volumes_text(const GasAdvice& advice) {
-  const std::string start = base::text(advice.volume) + " m^3 at the start, ";
+  const std::string start =
+      base::text(advice.volume) + " m^3 at the start, " +
+      (advice.filled_at ? fmt::format("with its gas of {:g} s, {:g} mol at {:g} K, ",
+                                      *advice.filled_at, advice.n, advice.temperature)
+                        : "");
   if (advice.left_out) {
     return fmt::format("{}at rest not predicted: with {} vertices that takes long", start,
                        advice.vertices);
@@ -112,6 +169,7 @@ std::string gas_warning(const GasAdvice& advice) {
       fmt::format("{}: gas blows {} up: {}", body_and_alike(advice.body, advice.count),
                   advice.count > 1 ? "them" : "it", volumes_text(advice));
   if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
+  if (advice.filled_at) return grows + "; let its keys give it less, or give it a greater k";
   if (!advice.max_held) return grows + "; inflation = 1.5 alone would make it 1.5 times";
   return fmt::format(
       "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
@@ -120,6 +178,13 @@ std::string gas_warning(const GasAdvice& advice) {
 }
 
 std::string weight_warning(const GasAdvice& advice) {
+  if (advice.limp) {
+    return fmt::format(
+        "{}: without gas (n = 0) its springs of k = {:g} N/m hardly carry its weight of {:.3g} N: "
+        "it falls flat; give it gauge_pressure = {:.3g} Pa and rest = \"equilibrium\", or bending",
+        body_and_alike(advice.body, advice.count), advice.k, advice.weight,
+        advice.carrying_pressure);
+  }
   const std::string crushed = fmt::format(
       "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; ",
       body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume);

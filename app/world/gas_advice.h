@@ -18,8 +18,13 @@ struct GasAdvice {
   std::optional<double> settled;   // m^3 at rest and without weight (settled_volume.h)
   std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
                                    // can hold in its shape; none: it cannot hold it at all
-  double k = 0.0;                  // N/m, of its springs
-  double n = 0.0;                  // mol, of its gas
+  // s: when keys of supply give it the most gas, with which all of this is; none: at the start.
+  std::optional<double> filled_at;
+  double k = 0.0;            // N/m, of its springs
+  double n = 0.0;            // mol, of its gas
+  double temperature = 0.0;  // K
+  double weight = 0.0;       // N, on the ground
+  bool limp = false;         // no gas, and springs that do not hold up its weight
   // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
   // it, or no weight.
   std::optional<double> pressed;
@@ -30,7 +35,7 @@ struct GasAdvice {
                                        // none: its gas does not press, or air does too
 
   bool blown_up() const;  // to more than twice its volume
-  bool crushed() const;   // by its weight, to less than half its volume
+  bool crushed() const;   // by its weight, to less than half its volume, or being limp
 };
 
 /// Vertices of all distinct bodies for which there is advice: before a run it is to take well below

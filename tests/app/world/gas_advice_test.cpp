@@ -94,7 +94,57 @@ TEST(GasAdvice, BesideAnAmbientPressureTooHeavyBodiesAreCarriedByTheGasThatItNam
   EXPECT_GT(volume_after(carried, 4.0), 0.75 * heavy.volume) << warning;
 }
 
+TEST(GasAdvice, SpringsWithoutGasAreLimpOrHold) {
+  const auto ball = [](const std::string& keys) {
+    return "[simulation]\nsteps_per_second = 1920\n[[body]]\nposition = [0, 0, 3.1]\nn = 0\n" +
+           keys;
+  };
+  for (const std::string shape : {"", "shape = \"icosphere\"\nvertex_mass = 0.1\n"}) {
+    const GasAdvice limp = advices_on(ball(shape + "k = 100\n")).at(0);
+    ASSERT_TRUE(limp.crushed()) << shape;
+    EXPECT_LT(volume_after(ball(shape + "k = 100\n"), 4.0), 0.4 * limp.volume) << shape;
+    const std::string warning = weight_warning(limp);
+    EXPECT_NE(warning.find("without gas"), std::string::npos) << warning;
+
+    const std::string stiff = shape + "k = 8000\nk_max = 2e4\n";
+    EXPECT_FALSE(advices_on(ball(stiff)).at(0).crushed()) << shape;
+    EXPECT_GT(volume_after(ball(stiff), 4.0), 0.9 * limp.volume) << shape;
+  }
+}
+
+TEST(GasAdvice, SpringsWithoutGasAreLimpOnlyUnderWeightAndWithoutHinges) {
+  const auto crushed = [](const std::string& text) { return advices_on(text).at(0).crushed(); };
+  const std::string ball = "[[body]]\nn = 0\n";
+  EXPECT_TRUE(crushed(ball));
+  EXPECT_FALSE(crushed("simulation.gravity = [0, 0, 0]\n" + ball));
+  EXPECT_FALSE(crushed("ground.present = false\n" + ball));
+  EXPECT_FALSE(crushed(ball + "bending = 10\n"));
+  EXPECT_FALSE(crushed(ball + "pinned = [[-9, -9, 1, 9, 9, 9]]\n"));
+  EXPECT_FALSE(
+      crushed("[[body]]\nname = \"a\"\nn = 0\n[[body]]\nname = \"b\"\nposition = [9, 0, 0]\n"
+              "[[valve]]\nfrom = \"b\"\nto = \"a\"\n"));
+}
+
+TEST(GasAdvice, IsOfTheMostGasThatKeysGive) {
+  const auto advice = [](const std::string& keys) {
+    return advices_on("[[body]]\n" + keys + "\n").at(0);
+  };
+  const GasAdvice constant = advice("n = 10"),
+                  fed = advice("supply.n = [[0, 0], [0.5, 10], [1, 2]]");
+  EXPECT_TRUE(fed.blown_up());
+  EXPECT_EQ(fed.settled, constant.settled);
+  EXPECT_EQ(fed.filled_at, 0.5);
+  EXPECT_FALSE(fed.crushed());
+  const std::string warning = gas_warning(fed);
+  EXPECT_NE(warning.find("with its gas of 0.5 s, 10 mol at 293.15 K"), std::string::npos) << warning;
+  EXPECT_EQ(advice("n = 1\nsupply.temperature = [[0, 300], [2, 600]]").settled,
+            advice("n = 2\ntemperature = 300").settled);
+  // Of what is pumped in, a leak lets some out again.
+  EXPECT_FALSE(advice("supply.n = [[0, 0.01], [9, 10]]\nleak.area = 0.1").filled_at);
+}
+
 TEST(GasAdvice, IsForEveryMeshAndMaterialOnce) {
+  EXPECT_EQ(advices_on("[[body]]\ncopies = [2, 1, 1]\nsupply.n = [[0, 1]]\n").size(), 1u);
   EXPECT_EQ(advices_on("[[body]]\ncopies = [2, 2, 1]\n[[body]]\n[[body]]\nn = 1\n").size(), 2u);
   EXPECT_TRUE(advices_on("[[body]]\nkind = \"rigid\"\n").empty());
 }
