@@ -67,6 +67,13 @@ json crossings_json(const CrossingStatistics& crossings) {
           {"bodies", crossings.first_bodies}};
 }
 
+json range_json(const ValueRange& range) {
+  return {{"start", number_json(range.start)},
+          {"least", number_json(range.least)},
+          {"greatest", number_json(range.greatest)},
+          {"end", number_json(range.end)}};
+}
+
 }  // namespace
 
 json run_statistics_json(const RunStatistics& run) {
@@ -78,6 +85,12 @@ json run_statistics_json(const RunStatistics& run) {
                        {"greatest", range.greatest},
                        {"end", range.end},
                        {"shape_deviation_of_diagonal", range.shape_deviation}});
+  }
+  json gas = json::array();
+  for (const GasRange& range : run.gas) {
+    gas.push_back({{"body", range.body},
+                   {"gauge_pressure_Pa", range_json(range.pressure)},
+                   {"n_mol", range_json(range.n)}});
   }
   return {
       {"units", json_units},
@@ -114,6 +127,7 @@ json run_statistics_json(const RunStatistics& run) {
         {"work_of_gas_flow", run.gas_work.value_or(0.0)}}},
       {"contacts_per_step", contacts_per_step_json(run.contacts)},
       {"volumes_m3", std::move(volumes)},
+      {"gas", std::move(gas)},
       {"free", run.pushed_by.empty()},
       {"momentum",
        {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},

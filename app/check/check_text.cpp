@@ -193,6 +193,23 @@ std::string volumes_text(const RunStatistics& run) {
   return text;
 }
 
+/// Of those whose gas comes or goes also how much there is.
+std::string gas_ranges_text(const RunStatistics& run) {
+  std::string pressures, amounts;
+  const auto add = [](std::string& text, const char* name, const std::string& body,
+                      const ValueRange& range, const char* unit) {
+    text += named_line(
+        text.empty() ? name : "",
+        fmt::format("{}: {} to {} {}, {} at the start, {} at the end", body, readable(range.least),
+                    readable(range.greatest), unit, readable(range.start), readable(range.end)));
+  };
+  for (const GasRange& gas : run.gas) {
+    add(pressures, "pressure", gas.body, gas.pressure, "Pa above that outside");
+    if (gas.n.least < gas.n.greatest) add(amounts, "gas", gas.body, gas.n, "mol");
+  }
+  return pressures + amounts;
+}
+
 std::string shapes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
@@ -265,8 +282,8 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
     text += named_line("overlap at the end",
                        fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
   }
-  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) + shapes_text(run) +
-          momentum_text(run);
+  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) +
+          gas_ranges_text(run) + shapes_text(run) + momentum_text(run);
   const bool rests = run.end_speed < rest_speed && !run.divergence;
   text += named_line(
       "speed at the end",

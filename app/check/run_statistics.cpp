@@ -1,6 +1,7 @@
 #include "app/check/run_statistics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "sim/inspect/overlap.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/measure.h"
+#include "sim/soft/gas_law.h"
 
 namespace pneuma::app {
 namespace {
@@ -64,6 +66,21 @@ bool has_moved_obstacles(const sim::World& world) {
          });
 }
 
+void add_value(double value, ValueRange& range) {
+  if (std::isnan(range.start)) range.start = value;
+  range.least = std::min(range.least, value);
+  range.greatest = std::max(range.greatest, value);
+  range.end = value;
+}
+
+void add_gas(const sim::SoftBody& body, GasRange& range) {
+  const sim::GasLaw law = sim::gas_law(body.material);
+  const double now = volume(body);
+  if (!(law.strength > 0.0 && now > 0.0)) return;
+  add_value(sim::gauge_pressure(law, now), range.pressure);
+  add_value(body.material.n, range.n);
+}
+
 /// Gathers the statistics while a run goes on.
 class Observer {
  public:
@@ -84,6 +101,8 @@ class Observer {
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
       result_.volumes.push_back({body.name, now, now, now, now, 0.0, sim::is_kinematic(body)});
+      result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
+      add_gas(body, result_.gas.back());
     }
   }
 
@@ -121,6 +140,7 @@ class Observer {
       VolumeRange& range = result_.volumes[b];
       range.least = std::min(range.least, volume(world.soft[b]));
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
+      add_gas(world.soft[b], result_.gas[b]);
     }
     if (fastest_point(world) >= rest_speed) {
       result_.rests_from.reset();
@@ -140,7 +160,9 @@ class Observer {
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       result_.volumes[b].end = volume(world.soft[b]);
       result_.volumes[b].shape_deviation = shape_deviation(world.soft[b]);
+      add_gas(world.soft[b], result_.gas[b]);
     }
+    std::erase_if(result_.gas, [](const GasRange& range) { return std::isnan(range.n.start); });
     for (const sim::Overlap& overlap : sim::overlaps(world)) {
       if (overlap.depth <= result_.end_overlap) continue;
       result_.end_overlap = overlap.depth;

@@ -30,6 +30,21 @@ struct VolumeRange {
   bool is_obstacle = false;      // static or moved: it keeps volume and shape
 };
 
+/// What a value does over a run.
+struct ValueRange {
+  double start = std::numeric_limits<double>::quiet_NaN();  // until there is one
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of a soft body, while it has gas.
+struct GasRange {
+  std::string body;
+  ValueRange pressure;  // Pa above that outside
+  ValueRange n;         // mol
+};
+
 /// How often and how much surfaces passed through each other, in the frames of a run.
 struct CrossingStatistics {
   int frames = 0;            // in which some did
@@ -79,6 +94,7 @@ struct RunStatistics {
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 
   std::vector<VolumeRange> volumes;  // of the soft bodies, and of obstacles among them
+  std::vector<GasRange> gas;         // of the soft bodies that ever have some
 
   // "gravity", "the ground", ...: what changes the momentum of all bodies together. Drag, which
   // takes a share of it, is not named.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "app/host/errors.h"
 #include "app/study/csv.h"
 
 namespace pneuma::app {
@@ -17,20 +18,40 @@ double number(const Json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Of a member that not every frame has.
-double member(const Json& object, const std::string& name) {
-  return object.contains(name) ? number(object[name]) : std::numeric_limits<double>::quiet_NaN();
+using Place = Json::json_pointer;
+
+/// Of a member that not every frame has, nor every record.
+double member(const Json& frame, const Place& place) {
+  return frame.contains(place) ? number(frame.at(place)) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The names of a frame's member, of all frames, in their order.
 std::vector<std::string> names_in(const RecordedRun& run, const std::string& group) {
   std::vector<std::string> names;
   for (const Json& frame : run.frames()) {
+    if (!frame.contains(group)) continue;
     for (const auto& [name, value] : frame[group].items()) {
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
   return names;
+}
+
+/// mol, of a body; frames in which it has none leave it out.
+double amount_of_gas(const Json& frame, const std::string& body) {
+  const double n = member(frame, Place() / "gas" / body / "n");
+  return std::isfinite(n) ? n : 0.0;
+}
+
+/// The bodies whose gas comes or goes.
+std::vector<std::string> filled_bodies(const RecordedRun& run) {
+  std::vector<std::string> bodies = names_in(run, "gas");
+  std::erase_if(bodies, [&](const std::string& body) {
+    const double first = amount_of_gas(run.frames().front(), body);
+    return std::ranges::all_of(
+        run.frames(), [&](const Json& frame) { return amount_of_gas(frame, body) == first; });
+  });
+  return bodies;
 }
 
 using Value = std::function<double(const Json& frame)>;
@@ -56,8 +77,27 @@ Diagram group_diagram(const RecordedRun& run, const std::string& group, const st
                       const std::string& unit) {
   Diagram diagram = over_time(run, what, unit);
   for (const std::string& name : names_in(run, group)) {
+    diagram.series.push_back(series_of(
+        run, name, [&](const Json& frame) { return member(frame, Place() / group / name); }));
+  }
+  return diagram;
+}
+
+Diagram pressure_diagram(const RecordedRun& run) {
+  Diagram diagram = over_time(run, "pressure above that outside", "Pa");
+  for (const std::string& body : names_in(run, "gas")) {
+    diagram.series.push_back(series_of(run, body, [&](const Json& frame) {
+      return member(frame, Place() / "gas" / body / "gauge_pressure");
+    }));
+  }
+  return diagram;
+}
+
+Diagram gas_diagram(const RecordedRun& run) {
+  Diagram diagram = over_time(run, "gas", "mol");
+  for (const std::string& body : filled_bodies(run)) {
     diagram.series.push_back(
-        series_of(run, name, [&](const Json& frame) { return member(frame[group], name); }));
+        series_of(run, body, [&](const Json& frame) { return amount_of_gas(frame, body); }));
   }
   return diagram;
 }
@@ -108,6 +148,8 @@ std::vector<NamedDiagram> run_diagrams(const RecordedRun& run) {
   std::vector<NamedDiagram> diagrams = {
       {name + "_energy", energy_diagram(run)},
       {name + "_volume", group_diagram(run, "volumes", "volume", "m^3")},
+      {name + "_pressure", pressure_diagram(run)},
+      {name + "_gas", gas_diagram(run)},
       {name + "_penetration", single_diagram(run, "max. penetration", "m", penetration)},
       {name + "_contacts", single_diagram(run, "contacts", "", contact_count)},
       {name + "_stages", stages_diagram(run)}};
@@ -118,22 +160,32 @@ std::vector<NamedDiagram> run_diagrams(const RecordedRun& run) {
 
 std::string run_csv(const RecordedRun& run) {
   std::vector<std::string> columns = {"frame", "time_s", "state_hash", "contacts", "penetration_m"};
-  const std::vector<std::pair<std::string, std::string>> groups = {
-      {"energy", "energy_{}_J"}, {"volumes", "volume_{}_m3"}, {"seconds", "seconds_{}"}};
-  std::vector<std::pair<std::string, std::string>> members;  // group, name
-  for (const auto& [group, heading] : groups) {
+  std::vector<Place> places;
+  const auto add = [&](const Place& place, const std::string& heading) {
+    places.push_back(place);
+    columns.push_back(csv_cell(heading));
+  };
+  const auto add_group = [&](const std::string& group, const std::string& heading) {
     for (const std::string& name : names_in(run, group)) {
-      members.emplace_back(group, name);
-      columns.push_back(csv_cell(fmt::format(fmt::runtime(heading), name)));
+      add(Place() / group / name, fmt::format(fmt::runtime(heading), name));
     }
+  };
+  add_group("energy", "energy_{}_J");
+  add_group("volumes", "volume_{}_m3");
+  for (const std::string& body : names_in(run, "gas")) {
+    add(Place() / "gas" / body / "gauge_pressure", fmt::format("pressure_{}_Pa", body));
   }
+  for (const std::string& body : filled_bodies(run)) {
+    add(Place() / "gas" / body / "n", fmt::format("gas_{}_mol", body));
+  }
+  add_group("seconds", "seconds_{}");
   Csv csv(columns);
   for (const Json& frame : run.frames()) {
     std::vector<std::string> cells = {
         csv_cell(frame["frame"].get<std::int64_t>()), csv_cell(number(frame["time"])),
         csv_cell(frame["state_hash"].get<std::string>()),
         csv_cell(frame["contacts"]["count"].get<std::int64_t>()), csv_cell(penetration(frame))};
-    for (const auto& [group, name] : members) cells.push_back(csv_cell(member(frame[group], name)));
+    for (const Place& place : places) cells.push_back(csv_cell(member(frame, place)));
     csv.add_row(cells);
   }
   return csv.text();
@@ -142,6 +194,11 @@ std::string run_csv(const RecordedRun& run) {
 ExitCode plot_run(const PlotRequest& request) {
   const RecordedRun run = read_run(request.run);
   if (request.csv) {
+    if (!request.out.empty()) {
+      throw UsageError(
+          "--out is the folder of diagrams; --csv prints its table: write it to a file with > "
+          "FILE");
+    }
     fmt::print("{}", run_csv(run));
     return ExitCode::done;
   }

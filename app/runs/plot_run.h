@@ -21,13 +21,15 @@ struct NamedDiagram {
   Diagram diagram;
 };
 
-/// Energy, volume, penetration, contacts, time of each stage; those with anything to show.
+/// Energy, volume, pressure, gas that comes or goes, penetration, contacts, time of each stage;
+/// those with anything to show.
 std::vector<NamedDiagram> run_diagrams(const RecordedRun& run);
 
 /// A row per frame: what the diagrams show, with the state's hash.
 std::string run_csv(const RecordedRun& run);
 
-/// Writes the diagrams, or prints the table. Throws base::IoError and Interrupted.
+/// Writes the diagrams, or prints the table. Throws base::IoError, UsageError and
+/// Interrupted.
 ExitCode plot_run(const PlotRequest& request);
 
 }  // namespace pneuma::app

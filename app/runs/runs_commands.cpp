@@ -13,7 +13,7 @@ namespace pneuma::app {
 
 void add_plot_command(CLI::App& app, Action& action) {
   CLI::App* command =
-      app.add_subcommand("plot", "Energy, volume, penetration, contacts and stage times of a run");
+      app.add_subcommand("plot", "Energy, volume, pressure, contacts and stage times of a run");
   const auto request = std::make_shared<PlotRequest>();
   command->add_option("RUN", request->run, "Folder of a render, finished or not")
       ->required()

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/check/check_report.h"
@@ -47,6 +48,29 @@ TEST(RunStatistics, OfAFreeSoftBodyKeepsMomentumAndLosesEnergy) {
   EXPECT_EQ(run.frames, 16);  // 30 a second, and the start
   EXPECT_EQ(run.crossings.frames + run.self_crossings.frames, 0);
   EXPECT_EQ(run.end_overlap, 0.0);
+}
+
+TEST(RunStatistics, TellPressureAndGasThatComes) {
+  const std::string text = std::string(free_sphere) + "supply.n = [[0.1, 0], [0.4, 0.5]]\n" +
+                           "[[body]]\nname = \"shut\"\nposition = [9, 0, 0]\nn = 1.5\n" +
+                           "[[body]]\nposition = [-9, 0, 0]\nn = 0\n";
+  const RunStatistics run = statistics_of(text.c_str());
+  ASSERT_EQ(run.gas.size(), 2u);
+  EXPECT_EQ(run.gas[0].body, "balloon");
+  EXPECT_EQ(run.gas[0].n.end, 0.5);
+  EXPECT_GT(run.gas[0].n.start, 0.0) << "the first there is";
+  EXPECT_EQ(run.gas[1].n.least, 1.5);
+  EXPECT_EQ(run.gas[1].n.greatest, 1.5);
+  // P = nRT / V, of the volume at the same end.
+  const double pressure = 0.5 * sim::gas_constant * 293.15 / run.volumes[0].end;
+  EXPECT_NEAR(run.gas[0].pressure.end, pressure, 1e-9 * pressure);
+  EXPECT_GE(run.gas[0].pressure.greatest, run.gas[0].pressure.end);
+  EXPECT_LE(run.gas[1].pressure.least, run.gas[1].pressure.end);
+
+  const std::string said = run_statistics_text(run, {});
+  EXPECT_NE(said.find("0.500 mol, "), std::string::npos) << said;
+  EXPECT_EQ(said.find("1.50 mol"), std::string::npos) << "it stays: " << said;
+  EXPECT_EQ(run_statistics_json(run)["gas"][1]["n_mol"]["end"], 1.5);
 }
 
 TEST(RunStatistics, NameTheBodiesThatStartInEachOther) {

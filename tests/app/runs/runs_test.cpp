@@ -49,7 +49,7 @@ TEST_F(RunsTest, DiagramsBeginWithoutEnergy) {
   render_as("a", "--frames 5");
   const nlohmann::json frames = record("a")["frames"];
   const std::vector<NamedDiagram> diagrams = run_diagrams(read_run(out("a")));
-  ASSERT_EQ(diagrams.size(), 5u);
+  ASSERT_EQ(diagrams.size(), 6u) << "its gas neither comes nor goes";
   EXPECT_EQ(diagrams[0].name, "fall_energy");
   const DiagramSeries& gas = diagrams[0].diagram.series.at(2);
   EXPECT_EQ(gas.name, "gas");
@@ -57,6 +57,40 @@ TEST_F(RunsTest, DiagramsBeginWithoutEnergy) {
   EXPECT_EQ(gas.points.at(4).y,
             frames[4]["energy"]["gas"].get<double>() - frames[0]["energy"]["gas"].get<double>());
   for (const NamedDiagram& each : diagrams) EXPECT_NO_THROW(gnuplot_script(each.diagram, "x"));
+}
+
+TEST_F(RunsTest, PressureAndGasAreShownWhereThereIsSome) {
+  write_text(scene(), std::string(falling_ball) +
+                          "[[body]]\nname = \"filled\"\nposition = [9, 0, 4]\n"
+                          "supply.n = [[0, 0], [0.1, 0.2]]\n");
+  render_as("a", "--frames 5");
+  const nlohmann::json frames = record("a")["frames"];
+  const RecordedRun run = read_run(out("a"));
+  std::map<std::string, Diagram> diagrams;
+  for (const NamedDiagram& each : run_diagrams(run)) diagrams[each.name] = each.diagram;
+  const std::vector<DiagramSeries>& pressures = diagrams.at("fall_pressure").series;
+  ASSERT_EQ(pressures.size(), 2u);
+  for (const DiagramSeries& series : pressures) {
+    EXPECT_EQ(series.points.at(4).y, frames[4]["gas"][series.name]["gauge_pressure"].get<double>());
+  }
+  const std::vector<DiagramSeries>& gas = diagrams.at("fall_gas").series;
+  ASSERT_EQ(gas.size(), 1u) << "what the other has stays";
+  EXPECT_EQ(gas[0].name, "filled");
+  EXPECT_EQ(gas[0].points.at(0).y, 0.0);
+  EXPECT_EQ(gas[0].points.at(4).y, frames[4]["gas"]["filled"]["n"].get<double>());
+
+  const std::string table = run_csv(run);
+  const std::string heading = table.substr(0, table.find('\n'));
+  EXPECT_NE(heading.find(",pressure_ball_Pa,pressure_filled_Pa,gas_filled_mol,"), std::string::npos)
+      << heading;
+}
+
+TEST_F(RunsTest, ATableHasNoFolder) {
+  render_as("a", "--frames 1");
+  const ProgramResult result = run_pneuma(
+      fmt::format("plot '{}' --csv --out '{}' 2>&1", out("a").string(), out("t.csv").string()));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.output.find("> FILE"), std::string::npos) << result.output;
 }
 
 TEST_F(RunsTest, PlotsAreDrawn) {

@@ -136,7 +136,8 @@ TEST(GasAdvice, IsOfTheMostGasThatKeysGive) {
   EXPECT_EQ(fed.filled_at, 0.5);
   EXPECT_FALSE(fed.crushed());
   const std::string warning = gas_warning(fed);
-  EXPECT_NE(warning.find("with its gas of 0.5 s, 10 mol at 293.15 K"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("with its gas of 0.5 s, 10 mol at 293.15 K"), std::string::npos)
+      << warning;
   EXPECT_EQ(advice("n = 1\nsupply.temperature = [[0, 300], [2, 600]]").settled,
             advice("n = 2\ntemperature = 300").settled);
   // Of what is pumped in, a leak lets some out again.
