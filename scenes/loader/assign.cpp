@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/loader/text_checks.h"
 #include "sim/base/nearest.h"
 
 namespace pneuma::scenes {
@@ -42,6 +43,11 @@ class Assignment {
 
   void operator()(std::vector<std::string>* member) const {
     const auto* elements = std::get_if<Array>(&value_.data);
+    if (const auto* single = std::get_if<std::string>(&value_.data)) {
+      text(value_);
+      refuse(value_, fmt::format("{0}: expected an array of 1 to 3 strings; write [\"{1}\"]",
+                                 key_.name, base::printable(*single)));
+    }
     if (elements == nullptr || elements->empty() || elements->size() > 3) {
       refuse_type(value_, key_.name, "an array of 1 to 3 strings");
     }
@@ -122,7 +128,9 @@ class Assignment {
     } else if (const auto* real = std::get_if<double>(&value.data)) {
       result = *real;
     } else {
-      refuse_type(value, name, "a number");
+      const auto* text = std::get_if<std::string>(&value.data);
+      refuse(value, fmt::format("{}: expected a number, got {}{}", name, describe(value),
+                                text == nullptr ? std::string() : number_hint(*text)));
     }
     if (in_range || !std::isfinite(result)) check_range(value, name, result);
     return result;

@@ -66,17 +66,22 @@ Section body_section(BodyScene& body) {
                              .by_shape = true,
                              .made_one_by = by_shape("shape = \"model\"")};
   const Applicability soft_bodies{"soft bodies", soft};
-  const Applicability with_k{soft ? "soft bodies without stiffness" : "soft bodies",
-                             soft && !body.stiffness};
-  const Applicability with_vertex_mass{soft ? "soft bodies without density" : "soft bodies",
-                                       soft && !body.density};
+  const Applicability with_k{.only_for = soft ? "soft bodies without stiffness" : "soft bodies",
+                             .applies = soft && !body.stiffness,
+                             .rivals = {&body.stiffness}};
+  const Applicability with_vertex_mass{
+      .only_for = soft ? "soft bodies without density" : "soft bodies",
+      .applies = soft && !body.density,
+      .rivals = {&body.density}};
   const Applicability with_density{"soft bodies with density", soft && body.density};
   const Applicability filled_by_n{
-      "soft bodies without gauge_pressure, inflation and supply.n",
-      soft && !body.gauge_pressure && !body.inflation && body.supply_n.empty()};
+      .only_for = "soft bodies without gauge_pressure, inflation and supply.n",
+      .applies = soft && !body.gauge_pressure && !body.inflation && body.supply_n.empty(),
+      .rivals = {&body.gauge_pressure, &body.inflation, &body.supply_n}};
   const Applicability of_one_temperature{
-      soft ? "soft bodies without supply.temperature" : "soft bodies",
-      soft && body.supply_temperature.empty()};
+      .only_for = soft ? "soft bodies without supply.temperature" : "soft bodies",
+      .applies = soft && body.supply_temperature.empty(),
+      .rivals = {&body.supply_temperature}};
   const Applicability supplied{"soft bodies with supply.n or supply.temperature",
                                soft && !(body.supply_n.empty() && body.supply_temperature.empty())};
   const Applicability leaking{"soft bodies with leak.area", soft && body.leak.area > 0.0};

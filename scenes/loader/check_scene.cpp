@@ -206,8 +206,9 @@ class Checks {
     const Origin at = reader_.origin({&body.inflation, &body.gauge_pressure}, header);
     if (body.gauge_pressure && body.inflation) {
       report_.add(at,
-                  "both gauge_pressure and inflation say how much gas the body has; give one "
-                  "of n, gauge_pressure and inflation");
+                  fmt::format("both inflation and gauge_pressure ({}) are given; drop one of the "
+                              "two: each says how much gas the body has",
+                              reader_.where(&body.gauge_pressure)));
     }
     if (body.gauge_pressure && *body.gauge_pressure + scene_.ambient_pressure < 0.0 &&
         reader_.valid({&body.gauge_pressure, &scene_.ambient_pressure})) {
@@ -234,9 +235,12 @@ class Checks {
         reader_.origin({&body.supply_n, &body.supply_temperature, &body.leak.area}, header);
     if (sim::is_as_printed(scene_.settings)) refuse_beside_paper(at, "supply and leak");
     if (!body.supply_n.empty() && (body.gauge_pressure || body.inflation)) {
-      report_.add(at,
-                  "both supply.n and gauge_pressure or inflation say how much gas the body has at "
-                  "the start; leave out one of the two");
+      const void* start = body.inflation ? static_cast<const void*>(&body.inflation)
+                                         : static_cast<const void*>(&body.gauge_pressure);
+      report_.add(
+          at, fmt::format("both supply.n and {} ({}) are given; drop one of the two: each "
+                          "says how much gas the body has at the start",
+                          body.inflation ? "inflation" : "gauge_pressure", reader_.where(start)));
     }
     if (!body.supply_temperature.empty() && body.material.gas_exponent != 1.0 &&
         reader_.valid({&body.supply_temperature, &body.material.gas_exponent})) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenes/loader/guard.h"
+#include "scenes/loader/text_checks.h"
 #include "sim/base/nearest.h"
 
 namespace {
@@ -87,6 +88,20 @@ auto* find_member(Members& table, std::string_view key) {
   return found == table.end() ? nullptr : &*found;
 }
 
+/// The value in an array or behind an equals sign in which the place is.
+std::string_view value_around(std::string_view text, const toml::source_position& place) {
+  for (toml::source_index line = 1; line < place.line; ++line) {
+    text.remove_prefix(std::min(text.size(), text.find('\n')) + (text.find('\n') < text.size()));
+  }
+  text = text.substr(0, text.find_first_of("\r\n"));
+  const std::size_t at = std::min(text.size(), std::size_t{place.column} - 1);
+  const std::size_t begin = text.substr(0, at).find_last_of("=[,") + 1;
+  text = text.substr(begin, text.find_first_of(",]}#", at) - begin);
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 struct Describe {
   std::string operator()(bool flag) const { return flag ? "true" : "false"; }
   std::string operator()(std::int64_t integer) const { return fmt::format("integer {}", integer); }
@@ -121,7 +136,8 @@ Table parse_document(std::string_view text, int override_index) {
     return Converter(override_index).table(toml::parse(ascii));
   } catch (const toml::parse_error& error) {
     throw SyntaxError(origin_of(error.source(), override_index),
-                      base::printable(error.description()));
+                      base::printable(error.description()) +
+                          number_hint(value_around(ascii, error.source().begin)));
   } catch (const std::logic_error&) {
     throw SyntaxError({1, 1, override_index}, "this is not TOML, and the parser cannot tell where");
   }

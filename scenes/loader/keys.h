@@ -67,8 +67,9 @@ struct Key {
   bool of_method = false;             // set by simulation.method = "paper", and refused beside it
   const void* decided_by = nullptr;   // the member that decides whether the key applies, where a
                                       // file's key is only idle while that is not written
-  bool selects = false;               // decides which other keys apply, so it is read first
-  bool or_number = false;             // a string's key that also takes a whole number as its digits
+  std::vector<const void*> rivals = {};  // members that say the same otherwise, in place of the key
+  bool selects = false;                  // decides which other keys apply, so it is read first
+  bool or_number = false;  // a string's key that also takes a whole number as its digits
 };
 
 /// One table of a scene file.

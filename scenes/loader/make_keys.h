@@ -56,6 +56,7 @@ struct Applicability {
   bool by_shape = false;             // whether the body's shape decides
   const void* decided_by = nullptr;  // Key::decided_by
   std::string_view made_one_by = {};
+  std::vector<const void*> rivals = {};  // Key::rivals
 };
 
 /// Marks a key as one for such structs only.
@@ -65,6 +66,7 @@ inline Key only(const Applicability& applicability, Key key) {
   key.applies = applicability.applies;
   key.of_shape = applicability.by_shape;
   key.decided_by = applicability.decided_by;
+  key.rivals = applicability.rivals;
   return key;
 }
 

@@ -1,6 +1,7 @@
 #include "scenes/loader/reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -82,6 +83,7 @@ void Reader::read_others(const Table& table, const Section& section,
   const bool selector_refused = std::ranges::any_of(section.keys, [&](const Key& key) {
     return key.selects && refused_.contains(member_of(key.slot));
   });
+  std::vector<const Member*> silenced;
   for (const Member& member : table) {
     if (std::find(children.begin(), children.end(), member.key) != children.end()) continue;
     const auto key = std::find_if(section.keys.begin(), section.keys.end(),
@@ -91,12 +93,16 @@ void Reader::read_others(const Table& table, const Section& section,
     } else if (!key->applies) {
       if (selector_refused) continue;  // by its right value the key may apply
       const bool from_file = member.value.at.override_index < 0;
-      if (selectors_overridden && from_file) continue;
+      if (selectors_overridden && from_file) {
+        if (!given_rival(section, *key)) silenced.push_back(&member);
+        continue;
+      }
       if (!is_idle(section, *key, member)) refuse_inapplicable(section, *key, member);
     } else if (!key->selects) {
       read_key(*key, member);
     }
   }
+  warn_of_silenced(section, silenced);
 }
 
 void Reader::read_key(const Key& key, const Member& member) {
@@ -117,11 +123,31 @@ bool Reader::is_idle(const Section& section, const Key& key, const Member& membe
   return true;
 }
 
+const Key* Reader::given_rival(const Section& section, const Key& key) const {
+  const auto is_given = [&](const Key& other) {
+    const void* member = member_of(other.slot);
+    return std::ranges::find(key.rivals, member) != key.rivals.end() && has_origin(member);
+  };
+  const auto found = std::ranges::find_if(section.keys, is_given);
+  return found == section.keys.end() ? nullptr : &*found;
+}
+
+void Reader::warn_of_silenced(const Section& section, const std::vector<const Member*>& silenced) {
+  if (section.table != "body" || silenced.empty()) return;
+  std::vector<std::string_view> names;
+  for (const Member* member : silenced) names.push_back(member->key);
+  report_.warn(silenced.front()->at, fmt::format("no effect of {}: --set has made this {}",
+                                                 fmt::join(names, ", "), section.what));
+}
+
 void Reader::refuse_inapplicable(const Section& section, const Key& key, const Member& member) {
   const std::string only_for = fmt::format("{} applies to {} only", key.name, key.only_for);
   if (member.where_it_applies) {
     idle_overrides_[member.value.at.override_index] =
         fmt::format("{}, and this scene has none", only_for);
+  } else if (const Key* rival = given_rival(section, key)) {
+    report_.add(member.at, fmt::format("both {} and {} ({}) are given; drop one of the two",
+                                       key.name, rival->name, where(member_of(rival->slot))));
   } else {
     report_.add(member.at, fmt::format("{}; this is {}{}{}", only_for, section.what,
                                        key.made_one_by.empty() ? "" : "; write ", key.made_one_by));
@@ -171,6 +197,11 @@ void Reader::report_idle_overrides() {
 bool Reader::valid(std::initializer_list<const void*> members) const {
   return std::none_of(members.begin(), members.end(),
                       [&](const void* member) { return refused_.count(member) > 0; });
+}
+
+std::string Reader::where(const void* member) const {
+  const Origin at = origin({member}, whole_file);
+  return at.override_index < 0 ? fmt::format("line {}", at.line) : report_.place(at).file;
 }
 
 Origin Reader::origin(std::initializer_list<const void*> members, Origin otherwise) const {

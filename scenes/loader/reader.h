@@ -41,6 +41,9 @@ class Reader {
   /// Whether the member was given a value.
   bool has_origin(const void* member) const { return origins_.contains(member); }
 
+  /// Where the member got its value, as words in a line: "line 3", "--set body.n=1".
+  std::string where(const void* member) const;
+
   /// Where the first of the members that was given a value got it; `otherwise` when none was.
   Origin origin(std::initializer_list<const void*> members, Origin otherwise) const;
 
@@ -48,6 +51,10 @@ class Reader {
   void read_key(const Key& key, const Member& member);
   /// Whether it is a key of the file that the default makes idle; then warns of it.
   bool is_idle(const Section& section, const Key& key, const Member& member);
+  /// What the file or an override gives in place of the key; null: nothing.
+  const Key* given_rival(const Section& section, const Key& key) const;
+  /// Of the keys of a body's file that an override made idle, but those that it replaces.
+  void warn_of_silenced(const Section& section, const std::vector<const Member*>& silenced);
   void refuse_inapplicable(const Section& section, const Key& key, const Member& member);
   void refuse_unknown(const Section& section, const Member& member,
                       const std::vector<std::string_view>& children);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 
 #include "scenes/loader/tables.h"
 
@@ -10,6 +11,7 @@ namespace pneuma::scenes {
 namespace {
 
 constexpr std::size_t longest_line = 200;
+constexpr std::size_t longest_number = 60;  // with its unit
 constexpr std::size_t longest_path = 4095;  // Linux takes no longer one
 constexpr std::size_t longest_body_name = 64;
 
@@ -66,6 +68,23 @@ std::string check_colour(std::string_view text) {
   const bool valid =
       text.size() == 7 && text[0] == '#' && std::all_of(text.begin() + 1, text.end(), is_hex_digit);
   return valid ? std::string() : "is not a colour; write #rrggbb, such as \"#d9381e\"";
+}
+
+std::string number_hint(std::string_view text) {
+  if (text.size() > longest_number) return {};
+  static const std::regex pattern(R"(([+-]?)(\d*)(\.?)(\d*)([eE][+-]?\d+)?\s*([A-Za-z%][^\s]*)?)");
+  std::cmatch parts;
+  const bool is_one = std::regex_match(text.data(), text.data() + text.size(), parts, pattern) &&
+                      parts[2].length() + parts[4].length() > 0;
+  if (!is_one) return {};
+  const bool has_point = parts[3].length() > 0, has_unit = parts[6].length() > 0;
+  const bool is_whole_number = parts[2].length() > 0 && parts[4].length() > 0;
+  if (!has_unit && (!has_point || is_whole_number)) return {};
+  const auto or_zero = [](const std::string& digits) { return digits.empty() ? "0" : digits; };
+  const std::string number = parts[1].str() + or_zero(parts[2].str()) +
+                             (has_point ? "." + or_zero(parts[4].str()) : std::string()) +
+                             parts[5].str();
+  return fmt::format("; {}write {}", has_unit ? "a number stands without its unit: " : "", number);
 }
 
 }  // namespace pneuma::scenes

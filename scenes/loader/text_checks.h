@@ -19,4 +19,8 @@ std::string check_body_name(std::string_view text);
 /// "#rrggbb".
 std::string check_colour(std::string_view text);
 
+/// Of what was meant as a number and is none in TOML, such as "10 s" or ".5": "; write 0.5". Empty
+/// for anything else.
+std::string number_hint(std::string_view text);
+
 }  // namespace pneuma::scenes

@@ -33,10 +33,13 @@ TEST(GasKeys, SetTheirMembersAndReadBack) {
 
 TEST(GasKeys, OneOfThemIsGiven) {
   expect_in(refusal_of_body("n = 1\ngauge_pressure = 5\n"),
-            {"x.toml:2:1", "n applies to", "inflation"});
-  expect_in(refusal_of_body("inflation = 1.5\nn = 1\n"), {"x.toml:3:1", "gauge_pressure"});
+            {"x.toml:2:1", "both n and gauge_pressure (line 3) are given; drop one"});
+  expect_in(refusal_of_body("inflation = 1.5\nn = 1\n"),
+            {"x.toml:3:1", "both n and inflation (line 2)"});
   expect_in(refusal_of_body("inflation = 1.5\ngauge_pressure = 5\n"),
-            {"x.toml:2:13", "one of n, gauge_pressure and inflation"});
+            {"x.toml:2:13", "both inflation and gauge_pressure (line 3)"});
+  expect_in(refusal_of_body("name = \"a\"\n", {"a.n=1", "a.inflation=2"}),
+            {"--set a.n=1: both n and inflation (--set a.inflation=2)"});
   expect_in(refusal_of_body("kind = \"rigid\"\ninflation = 1.5\n"), {"soft bodies"});
   // An override takes the place of the file's n.
   EXPECT_EQ(load("n = 1\n", {"body.inflation=1.5"}).bodies[0].inflation, 1.5);

@@ -62,8 +62,10 @@ TEST(JointKeys, OfGasSayWhatIsAllowed) {
   expect_in(body("supply.n = [[0, -1]]\n"), {"x.toml:2:17", "supply.n >= 0"});
   expect_in(body("supply.n = [[0, 1, 2]]\n"), {"a row [time, value]"});
   expect_in(body("supply.n = 5\n"), {"an array of rows [time, value]"});
-  expect_in(body("supply.n = [[0, 1]]\nn = 1\n"), {"x.toml:3:1", "n applies to"});
-  expect_in(body("supply.n = [[0, 1]]\ninflation = 2\n"), {"both supply.n and"});
+  expect_in(body("supply.n = [[0, 1]]\nn = 1\n"),
+            {"x.toml:3:1", "both n and supply.n (line 2) are given; drop one"});
+  expect_in(body("supply.n = [[0, 1]]\ninflation = 2\n"),
+            {"x.toml:2:12", "both supply.n and inflation (line 3)"});
   expect_in(body("supply.temperature = [[0, 1]]\ngas_exponent = 1.4\n"), {"gas_exponent = 1.4"});
   expect_in(body("supply.temperature = [[0, 1]]\ntemperature = 4\n"), {"x.toml:3:1"});
   expect_in(body("supply.smooth = true\n"), {"soft bodies with supply.n or supply.temperature"});
@@ -105,8 +107,8 @@ TEST(JointKeys, ASkinIsGivenPerVertexOrWhateverItsMesh) {
   expect_round_trip(scene);
   const auto body = [](const std::string& keys) { return refusal("[[body]]\n" + keys); };
   expect_in(body("density = 900\nvertex_mass = 1\n"),
-            {"x.toml:3:1", "soft bodies without density"});
-  expect_in(body("stiffness = 900\nk = 1\n"), {"x.toml:3:1", "soft bodies without stiffness"});
+            {"x.toml:3:1", "both vertex_mass and density (line 2)"});
+  expect_in(body("stiffness = 900\nk = 1\n"), {"x.toml:3:1", "both k and stiffness (line 2)"});
   expect_in(body("thickness = 0.1\n"), {"soft bodies with density"});
 }
 

@@ -93,6 +93,13 @@ TEST(Overrides, OfASelectorSilenceTheFilesKeysThatNoLongerApply) {
   EXPECT_FALSE(scene.settings.ground);
   EXPECT_EQ(scene.bodies[0].kind, BodyKind::rigid);
   EXPECT_EQ(scene.bodies[0].shape, Shape::box);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(
+      scene.warnings[0].find(":4:1: warning: no effect of k: --set has made this a rigid box"),
+      std::string::npos)
+      << scene.warnings[0];
+  // What an override takes the place of is not worth a word.
+  EXPECT_TRUE(scene_with({"body.inflation=2"}, "[[body]]\nn = 1\n").warnings.empty());
   // An override of such a key is still an error.
   const std::string message = refusal({"body.kind=rigid", "body.1.k=5"}, text);
   EXPECT_NE(message.find("k applies to soft bodies only"), std::string::npos) << message;
