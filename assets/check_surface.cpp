@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "assets/fill_holes.h"
 #include "assets/self_touching.h"
 
 namespace pneuma::assets {
@@ -82,6 +83,9 @@ void check_manifold(const NumberedMesh& mesh, const std::vector<Edge>& edges, do
         "{} without area, lower than {:.2g}{}", counted(flat.size(), "triangle", "triangles"),
         min_height,
         first_places(flat.size(), [&](std::size_t i) { return triangle_place(mesh, flat[i]); })));
+  }
+  if (was_repaired && !open.empty() && crowded.empty() && pinched.empty()) {
+    faults.push_back(why_holes_are_left(edges));
   }
   if (faults.empty()) return;
   faults.push_back(

@@ -1,8 +1,10 @@
 #include "assets/fill_holes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -155,6 +157,22 @@ std::vector<std::string> fill_holes(NumberedMesh& mesh) {
       "{} filled by {}{}", counted(filled.size(), "hole", "holes"),
       counted(added, "triangle", "triangles"),
       first_places(filled.size(), [&](std::size_t i) { return vertex_place(mesh, filled[i]); }))};
+}
+
+std::string why_holes_are_left(const std::vector<Edge>& edges) {
+  const std::vector<Hole> holes = holes_of(edges);
+  std::vector<std::size_t> rims;
+  for (const Hole& hole : holes) rims.push_back(hole.rim.size());
+  std::ranges::sort(rims, std::greater());
+  const bool has_more = rims.size() > most_places;
+  if (has_more) rims.resize(most_places);
+  return fmt::format(
+      "{} too large to be closed by a repair, with {}{} edges around {}: it closes holes of at "
+      "most "
+      "{} edges by triangles of at most {:g} times the surface's area",
+      holes.size() == 1 ? "1 hole is" : fmt::format("{} holes are", holes.size()),
+      fmt::join(rims, ", "), has_more ? ", ..." : "", holes.size() == 1 ? "it" : "them", most_edges,
+      most_area);
 }
 
 }  // namespace pneuma::assets

@@ -15,4 +15,7 @@ namespace pneuma::assets {
 /// plain words.
 std::vector<std::string> fill_holes(NumberedMesh& mesh);
 
+/// Of a surface whose holes fill_holes has left: why, and what it closes.
+std::string why_holes_are_left(const std::vector<Edge>& edges);
+
 }  // namespace pneuma::assets

@@ -22,6 +22,9 @@
 namespace pneuma::assets {
 namespace {
 
+/// Of what the importer says: a mistake of a known line says it better.
+constexpr std::string_view unreadable = "cannot be read as what its ending says";
+
 /// What the importer sees of the disk: the model under a name of our own, and .bin files beside it
 /// when the format has such.
 class OneModel : public Assimp::IOSystem {
@@ -231,8 +234,8 @@ Eigen::Matrix4d to_file_axes(Format format) {
   std::string reason = importer.GetErrorString();
   std::replace_if(
       reason.begin(), reason.end(), [](char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  throw ModelError(fmt::format("cannot be read as what its ending says: {}",
-                               reason.empty() ? "it holds no model" : reason));
+  throw ModelError(
+      fmt::format("{}: {}", unreadable, reason.empty() ? "it holds no model" : reason));
 }
 
 Model import_here(const std::filesystem::path& path, const std::string& bytes,
@@ -273,7 +276,9 @@ Model import_apart(const std::filesystem::path& path, Format format, const std::
   } catch (const ModelError& error) {
     const std::string mistake = format == Format::obj ? obj_mistake(bytes) : std::string();
     if (mistake.empty()) throw;
-    throw ModelError(fmt::format("{} ({})", mistake, error.what()));
+    const std::string reason = error.what();
+    throw ModelError(reason.starts_with(unreadable) ? mistake
+                                                    : fmt::format("{} ({})", mistake, reason));
   }
 }
 

@@ -19,6 +19,7 @@ struct UsageError : std::runtime_error {
 struct DivergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
   bool tried_parts = false;  // of the step, which diverged too
+  bool is_crushed = false;   // the body, between others: no step helps
 };
 
 struct Interrupted : std::runtime_error {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -82,12 +83,34 @@ std::string resume_command(std::vector<std::string> command_line) {
   return shell_line(command_line);
 }
 
-DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request) {
-  return DivergenceError(fmt::format(
-      "{}\nThe frames so far are whole. To go on from the last of them, add what is to be done "
-      "otherwise, a --set simulation.KEY=VALUE{}, to: {}",
-      error.what(), error.tried_parts ? "" : " or --on-divergence substep",
-      resume_command(request.command_line)));
+bool has_moved_bodies(const scenes::Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [](const scenes::BodyScene& body) {
+    return body.kind == scenes::BodyKind::moved || !body.motion.empty();
+  });
+}
+
+/// What may help a run that diverged. Once shorter steps have failed, steps of another kind.
+std::string other_steps(const scenes::Scene& scene, bool tried_parts) {
+  const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
+  if (tried_parts && is_explicit) return "--set simulation.integrator=implicit_euler";
+  return fmt::format("--set simulation.steps_per_second={}{}", 2 * scene.settings.steps_per_second,
+                     tried_parts ? "" : " or --on-divergence substep");
+}
+
+/// The motion of a run that goes on stays as it is: where that leaves no room, it has to begin
+/// again.
+DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request,
+                            const scenes::Scene& scene) {
+  const bool has_no_room = error.is_crushed || (error.tried_parts && has_moved_bodies(scene));
+  const std::string advice =
+      has_no_room ? fmt::format(
+                        "{} motion.path end where there is room, and begin again with "
+                        "--overwrite",
+                        error.is_crushed ? "Let" : "Shorter steps do not help: let")
+                  : fmt::format("To go on from the last of them, add {} to: {}",
+                                other_steps(scene, error.tried_parts),
+                                resume_command(request.command_line));
+  return DivergenceError(fmt::format("{}\nThe frames so far are whole. {}", error.what(), advice));
 }
 
 /// Scene -> world -> step stages -> frame -> PNG; the last three are in draw_frames.
@@ -125,7 +148,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
     draw_frames(simulation, frames.last, output, progress);
   } catch (const DivergenceError& error) {
     log.append_divergence(error.what());
-    throw with_advice(error, request);
+    throw with_advice(error, request, scene);
   }
   log.close();
 }

@@ -21,7 +21,7 @@ void add_scene_option(CLI::App& command, std::string& scene) {
 void add_override_option(CLI::App& command, std::vector<std::string>& overrides) {
   const auto has_value = [](const std::string& typed) -> std::string {
     if (typed.find('=') != std::string::npos) return {};
-    return typed + ": expected PATH=VALUE, such as duration=2 or body.k=200";
+    return typed + ": expected PATH=VALUE in one word, such as duration=2 or body.k=200";
   };
   command.add_option("--set", overrides, "Override a value of the scene, as body.k=200")
       ->type_name("PATH=VALUE")

@@ -103,13 +103,14 @@ std::string unknown_option_complaint(const CLI::App& command, const std::string&
 }
 
 /// What to say of words that the command takes no notice of; empty where there are none. After an
-/// unknown option nobody knows which of the next words belong to it, so that it alone is named.
-std::string extra_words_complaint(const CLI::App& command) {
+/// unknown option nobody knows which of the next words belong to it, so that it alone is named. A
+/// wrong value of an option is what the words may have been meant for: "--set duration 2".
+std::string extra_words_complaint(const CLI::App& command, const std::string& wrong_value) {
   const std::vector<std::string> extra = command.remaining();
   const auto option =
       std::ranges::find_if(extra, [](const std::string& word) { return word.starts_with('-'); });
   if (option != extra.end()) return unknown_option_complaint(command, *option);
-  if (extra.empty()) return "";
+  if (extra.empty() || !wrong_value.empty()) return wrong_value;
   return fmt::format("{} does not expect: {}", full_name(command), fmt::join(extra, " "));
 }
 
@@ -143,8 +144,10 @@ bool read_command_line(CLI::App& cli, const std::vector<std::string>& command_li
     cli.exit(asked);
     return false;
   } catch (const CLI::ParseError& error) {
+    const bool is_of_value = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
     throw_complaint(*named.command,
-                    {unknown_command_complaint(named), extra_words_complaint(*named.command),
+                    {unknown_command_complaint(named),
+                     extra_words_complaint(*named.command, is_of_value ? error.what() : ""),
                      missing_command_complaint(named), error.what()});
   }
   throw_complaint(*named.command, {empty_value_complaint(*named.command)});

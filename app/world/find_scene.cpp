@@ -46,13 +46,31 @@ std::string known_endings(const fs::path& path) {
                      path.extension().string(), assets::model_endings());
 }
 
+/// "; did you mean 'good.toml'?", a file that is there; empty: there is none.
+std::string suggested_file(const std::string& name) {
+  const std::string file = name + ".toml";
+  return is_file(file) ? fmt::format("; did you mean {}?", base::in_quotes(file)) : "";
+}
+
+/// Of those in the folders of scenes; empty: there is none of that name.
+fs::path scene_of_name(const fs::path& given) {
+  if (given.has_parent_path()) return {};
+  for (const fs::path& folder : scene_folders()) {
+    for (const fs::path& name : {given, fs::path(given).concat(".toml")}) {
+      if (is_file(folder / name)) return folder / name;
+    }
+  }
+  return {};
+}
+
 /// What exists is meant, also a folder: reading it then says what is wrong with it.
 void check_kind(const std::string& name) {
   std::error_code ignored;
   if (fs::is_directory(name, ignored) && fs::exists(fs::path(name) / "run.json", ignored)) {
     refuse(name,
            "is the folder of a run; name the scene that it is of, or its file, whose text is "
-           "scene_toml in run.json");
+           "scene_toml in run.json" +
+               suggested_file(name));
   }
   if (fs::is_regular_file(name, ignored) && has_other_ending(name)) {
     refuse(name, known_endings(name));
@@ -60,6 +78,8 @@ void check_kind(const std::string& name) {
 }
 
 [[noreturn]] void not_found(const std::string& name) {
+  const std::string file = suggested_file(name);
+  if (!file.empty()) refuse(name, "no such file or scene" + file);
   const std::vector<fs::path> folders = scene_folders();
   const std::vector<std::string> names = names_in(folders);
   const std::vector<std::string_view> candidates(names.begin(), names.end());
@@ -84,19 +104,13 @@ std::vector<fs::path> scene_folders() {
 
 fs::path find_scene(const std::string& name_or_path) {
   std::error_code ignored;
-  if (fs::exists(name_or_path, ignored)) {
-    check_kind(name_or_path);
-    return name_or_path;
+  // A folder is none, and may well be that of the scene's frames.
+  if (!is_file(name_or_path)) {
+    if (const fs::path named = scene_of_name(name_or_path); !named.empty()) return named;
   }
-  const fs::path given(name_or_path);
-  if (!given.has_parent_path()) {
-    for (const fs::path& folder : scene_folders()) {
-      for (const fs::path& name : {given, fs::path(given).concat(".toml")}) {
-        if (is_file(folder / name)) return folder / name;
-      }
-    }
-  }
-  not_found(name_or_path);
+  if (!fs::exists(name_or_path, ignored)) not_found(name_or_path);
+  check_kind(name_or_path);
+  return name_or_path;
 }
 
 }  // namespace pneuma::app

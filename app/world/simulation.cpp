@@ -71,12 +71,18 @@ std::string what_is_near(const sim::World& world, const std::string& name) {
   return fmt::format("; near it are {} and {}", fmt::join(near, ", "), last);
 }
 
+/// "ball is crushed between left and right"; empty where nothing is known to be.
+std::string what_is_crushed(const sim::World& world, const sim::Divergence& divergence) {
+  const bool are_one = world.settings.contact == sim::ContactMethod::potential;
+  return crushed_between(world, divergence.body, are_one);
+}
+
 /// No step helps a body that has no room, and after parts of the step no shorter one of that size.
 std::string what_to_do(const sim::World& world, const sim::Divergence& divergence,
-                       bool tried_parts) {
-  const bool are_one = world.settings.contact == sim::ContactMethod::potential;
-  const std::string crushed = crushed_between(world, divergence.body, are_one);
-  if (!crushed.empty()) return fmt::format(". {}: let what is moved leave it more room", crushed);
+                       const std::string& crushed, bool tried_parts) {
+  if (!crushed.empty()) {
+    return fmt::format(". {}: let what is moved stop earlier, so that it leaves it room", crushed);
+  }
   const bool names_shorter_step = sim::is_implicit(world.settings.integrator);
   const bool has_remedy = !divergence.remedy.empty() && !(tried_parts && names_shorter_step);
   return (has_remedy ? "; " + divergence.remedy : "") + cause_and_remedy(world, divergence);
@@ -87,10 +93,13 @@ std::string what_to_do(const sim::World& world, const sim::Divergence& divergenc
 DivergenceError divergence_error(const std::string& scene_name, const sim::Divergence& divergence,
                                  const sim::World& world, bool tried_parts) {
   const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
-  return DivergenceError(fmt::format(
+  const std::string crushed = what_is_crushed(world, divergence);
+  DivergenceError error(fmt::format(
       "{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name, divergence.step, time,
       sim::to_string(divergence.stage), divergence.body, divergence.what,
-      what_is_near(world, divergence.body), what_to_do(world, divergence, tried_parts)));
+      what_is_near(world, divergence.body), what_to_do(world, divergence, crushed, tried_parts)));
+  error.is_crushed = !crushed.empty();
+  return error;
 }
 
 Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads,
@@ -135,6 +144,7 @@ void Simulation::step() {
   DivergenceError of_parts(
       fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));
   of_parts.tried_parts = true;
+  of_parts.is_crushed = error.is_crushed;
   throw of_parts;
 }
 

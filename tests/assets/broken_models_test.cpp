@@ -221,6 +221,18 @@ TEST_P(BrokenModelTest, EndsTheProgramWithAReasonAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(BrokenModel, OfAKnownLineIsNotSaidTwice) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.obj";
+  write_text(path, "v 0 0 0\nv 1 0\nf 1 2 1\n");
+  try {
+    load_model(path);
+    FAIL() << "accepted";
+  } catch (const ModelError& error) {
+    EXPECT_EQ(error.what(), path.string() + ": line 2: v needs three numbers");
+  }
+}
+
 /// Of what may be wrong with a model, this alone can be mended without a guess.
 TEST(BrokenModel, InsideOutIsMendedAndSaid) {
   const TemporaryFolder folder;

@@ -64,6 +64,8 @@ TEST(Repair, IsWhatARefusalNames) {
   open.triangles.resize(6);
   EXPECT_TRUE(holds(refusal(open, true), "open"));
   EXPECT_TRUE(holds(refusal(open, true), "no repair is known for this"));
+  EXPECT_TRUE(holds(refusal(open, true), "1 hole is too large to be closed by a repair, with "));
+  EXPECT_TRUE(holds(refusal(open, true), "at most 0.25 times the surface's area"));
 }
 
 TEST(Repair, FillsTheHoleOfAFace) {

@@ -100,6 +100,25 @@ TEST_F(RenderTest, ADivergedRunGoesOnWithOtherStepsOnly) {
   EXPECT_EQ(shorter.output.find("implicit_euler"), std::string::npos) << shorter.output;
 }
 
+TEST_F(RenderTest, ABodyWithoutRoomIsNotAdvisedOtherSteps) {
+  write_text(scene(), std::string(falling_ball) +
+                          "[[body]]\nname = \"plate\"\nkind = \"moved\"\nsize = [4, 4, 0.4]\n"
+                          "position = [0, 0, 2.5]\n"
+                          "motion.path = [[0, 0, 0, 0], [0.6, 0, 0, -2.45]]\n");
+  const ProgramResult result = render("--set ball.n=0.1");
+  EXPECT_EQ(result.exit_code, 5);
+  expect_words(result, {"is crushed between plate and the ground", "let what is moved stop earlier",
+                        "Let motion.path end where there is room", "--overwrite"});
+  EXPECT_EQ(result.output.find("--set"), std::string::npos) << result.output;
+}
+
+TEST_F(RenderTest, ARunThatDivergedIsAdvisedWhatToAdd) {
+  expect_words(render(too_stiff + "--on-divergence stop"),
+               {"add --set simulation.steps_per_second=120 or --on-divergence substep to: "});
+  expect_words(render(too_stiff + "--on-divergence substep --overwrite"),
+               {"Not even 1024 parts", "add --set simulation.integrator=implicit_euler to: "});
+}
+
 TEST_F(RenderTest, AStepThatDivergesCanBeDoneInParts) {
   // 3.3 m in a step, and the ball is 2 m across: the ground presses it flat.
   const std::string thrown = "--set body.velocity='[0,0,-200]' ";

@@ -63,6 +63,23 @@ TEST_F(RenderTest, SaysThatAFolderOfARunIsNoScene) {
   expect_failure(run_pneuma("render '" + out().string() + "' 2>&1"), 3, {"folder of a run"});
 }
 
+TEST_F(RenderTest, SuggestsTheFileOfAName) {
+  const std::string here = "cd '" + folder_.path().string() + "' &&";
+  expect_failure(run_pneuma("render fall 2>&1", here), 3, {"did you mean 'fall.toml'?"});
+  fs::create_directory(folder_ / "fall");
+  write_text(folder_ / "fall/run.json", "{}");
+  expect_failure(run_pneuma("render fall 2>&1", here), 3,
+                 {"is the folder of a run", "did you mean 'fall.toml'?"});
+}
+
+TEST_F(RenderTest, AFolderDoesNotHideTheSceneOfItsName) {
+  const std::string here = "cd '" + folder_.path().string() + "' &&";
+  fs::create_directory(folder_ / "one_sphere");
+  const ProgramResult result = run_pneuma("check one_sphere 2>&1", here);
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_NE(result.output.find("name = \"sphere\""), std::string::npos) << result.output;
+}
+
 TEST_F(RenderTest, RefusesAModelWhosePathNoSceneCanSay) {
   const fs::path model = folder_ / "k\xc3\xa4tzchen.ply";
   write_text(model, "ply\n");

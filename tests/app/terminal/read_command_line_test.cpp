@@ -31,7 +31,10 @@ TEST(SetOption, TakesOneValueAndLeavesTheSceneAlone) {
 
 TEST(SetOption, WithoutAValueIsAMisuse) {
   EXPECT_SAYS(complaint_about("check one_sphere --set duration"),
-              "--set: duration: expected PATH=VALUE, such as duration=2");
+              "--set: duration: expected PATH=VALUE in one word, such as duration=2");
+  for (const char* typed : {"check one_sphere --set duration 2", "check --set duration 2"}) {
+    EXPECT_SAYS(complaint_about(typed), "expected PATH=VALUE in one word");
+  }
 }
 
 TEST(SetOption, BeforeTheSceneIsApplied) {

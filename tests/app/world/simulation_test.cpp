@@ -79,6 +79,7 @@ TEST(DivergenceError, OfABodyWithoutRoomNamesWhatCrushesItAndNoStep) {
       << crushed;
   EXPECT_EQ(crushed.find("a step of"), std::string::npos) << crushed;
   EXPECT_EQ(crushed.find("magic"), std::string::npos) << crushed;
+  EXPECT_NE(crushed.find("let what is moved stop earlier"), std::string::npos) << crushed;
   const std::string still = said_of_pressed_ball(pressed_ball(0.0), true);
   EXPECT_EQ(still.find("crushed"), std::string::npos) << still;
   EXPECT_NE(still.find("Use a step of"), std::string::npos) << still;
