@@ -29,8 +29,12 @@ constexpr double ambient_pressure = 2000.0;  // Pa: the weight on a few m^2 chan
 /// thin walls to bend until the body is a ball.
 constexpr double held_pressure = 100.0, free_pressure = 20.0;
 constexpr double drop = 1.0;  // m
-/// Of the speed in 1/60 s: round bodies roll no further than some metres.
-constexpr double drag = 0.05;
+/// Of the speed in 1/60 s: it falls nearly as in empty space, and what rocks comes to rest within
+/// the run.
+constexpr double drag = 0.02;
+/// Degrees/s: what would stand on a point until rounding tips it, late in the run, falls over at
+/// once.
+constexpr const char* slow_turn = "[3.0, 2.0, 0.0]";
 
 /// Meshes up to this are held in shape by tensions, if these keep it: they take the factors of a
 /// matrix to find, and a few implicit steps to try.
@@ -46,6 +50,8 @@ constexpr double duration = 20.0, short_duration = 10.0;
 
 /// Of the longest stable step: vertices that are pushed together are stiffer than small motions.
 constexpr double safe_fraction = 0.7;
+/// Of coarse meshes, which have no hinges: they collapse further, and gas in less room is stiffer.
+constexpr double safe_fraction_of_coarse = 0.4;
 /// A step of it is as long as one of velocity_verlet, and takes half the time.
 constexpr sim::Integrator integrator = sim::Integrator::symplectic_euler;
 constexpr int frames_per_second = 30;
@@ -128,7 +134,9 @@ void choose_hold(Choice& choice) {
 }
 
 void choose_step(Choice& choice) {
-  const double limit = safe_fraction * sim::settled_stability_limit(integrator, choice.body).step;
+  const bool is_coarse = choice.body.positions.size() < min_bending_vertices;
+  const double fraction = is_coarse ? safe_fraction_of_coarse : safe_fraction;
+  const double limit = fraction * sim::settled_stability_limit(integrator, choice.body).step;
   const double frames = std::ceil(1.0 / (limit * frames_per_second));
   choice.implicit = !(frames * frames_per_second <= most_steps_per_second);
   choice.steps_per_second =
@@ -225,10 +233,11 @@ model.file = {}
 {}model.scale = {}  # the longest side is {} m
 model.rotation = {}
 position = [0.0, 0.0, {}]
+angular_velocity = {}  # degrees/s: so that it does not stand on a point
 k = {}
 k_max = {}
 vertex_mass = {}  # {} kg in all, whatever the mesh
-rho_g = {}  # so that round bodies roll no further than some metres
+rho_g = {}  # so that what rocks comes to rest
 {}gauge_pressure = {}
 rest = "{}"
 )",
@@ -237,9 +246,9 @@ rest = "{}"
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
       ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
       scenes::value_text(&file), choice_text(given), options.scale, extent,
-      scenes::value_text(&options.rotation), 0.5 * height + drop, material.k, material.k_max,
-      material.vertex_mass, mass, material.rho_g, bending_text(material), choice.gauge_pressure,
-      choice.held ? "equilibrium" : "shape");
+      scenes::value_text(&options.rotation), 0.5 * height + drop, slow_turn, material.k,
+      material.k_max, material.vertex_mass, mass, material.rho_g, bending_text(material),
+      choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

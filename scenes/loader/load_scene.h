@@ -58,9 +58,10 @@ using ModelCheck = std::function<std::string(const Scene&, const BodyScene&)>;
 /// take the place of the file's values before anything is checked, so that a bad value in the file
 /// is no error once it is overridden, and checks across keys see the final values. An override of a
 /// key that decides which others apply (kind, shape, gas, ground.present, camera.eye, colours,
-/// contact) makes the file's keys that then do not apply be ignored; without it they are errors,
-/// but warnings where they are idle under the default contact. Throws SceneError, and of a scene
-/// with errors asks `check_model` for those of its models, so that they come at once.
+/// contact) makes the file's keys that then do not apply be ignored, with a warning of those of a
+/// body that nothing takes the place of; without it they are errors, but warnings where they are
+/// idle under the default contact. Throws SceneError, and of a scene with errors asks `check_model`
+/// for those of its models, so that they come at once.
 Scene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {},
                  const ModelCheck& check_model = {});
 

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "app/check/run_statistics.h"
 #include "app/host/errors.h"
 #include "app/record/shape_deviation.h"
 #include "app/world/build_world.h"
@@ -50,6 +53,30 @@ TEST_F(OpenScene, AModelFallsAndRestsAtThePredictedVolume) {
     ASSERT_FALSE(divergence) << divergence->what;
     EXPECT_NEAR(volume_of(world.soft[0]) / predicted, 1.0, 0.1);
     EXPECT_LT(sim::bounds(world).low.z(), 0.2);  // it may still bounce
+  }
+}
+
+double fastest_vertex(const sim::SoftBody& body) {
+  return std::sqrt(body.velocities.rows().colwise().squaredNorm().maxCoeff());
+}
+
+/// A ball that lands on its pole stands there until something tips it.
+TEST_F(OpenScene, AModelFallsAsInAirAndARoundOneComesToRest) {
+  const scenes::Scene scene = open(sim::make_sphere(1.0, 10, 9));
+  sim::World world = build_world(scene);
+  ASSERT_FALSE(sim::run(world, 0.4));
+  EXPECT_LT(sim::mean(world.soft[0].velocities).z(), -0.7 * 9.81 * 0.4);
+  ASSERT_FALSE(sim::run(world, scene.duration - 0.4));
+  EXPECT_LT(fastest_vertex(world.soft[0]), rest_speed);
+}
+
+/// A sheet without hinges folds up until its gas is far stiffer than in its shape.
+TEST_F(OpenScene, AThinCoarseModelGetsShorterSteps) {
+  for (const char* turn : {"[1, 0.7, 0]", "[2, 1, 0]", "[2, 3, 0]", "[3, 2, 0]", "[30, 20, 0]"}) {
+    sim::World world = build_world(
+        open(sim::make_box({6.0, 6.0, 0.0027}, 1), {std::string("body.angular_velocity=") + turn}));
+    const auto divergence = sim::run(world, 1.0);
+    EXPECT_FALSE(divergence) << turn << ": " << divergence->what;
   }
 }
 
