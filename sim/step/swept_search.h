@@ -155,6 +155,7 @@ class SweptSearch {
     return m_.on_ground[at(soft)].meets_alone &&
            !m_.is_in_candidate[at(bodies_.node_of(soft, vertex))];
   }
+  /// Of the candidates as they are now.
   void mark_candidates();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
