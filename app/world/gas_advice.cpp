@@ -190,20 +190,20 @@ std::string weight_warning(const GasAdvice& advice) {
       body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume);
   const std::string lighter =
       advice.light_vertex_mass > 0.0
-          ? fmt::format(", or at most {} kg (vertex_mass of at most {} kg)",
-                        base::text_below(advice.vertices * advice.light_vertex_mass),
-                        base::text_below(advice.light_vertex_mass))
+          ? fmt::format("make it lighter, with a vertex_mass of at most {} kg ({} kg in all), or ",
+                        base::text_below(advice.light_vertex_mass),
+                        base::text_below(advice.vertices * advice.light_vertex_mass))
           : "";
   if (!advice.strengthened || advice.k == 0.0) {
-    return fmt::format("{}give it gauge_pressure = {:.3g} Pa, and springs that hold that{}",
-                       crushed, advice.carrying_pressure, lighter);
+    return fmt::format("{}{}give it gauge_pressure = {:.3g} Pa, and springs that hold that",
+                       crushed, lighter, advice.carrying_pressure);
   }
   const double k = *advice.strengthened * advice.k;
   return fmt::format(
-      "{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
-      "with n = {:.4g} mol (inflation stays as it is), or with gauge_pressure = {:.3g} Pa{}",
-      crushed, *advice.strengthened, k, k / k_per_stiffness, *advice.strengthened * advice.n,
-      advice.carrying_pressure, lighter);
+      "{}{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
+      "with n = {:.4g} mol (inflation stays as it is), or with gauge_pressure = {:.3g} Pa",
+      crushed, lighter, *advice.strengthened, k, k / k_per_stiffness,
+      *advice.strengthened * advice.n, advice.carrying_pressure);
 }
 
 }  // namespace pneuma::app
