@@ -140,7 +140,7 @@ to = "right"
     ASSERT_EQ(frame.meshes.size(), 4) << field;
     const render::Colour ball = frame.meshes[0].colours.at(0);
     EXPECT_NE(ball.x(), ball.y()) << field;
-    for (const std::size_t joint : {2, 3}) {
+    for (const std::size_t joint : {2u, 3u}) {
       const render::Mesh& mesh = frame.meshes[joint];
       ASSERT_EQ(mesh.colours.size(), mesh.positions.size()) << field;
       for (const render::Colour& grey : mesh.colours) EXPECT_EQ(grey.x(), grey.y()) << field;
