@@ -168,8 +168,7 @@ std::string why_holes_are_left(const std::vector<Edge>& edges) {
   if (has_more) rims.resize(most_places);
   return fmt::format(
       "{} too large to be closed by a repair, with {}{} edges around {}: it closes holes of at "
-      "most "
-      "{} edges by triangles of at most {:g} times the surface's area",
+      "most {} edges by triangles of at most {:g} times the surface's area",
       holes.size() == 1 ? "1 hole is" : fmt::format("{} holes are", holes.size()),
       fmt::join(rims, ", "), has_more ? ", ..." : "", holes.size() == 1 ? "it" : "them", most_edges,
       most_area);

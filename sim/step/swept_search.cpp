@@ -51,7 +51,9 @@ void SweptSearch::search_ways() {
   are_beside_obstacles_ = false;
   // Implicit integrators keep volumes, which moves all vertices.
   const bool is_explicit = !is_implicit(world_.settings.integrator);
-  for (OnGround& on_ground : m_.on_ground) on_ground.meets_alone = is_explicit;
+  for (std::size_t i = 0; i < m_.on_ground.size(); ++i) {
+    m_.on_ground[i].meets_alone = is_explicit && !is_fixed(world_, static_cast<int>(i));
+  }
   next_earlier_ = next_near_ = 0;
   for (NearTriangles& triangles : m_.near_triangles) triangles.is_known = false;
   bodies_.find_near_bodies(world_, start_, m_.near_bodies);
@@ -113,6 +115,7 @@ void SweptSearch::offer_near_features(const BodyPair& bodies) {
 }
 
 void SweptSearch::mark_candidates() {
+  if (std::ranges::none_of(m_.on_ground, &OnGround::meets_alone)) return;
   std::ranges::fill(m_.is_in_candidate, std::uint8_t{0});
   const auto mark = [&](int body, const Feature& feature) {
     if (body == swept_ground) return;
