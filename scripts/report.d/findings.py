@@ -161,8 +161,8 @@ def growth(out):
     if not path.exists():
         return None
     series = json.loads(path.read_text(encoding="utf-8"))["series"]
-    laws = ", ".join(f"{one['exponent']:.2f} ({one['pieces']})" for one in series)
-    return f"The time of a step grows with the number of pieces to the power {laws}."
+    laws = ", ".join(f"{one['second_exponent']:.2f} ({one['pieces']})" for one in series)
+    return f"The time of a simulated second grows with the number of pieces to the power {laws}."
 
 
 def main():

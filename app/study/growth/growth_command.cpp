@@ -25,17 +25,23 @@ struct GrowthArguments : StudyOptions {
 
 void print(const std::vector<GrowthSeries>& all) {
   using Align = Table::Align;
-  Table table({{"pieces", Align::left}, {"number"}, {"us per step"}, {"us per step\nand piece"}});
+  Table table({{"pieces", Align::left},
+               {"number"},
+               {"us per step"},
+               {"us per step\nand piece"},
+               {"steps per\nsecond"},
+               {"ms per simulated\nsecond"}});
   for (const GrowthSeries& series : all) {
-    for (const auto& [size, seconds] : series.points) {
-      table.add_row(
-          {series.name, readable(size), readable(1e6 * seconds), readable(1e6 * seconds / size)});
+    for (const GrowthPoint& point : series.points) {
+      const double step = 1e6 * point.step_seconds;
+      table.add_row({series.name, readable(point.size), readable(step), readable(step / point.size),
+                     readable(point.steps_per_second), readable(1e3 * point.seconds_per_second())});
     }
   }
   fmt::print("{}\n", table.text());
   for (const GrowthSeries& series : all) {
-    fmt::print("time grows with the number of {} to the power of {:.2f}\n", series.name,
-               series.law.exponent);
+    fmt::print("time grows with the number of {} to the power of {:.2f}, of a step {:.2f}\n",
+               series.name, series.second.exponent, series.step.exponent);
   }
 }
 
@@ -46,17 +52,22 @@ ExitCode run_growth_study(const GrowthArguments& typed) {
                               .seconds_per_point = typed.is_short ? 0.05 : 1.0};
   const std::vector<GrowthSeries> all =
       study_growth(options, [&](const std::string& what) { progress.show(what); });
-  Csv csv({"pieces", "number", "step_s", "exponent"});
+  Csv csv({"pieces", "number", "step_s", "steps_per_second", "step_exponent", "second_exponent"});
   nlohmann::json json = study_head(typed);
   for (const GrowthSeries& series : all) {
     nlohmann::json points = nlohmann::json::array();
-    for (const auto& [size, seconds] : series.points) {
-      csv.add_row({csv_cell(series.name), csv_cell(size), csv_cell(seconds),
-                   csv_cell(series.law.exponent)});
-      points.push_back({{"number", size}, {"step_s", seconds}});
+    for (const GrowthPoint& point : series.points) {
+      csv.add_row({csv_cell(series.name), csv_cell(point.size), csv_cell(point.step_seconds),
+                   csv_cell(point.steps_per_second), csv_cell(series.step.exponent),
+                   csv_cell(series.second.exponent)});
+      points.push_back({{"number", point.size},
+                        {"step_s", point.step_seconds},
+                        {"steps_per_second", point.steps_per_second}});
     }
-    json["series"].push_back(
-        {{"pieces", series.name}, {"exponent", series.law.exponent}, {"points", points}});
+    json["series"].push_back({{"pieces", series.name},
+                              {"step_exponent", series.step.exponent},
+                              {"second_exponent", series.second.exponent},
+                              {"points", points}});
   }
   folder.write("growth.csv", csv.text());
   folder.write("growth.json", json.dump(2) + '\n');
@@ -70,8 +81,8 @@ ExitCode run_growth_study(const GrowthArguments& typed) {
 
 void add_growth_study(CLI::App& study, Action& action, std::span<const std::string> command_line) {
   const auto typed = std::make_shared<GrowthArguments>();
-  CLI::App* command =
-      study.add_subcommand("growth", "How the time of a step grows with the size of a scene");
+  CLI::App* command = study.add_subcommand(
+      "growth", "How the time of a simulated second grows with the size of a scene");
   add_study_options(*command, *typed, command_line, "Two sizes each: seconds");
   add_quiet_option(*command, typed->quiet);
   command->callback([typed, &action] { action = [typed] { return run_growth_study(*typed); }; });

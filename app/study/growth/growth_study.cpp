@@ -25,18 +25,16 @@ constexpr MeasuredPart until_pressed{0.05, 0.25};
 
 double icosphere_vertices(int subdivisions) { return 10.0 * std::pow(4.0, subdivisions) + 2.0; }
 
-/// Vertices share a mass of 20 kg, and springs soften with their number, so that every size moves
-/// alike and is stable at 1/60 s.
+/// The material stays the same: springs of one stiffness, and vertices that share a mass of 20 kg.
+/// So the step, a quarter of the longest that is stable, shrinks with the edges.
 std::string icosphere(int subdivisions) {
-  const double vertices = icosphere_vertices(subdivisions);
-  const double k = std::min(50.0, 50.0 * 642.0 / vertices);
   return fmt::format(
-      "[[body]]\nshape = \"icosphere\"\nsubdivisions = {}\nposition = [0, 0, 3.1]\nn = 0.3\nk = "
-      "{}\nvertex_mass = {}\n",
-      subdivisions, k, 20.0 / vertices);
+      "[simulation]\nsteps_per_second = {}\n[[body]]\nshape = \"icosphere\"\nsubdivisions = "
+      "{}\nposition = [0, 0, 3.1]\nn = 0.3\nk = 50\nvertex_mass = {}\n",
+      15 << subdivisions, subdivisions, 20.0 / icosphere_vertices(subdivisions));
 }
 
-/// Two that meet at 4 m/s. Their material stays the same.
+/// Two that meet at 4 m/s, of one material too.
 std::string icospheres_in_contact(int subdivisions, const std::string& simulation) {
   const auto ball = [&](int side) {
     return fmt::format(
@@ -73,7 +71,8 @@ std::string stacks(int along) {
       along, along);
 }
 
-double median_step(const std::string& toml, const MeasuredPart& part, double seconds) {
+GrowthPoint measure(double size, const std::string& toml, const MeasuredPart& part,
+                    double seconds) {
   const scenes::Scene scene = scenes::parse_scene(toml, "growth.toml");
   sim::World settled = build_world(scene);
   settled.settings.sleep_speed = 0.0;  // what sleeps costs nothing, however much of it there is
@@ -93,7 +92,7 @@ double median_step(const std::string& toml, const MeasuredPart& part, double sec
       times.push_back(thread_seconds() - start);
     }
   }
-  return spread(std::move(times)).median;
+  return {size, spread(std::move(times)).median, rate};
 }
 
 GrowthSeries measure(const std::string& name, const std::vector<int>& steps,
@@ -103,15 +102,17 @@ GrowthSeries measure(const std::string& name, const std::vector<int>& steps,
                      const std::function<void(const std::string&)>& say) {
   GrowthSeries series;
   series.name = name;
-  std::vector<double> sizes, seconds;
+  std::vector<double> sizes, steps_seconds, seconds_seconds;
   for (const int step : steps) {
     say(fmt::format("{:g} {}", size(step), name));
-    series.points.push_back(
-        {size(step), median_step(scene(step), part, options.seconds_per_point)});
-    sizes.push_back(series.points.back().size);
-    seconds.push_back(series.points.back().step_seconds);
+    const GrowthPoint point = measure(size(step), scene(step), part, options.seconds_per_point);
+    series.points.push_back(point);
+    sizes.push_back(point.size);
+    steps_seconds.push_back(point.step_seconds);
+    seconds_seconds.push_back(point.seconds_per_second());
   }
-  series.law = fit_power_law(sizes, seconds);
+  series.step = fit_power_law(sizes, steps_seconds);
+  series.second = fit_power_law(sizes, seconds_seconds);
   return series;
 }
 
@@ -138,14 +139,14 @@ std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
 
 Diagram growth_diagram(const std::vector<GrowthSeries>& series) {
   Diagram diagram;
-  diagram.title = "Time of a step per piece, over the number of pieces";
+  diagram.title = "Time of a simulated second per piece, over the number of pieces";
   diagram.x = {.label = "vertices, soft spheres, or cubes", .logarithmic = true};
-  diagram.y = {.label = "time of a step / number, us", .logarithmic = true};
+  diagram.y = {.label = "time of a second / number, us", .logarithmic = true};
   for (const GrowthSeries& one : series) {
     DiagramSeries line;
-    line.name = fmt::format("{}: exponent {:.2f}", one.name, one.law.exponent);
-    for (const auto& [size, seconds] : one.points) {
-      line.points.push_back({size, 1e6 * seconds / size});
+    line.name = fmt::format("{}: exponent {:.2f}", one.name, one.second.exponent);
+    for (const GrowthPoint& point : one.points) {
+      line.points.push_back({point.size, 1e6 * point.seconds_per_second() / point.size});
     }
     diagram.series.push_back(std::move(line));
   }

@@ -1,4 +1,5 @@
-// `pneuma study growth`: how the time of a step grows with the size of a scene.
+// `pneuma study growth`: how the time of a step, and of a simulated second, grows with the size of
+// a scene.
 #pragma once
 
 #include <functional>
@@ -13,13 +14,19 @@ namespace pneuma::app {
 struct GrowthPoint {
   double size = 0.0;          // of what is varied
   double step_seconds = 0.0;  // the processor's, median of a step: whatever else the machine does
+  int steps_per_second = 60;  // as many as this size needs
+
+  /// The processor's, for a second of the scene's.
+  double seconds_per_second() const { return step_seconds * steps_per_second; }
 };
 
 /// One kind of scene in several sizes.
 struct GrowthSeries {
   std::string name;  // "bodies"
   std::vector<GrowthPoint> points;
-  PowerLaw law;  // step_seconds over size; an exponent of 1 is in proportion
+  // Over size; an exponent of 1 is in proportion.
+  PowerLaw step;    // of step_seconds
+  PowerLaw second;  // of seconds_per_second()
 };
 
 struct GrowthOptions {
@@ -33,7 +40,7 @@ struct GrowthOptions {
 std::vector<GrowthSeries> study_growth(const GrowthOptions& options,
                                        const std::function<void(const std::string&)>& say);
 
-/// All series: time per step and size, over size.
+/// All series: time of a simulated second over size, over size.
 Diagram growth_diagram(const std::vector<GrowthSeries>& series);
 
 }  // namespace pneuma::app
