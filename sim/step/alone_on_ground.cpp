@@ -1,10 +1,12 @@
 #include "sim/step/alone_on_ground.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/collision/find_body_contacts.h"
 #include "sim/inspect/inspect.h"
 #include "sim/response/ground_contact.h"
+#include "sim/soft/pins.h"
 
 namespace pneuma::sim {
 namespace {
@@ -62,6 +64,87 @@ class AloneOnGround {
   SweptMemory& m_;
 };
 
+/// Of the distance between two features, by which each side may come nearer to the other.
+constexpr double share_of_distance = 0.4;
+/// Of the skin: less than this below the ground is left.
+constexpr double left_of_skin = 1e-3;
+/// m. At less than this the direction between two points is rounding.
+constexpr double min_distance = 1e-9;
+constexpr double any_height = std::numeric_limits<double>::infinity();
+
+class SunkVertices {
+ public:
+  SunkVertices(World& world, SweptMemory& memory) : world_(world), m_(memory) {}
+
+  void find() {
+    m_.sunk.clear();
+    for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
+      if (!m_.on_ground[at(i)].meets_alone) continue;
+      const SoftBody& body = world_.soft[at(i)];
+      const double lowest = -left_of_skin * m_.bodies.skin(i);
+      for (int v = 0; v < body.positions.size(); ++v) {
+        const int node = m_.bodies.node_of(i, v);
+        if (body.positions[v].z() >= lowest || m_.is_in_candidate[at(node)] == 0) continue;
+        if (!is_pinned(body, v)) m_.sunk.push_back({node, i, v, -body.positions[v].z()});
+      }
+    }
+  }
+
+  bool any() const { return !m_.sunk.empty(); }
+
+  void lift() {
+    for (const SweptCandidate& candidate : m_.candidates) {
+      if (candidate.bodies.second != swept_ground) leave_room(candidate);
+    }
+    for (const SunkVertex& sunk : m_.sunk) lift(sunk);
+    m_.bodies.set_end(world_);
+  }
+
+ private:
+  /// Halfway between the nearest points of two features a plane separates them, to which neither
+  /// gets as it rises.
+  void leave_room(const SweptCandidate& candidate) {
+    const auto [first, second] = candidate.bodies;
+    double wanted = 0.0;  // by any of its vertices
+    const auto ask = [&](const SunkVertex& sunk) { wanted = std::max(wanted, sunk.room); };
+    for_each_sunk({first, candidate.features.first}, ask);
+    for_each_sunk({second, candidate.features.second}, ask);
+    if (wanted == 0.0) return;
+    const auto closest =
+        closest_points(m_.bodies.surface(first), m_.bodies.surface(second), candidate.features,
+                       Moment::end, wanted / share_of_distance);
+    if (!closest) return;
+    const double distance = closest->distance;
+    const double up = closest->first_point.z() - closest->second_point.z();
+    const auto limit = [distance](double towards) {
+      const bool is_clear = distance > min_distance;
+      const double room = is_clear && towards <= 0.0 ? any_height
+                          : is_clear ? share_of_distance * distance * distance / towards
+                                     : 0.0;
+      return [room](SunkVertex& sunk) { sunk.room = std::min(sunk.room, room); };
+    };
+    for_each_sunk({first, candidate.features.first}, limit(-up));
+    for_each_sunk({second, candidate.features.second}, limit(up));
+  }
+
+  template <class Visit>
+  void for_each_sunk(const SurfacePoint& feature, const Visit& visit) {
+    m_.bodies.for_each_node(feature, [&](int node) {
+      const auto sunk = std::ranges::lower_bound(m_.sunk, node, {}, &SunkVertex::node);
+      if (sunk != m_.sunk.end() && sunk->node == node) visit(*sunk);
+    });
+  }
+
+  void lift(const SunkVertex& sunk) {
+    auto end = world_.soft[at(sunk.soft)].positions[sunk.vertex];
+    const Vec3 wanted = end + sunk.room * Vec3::UnitZ();
+    end = m_.bodies.within_allowance(sunk.soft, sunk.vertex, end, wanted);
+  }
+
+  World& world_;
+  SweptMemory& m_;
+};
+
 double energy_of(const World& world, int soft) {
   return energy(world.soft[at(soft)], world.settings.gravity).total();
 }
@@ -79,6 +162,19 @@ double resolve_alone_on_ground(World& world, SweptSearch& search, StepWorkspace&
     if (workspace.options.measure_work) gained += energy_of(world, i) - before;
   }
   return gained;
+}
+
+double lift_sunk_vertices(World& world, StepWorkspace& workspace) {
+  SunkVertices sunk(world, *workspace.swept);
+  sunk.find();
+  if (!sunk.any()) return 0.0;
+  if (!workspace.options.measure_work) {
+    sunk.lift();
+    return 0.0;
+  }
+  const double before = energy(world).total();
+  sunk.lift();
+  return energy(world).total() - before;
 }
 
 }  // namespace pneuma::sim

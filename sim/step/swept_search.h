@@ -75,6 +75,14 @@ struct OnGround {
   double work = 0.0;         // J, of what the ground changed their velocities by
 };
 
+/// A vertex that has a part in a candidate and ends below the ground.
+struct SunkVertex {
+  int node = 0;
+  int soft = 0;
+  int vertex = 0;
+  double room = 0.0;  // m, by which it may rise
+};
+
 /// What a box that moves freely has contacts with at the start of the step.
 struct Partner {
   int contacts = 0;
@@ -135,9 +143,10 @@ struct SweptMemory {
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
-  VertexArray before_ground;                  // of a soft body that meets nothing else
-  double work = 0.0;                          // J, of all contacts of the last step
-  double driven_work = 0.0;                   // J, of the bodies that are moved
+  std::vector<SunkVertex> sunk;
+  VertexArray before_ground;  // of a soft body that meets nothing else
+  double work = 0.0;          // J, of all contacts of the last step
+  double driven_work = 0.0;   // J, of the bodies that are moved
 };
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.

@@ -223,7 +223,10 @@ class SweptStep {
     m_.end_velocities.clear();
     m_.given_at_start.clear();
     bodies_.begin_at_end(world_);
-    if (world_.settings.ground) m_.work += resolve_alone_on_ground(world_, search_, w_);
+    if (world_.settings.ground) {
+      m_.work += resolve_alone_on_ground(world_, search_, w_);
+      m_.work += lift_sunk_vertices(world_, w_);
+    }
     for (const SweptCandidate& candidate : m_.candidates) {
       if (!has_met(candidate)) touch(candidate);
     }
