@@ -14,6 +14,7 @@ constexpr std::array integrators = {
     Named<sim::Integrator>{sim::Integrator::symplectic_euler, "symplectic_euler"},
     Named<sim::Integrator>{sim::Integrator::velocity_verlet, "velocity_verlet"},
     Named<sim::Integrator>{sim::Integrator::rk4, "rk4"},
+    Named<sim::Integrator>{sim::Integrator::rk8, "rk8"},
     Named<sim::Integrator>{sim::Integrator::implicit_euler, "implicit_euler"},
     Named<sim::Integrator>{sim::Integrator::sdirk2, "sdirk2"},
 };

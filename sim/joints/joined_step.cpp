@@ -30,7 +30,9 @@ JoinedStep::JoinedStep(const World& world, std::vector<int> bodies) : bodies_(st
   min_volumes_.resize(pieces_.size());
   start_ = end_ = {VertexArray(count), VertexArray(count)};
   changes_ = predicted_ = VertexArray(count);
-  if (!is_implicit(world.settings.integrator)) all_ = std::make_unique<ExplicitScratch>(count);
+  if (!is_implicit(world.settings.integrator)) {
+    all_ = std::make_unique<ExplicitScratch>(count, world.settings.integrator);
+  }
 }
 
 void JoinedStep::gather(std::span<const SoftState> start) {

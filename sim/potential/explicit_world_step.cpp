@@ -32,8 +32,8 @@ int find_fast_box(const std::vector<RigidState>& start, const std::vector<RigidS
 }  // namespace
 
 BoxCoordinates::Form box_form_for(Integrator integrator) {
-  return integrator == Integrator::rk4 ? BoxCoordinates::Form::quaternion
-                                       : BoxCoordinates::Form::momentum;
+  const bool by_runge_kutta = integrator == Integrator::rk4 || integrator == Integrator::rk8;
+  return by_runge_kutta ? BoxCoordinates::Form::quaternion : BoxCoordinates::Form::momentum;
 }
 
 WorldAcceleration::WorldAcceleration(const World& world, const ContactSurfaces& surfaces,
@@ -217,7 +217,7 @@ class WatchedStages {
 ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces)
     : surfaces_(surfaces),
       acceleration_(world, surfaces, box_form_for(world.settings.integrator)),
-      scratch_(surfaces.vertex_count()),
+      scratch_(surfaces.vertex_count(), world.settings.integrator),
       start_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())} {}
 
 ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState& start,

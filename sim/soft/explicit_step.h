@@ -10,7 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
+#include "sim/base/dormand_prince_8.h"
 #include "sim/mesh/vec4d.h"
 #include "sim/soft/soft_state.h"
 #include "sim/world/settings.h"
@@ -19,9 +21,14 @@ namespace pneuma::sim {
 
 /// Memory for a step of `count` vertices, of accelerations in m/s^2.
 struct ExplicitScratch {
-  explicit ExplicitScratch(int count) : stage(count), first(count), sum(count) {}
+  ExplicitScratch(int count, Integrator integrator)
+      : stage(count),
+        first(count),
+        sum(count),
+        stages(integrator == Integrator::rk8 ? base::DormandPrince8::stages * count : 0) {}
 
   VertexArray stage, first, sum;
+  VertexArray stages;  // rk8: of all its stages, those of a vertex side by side
 };
 
 /// The smallest volume met so far; a NaN, once met, stays.
@@ -160,6 +167,56 @@ double rk4(const Acceleration& acceleration, double h, const SoftState& start,
   return min_volume.value();
 }
 
+/// From the accelerations of rk8's stages before `next`, one vertex's own of them as given, the
+/// state in which the next one is evaluated; after the last, the end of the step.
+template <int next>
+void rk8_state(int vertex, double h, const SoftState& start, const ExplicitScratch& s,
+               VertexArray& positions, VertexArray& velocities) {
+  using Coefficients = base::DormandPrince8;
+  const VertexReader x0(start.positions), v0(start.velocities), a(s.stages);
+  Vec4d to_velocity{}, to_position{};
+  const auto add = [&]<int stage>(std::integral_constant<int, stage>) {
+    constexpr double once = Coefficients::velocity[next][stage],
+                     twice = Coefficients::position[next][stage];
+    if constexpr (once != 0.0 || twice != 0.0) {
+      const Vec4d rate = a[Coefficients::stages * vertex + stage];
+      to_velocity = fma(once, rate, to_velocity);
+      to_position = fma(twice, rate, to_position);
+    }
+  };
+  [&]<int... stage>(std::integer_sequence<int, stage...>) {
+    (add(std::integral_constant<int, stage>{}), ...);
+  }
+  (std::make_integer_sequence<int, next>{});
+  const Vec4d way = fma(h, to_position, Coefficients::time[next] * v0[vertex]);
+  VertexWriter(positions).put(vertex, fma(h, way, x0[vertex]));
+  VertexWriter(velocities).put(vertex, fma(h, to_velocity, v0[vertex]));
+}
+
+/// Dormand and Prince's method of order 8 (dormand_prince_8.h) on (x, v). The velocity of a stage
+/// is v0 + h times a sum of accelerations, and so is its position x0 + h c v0 + h^2 times another:
+/// only accelerations are kept.
+template <class Acceleration>
+double rk8(const Acceleration& acceleration, double h, const SoftState& start,
+           VertexArray& positions, VertexArray& velocities, ExplicitScratch& s) {
+  constexpr int stages = base::DormandPrince8::stages;
+  MinVolume min_volume;
+  const VertexWriter rates(s.stages);
+  const auto evaluate = [&]<int stage>(std::integral_constant<int, stage>) {
+    const VertexArray& x = stage == 0 ? start.positions : positions;
+    const VertexArray& v = stage == 0 ? start.velocities : velocities;
+    min_volume.meet(for_each_acceleration(acceleration, x, v, s, [&](int i, Vec4d a) {
+      rates.put(stages * i + stage, a);
+      rk8_state<stage + 1>(i, h, start, s, positions, velocities);
+    }));
+  };
+  [&]<int... stage>(std::integer_sequence<int, stage...>) {
+    (evaluate(std::integral_constant<int, stage>{}), ...);
+  }
+  (std::make_integer_sequence<int, stages>{});
+  return min_volume.value();
+}
+
 /// Writes into `positions` and `velocities` the state `step` seconds after `start`.
 template <class Acceleration>
 double explicit_step(Integrator integrator, const Acceleration& acceleration, double step,
@@ -174,6 +231,8 @@ double explicit_step(Integrator integrator, const Acceleration& acceleration, do
       return velocity_verlet(acceleration, step, start, positions, velocities, scratch);
     case Integrator::rk4:
       return rk4(acceleration, step, start, positions, velocities, scratch);
+    case Integrator::rk8:
+      return rk8(acceleration, step, start, positions, velocities, scratch);
     case Integrator::implicit_euler:
     case Integrator::sdirk2:
       break;

@@ -3,7 +3,7 @@
 namespace pneuma::sim {
 
 IntegratorScratch::IntegratorScratch(const SoftMesh& mesh, Integrator integrator)
-    : acceleration(mesh), explicit_step(mesh.topology.vertex_count()) {
+    : acceleration(mesh), explicit_step(mesh.topology.vertex_count(), integrator) {
   if (is_implicit(integrator)) implicit = std::make_unique<ImplicitScratch>(mesh);
 }
 

@@ -12,7 +12,15 @@
 namespace pneuma::sim {
 
 /// ERRATA rows 7 and 32. The last two are implicit: sim/soft/implicit_step.h.
-enum class Integrator { martin, symplectic_euler, velocity_verlet, rk4, implicit_euler, sdirk2 };
+enum class Integrator {
+  martin,
+  symplectic_euler,
+  velocity_verlet,
+  rk4,
+  rk8,
+  implicit_euler,
+  sdirk2
+};
 
 inline bool is_implicit(Integrator integrator) {
   return integrator == Integrator::implicit_euler || integrator == Integrator::sdirk2;

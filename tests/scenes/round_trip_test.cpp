@@ -362,6 +362,8 @@ std::string_view expected_word(sim::Integrator integrator) {
       return "velocity_verlet";
     case sim::Integrator::rk4:
       return "rk4";
+    case sim::Integrator::rk8:
+      return "rk8";
     case sim::Integrator::implicit_euler:
       return "implicit_euler";
     case sim::Integrator::sdirk2:

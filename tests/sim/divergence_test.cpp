@@ -72,8 +72,9 @@ TEST(Divergence, ALostVolumeIsNamedWithTheOneBefore) {
 
 TEST(Divergence, EnergyFromNowhereIsFoundInItsStep) {
   // Without gas nothing else would tell, until the numbers overflow.
-  for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
-                                      Integrator::velocity_verlet, Integrator::rk4}) {
+  for (const Integrator integrator :
+       {Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet,
+        Integrator::rk4, Integrator::rk8}) {
     World world = one_sphere(1e5);
     world.settings.integrator = integrator;
     world.settings.gravity.setZero();
@@ -102,8 +103,9 @@ TEST(Divergence, ABodyPressedFlatByTheGroundIsFoundInItsStep) {
 
 TEST(Divergence, NothingIsFoundUpToTheLimitOfStability) {
   // At 0.95 of it the energy of the fastest motion swings by a factor of 40 in symplectic_euler.
-  for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
-                                      Integrator::velocity_verlet, Integrator::rk4}) {
+  for (const Integrator integrator :
+       {Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet,
+        Integrator::rk4, Integrator::rk8}) {
     World world = one_sphere(1e5);
     world.settings.integrator = integrator;
     SoftBody& body = world.soft[0];

@@ -15,7 +15,8 @@ namespace pneuma::sim {
 namespace {
 
 constexpr std::array explicit_integrators = {Integrator::martin, Integrator::symplectic_euler,
-                                             Integrator::velocity_verlet, Integrator::rk4};
+                                             Integrator::velocity_verlet, Integrator::rk4,
+                                             Integrator::rk8};
 
 TEST(StabilityLimit, OfAnUndampedMotionInClosedForm) {
   const Oscillation motion{49.0, 0.0};
@@ -92,7 +93,7 @@ bool grows(Integrator integrator, const SoftBody& body, double step) {
   SoftState state{moved.positions, moved.velocities};
   const auto size = [&] { return (state.positions.rows() - body.positions.rows()).norm(); };
   const double start = size();
-  ExplicitScratch memory(body.positions.size());
+  ExplicitScratch memory(body.positions.size(), integrator);
   VertexArray x(body.positions.size()), v(body.positions.size());
   for (int i = 0; i < 2000; ++i) {
     explicit_step(integrator, acceleration, step, state, x, v, memory);

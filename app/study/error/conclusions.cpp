@@ -24,8 +24,13 @@ struct Theory {
   double order;
 };
 constexpr std::array theories = {
-    Theory{"martin", 1.0}, Theory{"symplectic_euler", 1.0}, Theory{"velocity_verlet", 2.0},
-    Theory{"rk4", 4.0},    Theory{"implicit_euler", 1.0},   Theory{"sdirk2", 2.0},
+    Theory{"martin", 1.0},
+    Theory{"symplectic_euler", 1.0},
+    Theory{"velocity_verlet", 2.0},
+    Theory{"rk4", 4.0},
+    Theory{"rk8", 8.0},
+    Theory{"implicit_euler", 1.0},
+    Theory{"sdirk2", 2.0},
 };
 
 std::optional<double> theory_of(const ErrorStudy& study, const std::string& method) {

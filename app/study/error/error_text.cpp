@@ -14,7 +14,7 @@ namespace {
 
 using Status = ErrorRun::Status;
 
-constexpr std::size_t peers_in_a_table = 3;  // of at most 120 columns
+constexpr std::size_t ours_in_a_table = 5, peers_in_a_table = 3;  // of at most 120 columns
 
 std::string microseconds(double seconds) { return readable(1e6 * seconds); }
 
@@ -170,16 +170,23 @@ std::string comparison_text(const ErrorStudy& study) {
   return text;
 }
 
+/// All runs of ours, or of the peers.
+std::string runs_tables(const ErrorStudy& study, bool ours) {
+  const std::vector<std::string> methods = methods_of(study, ours);
+  const std::size_t most = ours ? ours_in_a_table : peers_in_a_table;
+  std::string text;
+  for (std::size_t i = 0; i < methods.size(); i += most) {
+    const std::size_t count = std::min(most, methods.size() - i);
+    text += runs_table(study, ours, std::span(methods).subspan(i, count)) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string error_text(const ErrorStudy& study) {
-  std::string text =
-      heading(study) + "\n" + runs_table(study, true, methods_of(study, true)) + "\n";
-  const std::vector<std::string> peers = methods_of(study, false);
-  for (std::size_t i = 0; !study.flight.contacts && i < peers.size(); i += peers_in_a_table) {
-    const std::size_t count = std::min(peers_in_a_table, peers.size() - i);
-    text += runs_table(study, false, std::span(peers).subspan(i, count)) + "\n";
-  }
+  std::string text = heading(study) + "\n" + runs_tables(study, true);
+  if (!study.flight.contacts) text += runs_tables(study, false);
   text += orders_text(study) + "\n" + recommendations_text(study);
   if (!study.flight.contacts) text += fmt::format("\n{}", comparison_text(study));
   return text;

@@ -51,7 +51,7 @@ ErrorOptions options_of(bool few, bool tumbling) {
   ErrorOptions options = few ? short_sweep() : full_sweep();
   options.steps_per_second = step_rates(few ? 240 : 3840);
   options.integrators = {sim::Integrator::symplectic_euler, sim::Integrator::velocity_verlet,
-                         sim::Integrator::rk4};
+                         sim::Integrator::rk4, sim::Integrator::rk8};
   options.finest_error = few ? 1e-4 : 8e-7;
   options.longest_run = few ? 1.0 : 4.0;
   options.flight.free_flight = true;

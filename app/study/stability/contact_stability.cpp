@@ -42,7 +42,7 @@ class RawSteps {
       : surfaces_(at_rest),
         acceleration_(at_rest, surfaces_, sim::box_form_for(at_rest.settings.integrator)),
         integrator_(at_rest.settings.integrator),
-        memory_(surfaces_.vertex_count()),
+        memory_(surfaces_.vertex_count(), integrator_),
         rest_{sim::VertexArray(surfaces_.vertex_count()),
               sim::VertexArray(surfaces_.vertex_count())},
         next_(rest_) {

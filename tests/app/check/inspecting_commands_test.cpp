@@ -83,7 +83,7 @@ TEST(Check, PrintsTheKeysAsJsonToo) {
       "words": null, "range": "k >= 0", "unit": "N/m", "default": 50.0,
       "only_for": "soft bodies without stiffness", "set_by_paper_method": false, "meaning": "spring constant"})"));
   EXPECT_EQ(find("simulation.integrator")["words"],
-            (nlohmann::json{"martin", "symplectic_euler", "velocity_verlet", "rk4",
+            (nlohmann::json{"martin", "symplectic_euler", "velocity_verlet", "rk4", "rk8",
                             "implicit_euler", "sdirk2"}));
   EXPECT_EQ(find("simulation.gravity")["default"], (nlohmann::json{0.0, 0.0, -9.81}));
   EXPECT_EQ(find("ground.present")["default"], true);

@@ -89,7 +89,7 @@ TEST(HingeDamping, AMotionAboutTheRestAngleDiesAwayAsItSays) {
     state.velocities[i] = -rate * along;
   }
   const int periods = 2, steps = 400;
-  ExplicitScratch scratch(4);
+  ExplicitScratch scratch(4, Integrator::rk4);
   VertexArray x(4), v(4);
   for (int i = 0; i < periods * steps; ++i) {
     explicit_step(Integrator::rk4, hinge, period / steps, state, x, v, scratch);

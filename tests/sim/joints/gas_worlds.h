@@ -13,8 +13,8 @@
 namespace pneuma::sim {
 
 inline constexpr std::array all_integrators = {
-    Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet,
-    Integrator::rk4,    Integrator::implicit_euler,   Integrator::sdirk2};
+    Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::rk4,
+    Integrator::rk8,    Integrator::implicit_euler,   Integrator::sdirk2};
 
 inline constexpr double air_pressure = 101325.0;  // Pa
 

@@ -156,8 +156,9 @@ TEST(FreeBoxes, FastTurnsCrossNothing) {
 }
 
 TEST(FreeBoxes, AreTheSameForAnyThreadsAndAfterAResume) {
-  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::sdirk2,
-                                      Integrator::rk4, Integrator::velocity_verlet}) {
+  for (const Integrator integrator :
+       {Integrator::implicit_euler, Integrator::sdirk2, Integrator::rk4, Integrator::rk8,
+        Integrator::velocity_verlet}) {
     World world = falling_pile(integrator, is_implicit(integrator) ? 60 : 480);
     const std::uint64_t expected = state_hash_after(world, 1.0, 1);
     EXPECT_EQ(state_hash_after(world, 1.0, 3), expected);

@@ -196,8 +196,8 @@ TEST(PotentialStep, WhatHasNoRoomEndsAsADivergenceThatNamesIt) {
 }
 
 TEST(PotentialStep, ExplicitStepsThatWouldCrossAreDivided) {
-  for (const Integrator integrator :
-       {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::rk4}) {
+  for (const Integrator integrator : {Integrator::symplectic_euler, Integrator::velocity_verlet,
+                                      Integrator::rk4, Integrator::rk8}) {
     World world = meeting_balls(integrator, 120);
     for (SoftBody& ball : world.soft) ball.velocities.rows() *= 15.0;
     int parts = 0;

@@ -126,7 +126,7 @@ bool grows(const Equation& equation, Integrator integrator, double step) {
   }
   // What is not quite at rest goes to rest on the way: both are followed, and their difference.
   SoftState still = equation.rest;
-  ExplicitScratch memory(count);
+  ExplicitScratch memory(count, integrator);
   VertexArray x(count), v(count);
   const auto size = [&] { return (state.positions.rows() - still.positions.rows()).norm(); };
   const double start = size();
@@ -148,8 +148,9 @@ TEST(WorldVibration, StepsThatAreLongerMakeSmallMotionsGrow) {
     ASSERT_FALSE(run(world, 20.0));
     const Equation equation(world);
     WorldVibration motions(world);
-    for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
-                                        Integrator::velocity_verlet, Integrator::rk4}) {
+    for (const Integrator integrator :
+         {Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet,
+          Integrator::rk4, Integrator::rk8}) {
       const double predicted = stability_limit(motions, integrator).step;
       EXPECT_FALSE(grows(equation, integrator, 0.97 * predicted)) << friction;
       EXPECT_TRUE(grows(equation, integrator, 1.03 * predicted)) << friction;
