@@ -181,14 +181,22 @@ std::string contacts_text(const ContactTally& contacts) {
   return text;
 }
 
+/// Of its volume at the start: a body that keeps its gas is not meant to be pressed to less.
+constexpr double pressed_fraction = 0.1;
+
 std::string volumes_text(const RunStatistics& run) {
   std::string text;
   for (const VolumeRange& range : run.volumes) {
     if (range.is_obstacle) continue;
-    text += named_line(text.empty() ? "volume" : "",
-                       fmt::format("{}: {} to {} m^3, {} at the start, {} at the end", range.body,
-                                   readable(range.least), readable(range.greatest),
-                                   readable(range.start), readable(range.end)));
+    const bool is_pressed = range.keeps_gas && range.least < pressed_fraction * range.start;
+    text += named_line(
+        text.empty() ? "volume" : "",
+        fmt::format("{}: {} to {} m^3, {} at the start, {} at the end{}", range.body,
+                    readable(range.least), readable(range.greatest), readable(range.start),
+                    readable(range.end),
+                    is_pressed ? fmt::format(": PRESSED to {:.2g} %, more gas carries more",
+                                             100.0 * range.least / range.start)
+                               : ""));
   }
   return text;
 }

@@ -100,7 +100,10 @@ class Observer {
     look_for_crossings(start);
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
-      result_.volumes.push_back({body.name, now, now, now, now, 0.0, sim::is_kinematic(body)});
+      const int index = static_cast<int>(result_.volumes.size());
+      const bool keeps_gas = body.material.n > 0.0 && !sim::has_gas_flow(start, index);
+      result_.volumes.push_back(
+          {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas});
       result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
       add_gas(body, result_.gas.back());
     }

@@ -28,6 +28,7 @@ struct VolumeRange {
   double end = 0.0;              // m^3
   double shape_deviation = 0.0;  // at the end (app/record/shape_deviation.h)
   bool is_obstacle = false;      // static or moved: it keeps volume and shape
+  bool keeps_gas = false;        // it has some, which neither comes nor goes
 };
 
 /// What a value does over a run.

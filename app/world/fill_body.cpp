@@ -35,7 +35,9 @@ double pressure_at_rest(const scenes::Scene& scene, const scenes::BodyScene& bod
 sim::SoftMaterial skin_material(const scenes::BodyScene& body, const sim::SoftMesh& mesh) {
   sim::SoftMaterial material = body.material;
   if (body.stiffness) material.k = k_per_stiffness * *body.stiffness;
-  if (body.density) {
+  if (body.skin_mass) {
+    material.vertex_mass = *body.skin_mass / mesh.topology.vertex_count();
+  } else if (body.density) {
     const double area = sim::surface_area(mesh.topology, mesh.rest_positions);
     material.vertex_mass = *body.density * body.thickness * area / mesh.topology.vertex_count();
   }

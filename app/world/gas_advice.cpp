@@ -88,13 +88,18 @@ bool is_limp(const sim::SoftBody& body, double weight) {
   return weight > limp_weight * body.material.k * edge;
 }
 
+/// kg that the gas carries on an area, m^2, in nearly its volume, m^3.
+double carried_mass(const sim::GasLaw& law, double volume, double area, double gravity) {
+  return std::max(0.0, sim::gauge_pressure(law, carried_share * volume)) * area / gravity;
+}
+
 /// Springs are left out: they hold a shape against its gas, and hardly against a weight.
 void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, GasAdvice& advice) {
   const double gravity = -settings.gravity.z();
   if (!settings.ground || gravity <= 0.0) return;
   const sim::GasLaw law = sim::gas_law(body.material);
   const double area = ground_plan(body);
-  advice.weight = body.material.vertex_mass * advice.vertices * gravity;
+  advice.weight = advice.mass * gravity;
   const double needed = law.ambient_pressure + advice.weight / area;
   advice.carrying_pressure =
       std::max(0.0, needed * std::pow(carried_share, law.exponent) - law.ambient_pressure);
@@ -104,9 +109,12 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
   }
   advice.pressed = advice.volume * std::pow(sim::absolute_pressure(law, advice.volume) / needed,
                                             1.0 / law.exponent);
-  advice.light_vertex_mass = body.material.vertex_mass *
-                             sim::gauge_pressure(law, carried_share * advice.volume) * area /
-                             advice.weight;
+  advice.light_mass = carried_mass(law, advice.volume, area, gravity);
+  if (advice.max_held) {
+    sim::SoftMaterial held = body.material;
+    held.n = *advice.max_held;
+    advice.held_mass = carried_mass(sim::gas_law(held), advice.volume, area, gravity);
+  }
   const double pressure = sim::gauge_pressure(law, advice.volume);
   // Beside an ambient pressure gas is not in proportion to what springs hold.
   if (pressure > 0.0 && law.ambient_pressure == 0.0) {
@@ -119,6 +127,7 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   const sim::SoftBody body = most_filled(world, at_start, advice.filled_at);
   advice.body = body.name;
   advice.vertices = body.mesh->topology.vertex_count();
+  advice.mass = body.material.vertex_mass * advice.vertices;
   advice.volume = sim::volume(body.mesh->topology, body.positions);
   advice.left_out = advice.vertices > max_vertices && sim::gas_strength(body.material) > 0.0;
   if (!advice.left_out) advice.settled = settled_volume(body);
@@ -171,10 +180,15 @@ std::string gas_warning(const GasAdvice& advice) {
   if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
   if (advice.filled_at) return grows + "; let its keys give it less, or give it a greater k";
   if (!advice.max_held) return grows + "; inflation = 1.5 alone would make it 1.5 times";
+  const bool carries = !advice.held_mass || *advice.held_mass >= advice.mass;
   return fmt::format(
       "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
-      "springs of k = {:g} N/m hold",
-      grows, base::text_below(*advice.max_held), advice.k);
+      "springs of k = {:g} N/m hold{}",
+      grows, base::text_below(*advice.max_held), advice.k,
+      carries
+          ? ""
+          : fmt::format(", and mass = {} kg, which that carries (now {:.3g} kg), or a greater k",
+                        base::text_below(*advice.held_mass), advice.mass));
 }
 
 std::string weight_warning(const GasAdvice& advice) {
@@ -189,10 +203,9 @@ std::string weight_warning(const GasAdvice& advice) {
       "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; ",
       body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume);
   const std::string lighter =
-      advice.light_vertex_mass > 0.0
-          ? fmt::format("make it lighter, with a vertex_mass of at most {} kg ({} kg in all), or ",
-                        base::text_below(advice.light_vertex_mass),
-                        base::text_below(advice.vertices * advice.light_vertex_mass))
+      advice.light_mass > 0.0
+          ? fmt::format("make it lighter, with a mass of at most {} kg in place of {:.3g} kg, or ",
+                        base::text_below(advice.light_mass), advice.mass)
           : "";
   if (!advice.strengthened || advice.k == 0.0) {
     return fmt::format("{}{}give it gauge_pressure = {:.3g} Pa, and springs that hold that",
@@ -201,7 +214,7 @@ std::string weight_warning(const GasAdvice& advice) {
   const double k = *advice.strengthened * advice.k;
   return fmt::format(
       "{}{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
-      "with n = {:.4g} mol (inflation stays as it is), or with gauge_pressure = {:.3g} Pa",
+      "with n = {:.4g} mol, or gauge_pressure = {:.3g} Pa, or the inflation that it has",
       crushed, lighter, *advice.strengthened, k, k / k_per_stiffness,
       *advice.strengthened * advice.n, advice.carrying_pressure);
 }

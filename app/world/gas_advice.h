@@ -13,11 +13,13 @@ struct GasAdvice {
   std::string body;
   int count = 1;  // of bodies like it
   int vertices = 0;
-  bool left_out = false;           // too many vertices: no more is known than the next
-  double volume = 0.0;             // m^3, at the start
-  std::optional<double> settled;   // m^3 at rest and without weight (settled_volume.h)
-  std::optional<double> max_held;  // mol; of a body blown up: the most that rest = "equilibrium"
-                                   // can hold in its shape; none: it cannot hold it at all
+  bool left_out = false;            // too many vertices: no more is known than the next
+  double volume = 0.0;              // m^3, at the start
+  std::optional<double> settled;    // m^3 at rest and without weight (settled_volume.h)
+  std::optional<double> max_held;   // mol; of a body blown up: the most that rest = "equilibrium"
+                                    // can hold in its shape; none: it cannot hold it at all
+  double mass = 0.0;                // kg in all
+  std::optional<double> held_mass;  // kg in all, that such gas carries; none: any, or no weight
   // s: when keys of supply give it the most gas, with which all of this is; none: at the start.
   std::optional<double> filled_at;
   double k = 0.0;            // N/m, of its springs
@@ -29,7 +31,7 @@ struct GasAdvice {
   // it, or no weight.
   std::optional<double> pressed;
   // What would make that nearly its volume:
-  double light_vertex_mass = 0.0;      // kg
+  double light_mass = 0.0;             // kg in all
   double carrying_pressure = 0.0;      // Pa above the ambient pressure, at the start
   std::optional<double> strengthened;  // times its gas and its springs, which keeps its shape;
                                        // none: its gas does not press, or air does too

@@ -70,9 +70,12 @@ Section body_section(BodyScene& body) {
                              .applies = soft && !body.stiffness,
                              .rivals = {&body.stiffness}};
   const Applicability with_vertex_mass{
-      .only_for = soft ? "soft bodies without density" : "soft bodies",
-      .applies = soft && !body.density,
-      .rivals = {&body.density}};
+      .only_for = soft ? "soft bodies without mass and density" : "soft bodies",
+      .applies = soft && !body.skin_mass && !body.density,
+      .rivals = {&body.skin_mass, &body.density}};
+  const Applicability without_mass{.only_for = soft ? "soft bodies without mass" : "soft bodies",
+                                   .applies = soft && !body.skin_mass,
+                                   .rivals = {&body.skin_mass}};
   const Applicability with_density{"soft bodies with density", soft && body.density};
   const Applicability filled_by_n{
       .only_for = "soft bodies without gauge_pressure, inflation and supply.n",
@@ -86,7 +89,6 @@ Section body_section(BodyScene& body) {
                                soft && !(body.supply_n.empty() && body.supply_temperature.empty())};
   const Applicability leaking{"soft bodies with leak.area", soft && body.leak.area > 0.0};
   const Applicability bending{"soft bodies with bending", soft && body.material.bending > 0.0};
-  const Applicability rigid_bodies{"rigid bodies", rigid};
   const Applicability free_bodies{"soft and rigid bodies", soft || rigid};
   const bool handled = soft && !body.pinned.empty();
   const Applicability moved_bodies{"moved bodies, and soft bodies with pinned,",
@@ -180,8 +182,8 @@ Section body_section(BodyScene& body) {
                           "g of P V^g = constant: 1 isothermal, 1.4 air without heat exchange"})),
           only(with_vertex_mass,
                {"vertex_mass", &material.vertex_mass, above(0), "kg", "per vertex"}),
-          only(soft_bodies, selector({"density", &body.density, above(0), "kg/m^3",
-                                      "of the skin, whatever its mesh; instead of vertex_mass"})),
+          only(without_mass, selector({"density", &body.density, above(0), "kg/m^3",
+                                       "of the skin, whatever its mesh; instead of vertex_mass"})),
           only(with_density,
                {"thickness", &body.thickness, length(), "m", "of the skin, for its mass"}),
           only(soft_bodies,
@@ -191,7 +193,10 @@ Section body_section(BodyScene& body) {
                                        "dashpot: continuous; literal: the paper's"})),
           only(soft_bodies, {"k_max", &material.k_max, above(0), "N/m",
                              "springs of this k or more are damped most"}),
-          only(rigid_bodies, {"mass", &body.mass, above(0), "kg", "of the whole box"}),
+          only(free_bodies,
+               soft ? selector({"mass", &body.skin_mass, above(0), "kg",
+                                "of the whole body; of a soft one instead of vertex_mass"})
+                    : Key{"mass", &body.mass, above(0), "kg", "of the whole box"}),
           only(free_bodies,
                {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"}),
           {"restitution", &surface.restitution, between(0, 1), "",

@@ -77,6 +77,7 @@ struct BodyScene {
 
   Rest rest = Rest::shape;  // soft
   // Of the skin of a soft body, in place of vertex_mass and k: whatever the mesh.
+  std::optional<double> skin_mass;       // kg in all
   std::optional<double> density;         // kg/m^3
   double thickness = 0.001;              // m; means something beside density only
   std::optional<double> stiffness;       // N/m: Young's modulus times thickness

@@ -140,11 +140,11 @@ const std::vector<BrokenScene> unknown_keys = {
 
 const std::vector<BrokenScene> inapplicable_keys = {
     {"k_of_a_rigid_body", rigid("k = 10"), 3, 1, {"k applies to soft bodies only", "a rigid box"}},
-    {"mass_of_a_soft_body",
-     sphere("mass = 1"),
-     2,
+    {"mass_of_a_static_body",
+     sphere("kind = \"static\"\nmass = 1"),
+     3,
      1,
-     {"mass applies to rigid bodies only", "a soft sphere"}},
+     {"mass applies to soft and rigid bodies only", "a static"}},
     {"stacks_of_a_box",
      shaped("box", "stacks = 8"),
      3,

@@ -105,7 +105,13 @@ TEST(JointKeys, ASkinIsGivenPerVertexOrWhateverItsMesh) {
   EXPECT_EQ(scene.bodies[0].thickness, 0.002);
   EXPECT_EQ(scene.bodies[0].stiffness, 300.0);
   expect_round_trip(scene);
+  const Scene heavy = parse_scene("[[body]]\nmass = 7\n", "x.toml");
+  EXPECT_EQ(heavy.bodies[0].skin_mass, 7.0);
+  expect_round_trip(heavy);
   const auto body = [](const std::string& keys) { return refusal("[[body]]\n" + keys); };
+  expect_in(body("mass = 7\nvertex_mass = 1\n"),
+            {"x.toml:3:1", "both vertex_mass and mass (line 2)"});
+  expect_in(body("mass = 7\ndensity = 900\n"), {"x.toml:3:1", "both density and mass (line 2)"});
   expect_in(body("density = 900\nvertex_mass = 1\n"),
             {"x.toml:3:1", "both vertex_mass and density (line 2)"});
   expect_in(body("stiffness = 900\nk = 1\n"), {"x.toml:3:1", "both k and stiffness (line 2)"});

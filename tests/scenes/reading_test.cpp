@@ -245,7 +245,7 @@ TEST(Reading, NoKeyIsLeftOutAbove) {
             std::vector<std::string>({"body.kind", "body.stiffness", "body.bending",
                                       "body.gauge_pressure", "body.inflation", "body.supply.n",
                                       "body.supply.temperature", "body.leak.area", "body.density",
-                                      "body.pinned"}));
+                                      "body.mass", "body.pinned"}));
 }
 
 TEST(Reading, KeysOfTheOtherShapesSetTheirMembers) {

@@ -81,10 +81,10 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   // The line is no part of what a scene says.
   const auto& [place, rest_place, position_place, model_place, pinned_place, still_place, name,
                kind, shape, radius, tube_radius, stacks, slices, subdivisions, divisions, size,
-               model, rest, density, thickness, stiffness, gauge_pressure, inflation, material,
-               supply_n, supply_temperature, supply_smooth, leak, mass, rho_g, surface, position,
-               rotation, velocity, angular_velocity, pinned, motion, still, copies, spacing, jitter,
-               tumble, colours, colour_axis, roughness] = a;
+               model, rest, skin_mass, density, thickness, stiffness, gauge_pressure, inflation,
+               material, supply_n, supply_temperature, supply_smooth, leak, mass, rho_g, surface,
+               position, rotation, velocity, angular_velocity, pinned, motion, still, copies,
+               spacing, jitter, tumble, colours, colour_axis, roughness] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -97,6 +97,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("size", size, b.size);
   compare(c, model, b.model);
   c.member("rest", rest, b.rest);
+  c.member("skin_mass", skin_mass, b.skin_mass);
   c.member("density", density, b.density);
   c.member("thickness", thickness, b.thickness);
   c.member("stiffness", stiffness, b.stiffness);

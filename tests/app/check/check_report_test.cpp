@@ -156,6 +156,21 @@ TEST(RunStatisticsText, SaysAtRestOrNot) {
   EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": not at rest"), std::string::npos);
 }
 
+TEST(RunStatisticsText, SaysWhatWasPressedToNextToNothing) {
+  const auto text = [](bool keeps_gas, double least) {
+    RunStatistics run;
+    VolumeRange& ball = run.volumes.emplace_back();
+    ball.body = "ball";
+    ball.start = 2.0;
+    ball.least = least;
+    ball.keeps_gas = keeps_gas;
+    return run_statistics_text(run, by_impulses(0.5));
+  };
+  EXPECT_NE(text(true, 0.1).find(": PRESSED to 5 %"), std::string::npos);
+  EXPECT_EQ(text(false, 0.1).find("PRESSED"), std::string::npos);  // a balloon that leaks
+  EXPECT_EQ(text(true, 0.3).find("PRESSED"), std::string::npos);
+}
+
 TEST(RunStatisticsText, SaysHowItDiverged) {
   RunStatistics run;
   run.divergence = "ball: the volume is -1 m^3";

@@ -78,6 +78,11 @@ TEST(FillBody, ASkinIsTheSameOnAFinerMesh) {
   EXPECT_NEAR(one / other, 1.0, 0.03);
 }
 
+TEST(FillBody, AMassIsOfAllVertices) {
+  const sim::SoftBody body = world_of("[[body]]\nn = 1\nmass = 7\n").soft.at(0);
+  EXPECT_DOUBLE_EQ(body.material.vertex_mass * body.positions.size(), 7.0);
+}
+
 TEST(FillBody, AnInflationOfOneIsThePressureOutside) {
   EXPECT_EQ(world_of("[[body]]\ninflation = 1\n").soft.at(0).material.n, 0.0);
   const sim::SoftBody body =
