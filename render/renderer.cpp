@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "render/context/context.h"
@@ -14,6 +15,7 @@
 #include "render/passes/ground_shadow.h"
 #include "render/passes/layer.h"
 #include "render/passes/lettering.h"
+#include "render/passes/mesh_marks.h"
 #include "render/passes/outlines.h"
 #include "render/passes/scenery.h"
 #include "render/passes/segments.h"
@@ -93,6 +95,7 @@ struct Renderer::Resources {
   Outlines outlines;
   GroundPlane ground_plane;
   Scenery scenery;
+  MeshMarks mesh_marks;
   Segments segments;
   Discs discs;
   Lettering lettering;
@@ -168,6 +171,9 @@ void Renderer::draw(const Frame& frame, Image& image) {
   // Several samples smooth outlines by themselves.
   if (r.options.samples == 1) r.outlines.draw(view, r.surface, r.drawn, shadow);
   if (frame.wireframe) r.segments.draw_wireframe(view, frame.meshes);
+  const bool marks = std::ranges::any_of(
+      frame.lines, [](const Line& line) { return line.always_visible && line.through; });
+  if (marks) r.mesh_marks.draw(view, r.surface, r.surface_buffers);
   r.segments.draw_lines(view, frame.lines);
   r.discs.draw(view, frame.points);
   r.layer.end();

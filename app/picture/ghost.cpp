@@ -28,14 +28,15 @@ Eigen::Isometry3d pose_of(const sim::SoftBody& body) {
 
 void add_ghosts(const sim::World& world, render::Frame& frame) {
   const render::Colour ink = {1.0f, 1.0f, 1.0f};
-  for (const sim::SoftBody& body : world.soft) {
+  for (std::uint32_t i = 0; i < world.soft.size(); ++i) {
+    const sim::SoftBody& body = world.soft[i];
     const Eigen::Isometry3d pose = pose_of(body);
     std::vector<render::Vec3f> places;
     for (int v = 0; v < body.mesh->rest_positions.size(); ++v) {
       places.emplace_back((pose * Vec3(body.mesh->rest_positions[v])).cast<float>());
     }
     for (const auto& [a, b] : body.mesh->topology.edges()) {
-      frame.lines.push_back({places[sim::at(a)], places[sim::at(b)], ink, 1.0f, true});
+      frame.lines.push_back({places[sim::at(a)], places[sim::at(b)], ink, 1.0f, true, i});
     }
   }
 }

@@ -12,7 +12,8 @@ namespace pneuma::app {
 /// the sum of squares (Kabsch 1976; Umeyama 1991, eq. 40 without a scale).
 Eigen::Isometry3d pose_of(const sim::SoftBody& body);
 
-/// Seen also through the bodies.
+/// Each is seen also through its body, but not through others that stand before it. The frame's
+/// first meshes are the soft bodies.
 void add_ghosts(const sim::World& world, render::Frame& frame);
 
 }  // namespace pneuma::app

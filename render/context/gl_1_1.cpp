@@ -115,6 +115,14 @@ void GLAPIENTRY glScissor(GLint x, GLint y, GLsizei width, GLsizei height) {
   static const auto function = load<decltype(glScissor)>("glScissor");
   function(x, y, width, height);
 }
+void GLAPIENTRY glStencilFunc(GLenum func, GLint ref, GLuint mask) {
+  static const auto function = load<decltype(glStencilFunc)>("glStencilFunc");
+  function(func, ref, mask);
+}
+void GLAPIENTRY glStencilOp(GLenum fail, GLenum zfail, GLenum zpass) {
+  static const auto function = load<decltype(glStencilOp)>("glStencilOp");
+  function(fail, zfail, zpass);
+}
 void GLAPIENTRY glTexImage2D(GLenum target, GLint level, GLint internalformat, GLsizei width,
                              GLsizei height, GLint border, GLenum format, GLenum type,
                              const void* pixels) {

@@ -137,6 +137,9 @@ void check_frame(const Frame& frame) {
             to_text(line.to));
     require(line.width > 0.0f && std::isfinite(line.width),
             "line {}: the width is {}; it must be positive", i, line.width);
+    require(!line.through || *line.through < frame.meshes.size(),
+            "line {} shines through mesh {}, but there are {} meshes", i, line.through.value_or(0),
+            frame.meshes.size());
   }
   for (const Label& label : frame.labels) {
     require(drawable(label.position), "label '{}': the position is {}; it must be finite",

@@ -69,6 +69,9 @@ struct Line {
   Colour colour;
   float width = 1.5f;           // pixels at 480 lines
   bool always_visible = false;  // also drawn, faintly, over what hides it
+  // The number of the only mesh, beside the ground, that an always visible line shines through.
+  // None: every mesh.
+  std::optional<std::uint32_t> through = std::nullopt;
 };
 
 /// Lines of text in the lower left corner.

@@ -103,7 +103,7 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   for (const Mesh& mesh : frame.meshes) {
     const std::size_t first = triangles_.size();
     mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
-    meshes_.push_back({middle_depth(mesh, view), first, triangles_.size()});
+    meshes_.push_back({middle_depth(mesh, view), {first, triangles_.size()}, meshes_.size()});
   }
   order_triangles(view);
   find_seen(view.eye);
@@ -130,12 +130,22 @@ void DrawnSurface::order_triangles(const View& view) {
   std::ranges::stable_sort(meshes_, {}, &MeshTriangles::depth);
   sunward_.clear();
   averted_.clear();
+  parts_.resize(meshes_.size());
   for (const MeshTriangles& mesh : meshes_) {
-    for (std::size_t i = mesh.first; i < mesh.end; ++i) {
+    auto& [sunward, averted] = parts_[mesh.mesh];
+    sunward.first = sunward_.size();
+    averted.first = averted_.size();
+    for (std::size_t i = mesh.range.first; i < mesh.range.end; ++i) {
       (is_sunward(triangles_[i]) ? sunward_ : averted_).push_back(triangles_[i]);
     }
+    sunward.end = sunward_.size();
+    averted.end = averted_.size();
   }
   sunward_count_ = sunward_.size();
+  for (auto& [sunward, averted] : parts_) {
+    averted.first += sunward_count_;
+    averted.end += sunward_count_;
+  }
   std::ranges::copy(averted_, std::ranges::copy(sunward_, triangles_.begin()).out);
 }
 

@@ -32,6 +32,11 @@ struct LitMesh {
   std::size_t count = 0;
 };
 
+struct TriangleRange {
+  std::size_t first = 0;
+  std::size_t end = 0;  // the one after the last
+};
+
 /// Keeps what follows from a mesh's shape alone.
 class DrawnSurface {
  public:
@@ -50,6 +55,9 @@ class DrawnSurface {
   /// those of the nearest mesh, which hide others before these are shaded.
   const std::vector<Triangle>& triangles() const { return triangles_; }
   std::size_t sunward_count() const { return sunward_count_; }
+  std::size_t mesh_count() const { return parts_.size(); }
+  /// The triangles of one of the frame's meshes: those that the sun may reach, and the others.
+  const std::array<TriangleRange, 2>& triangles_of(std::size_t mesh) const { return parts_[mesh]; }
   /// Per drawn vertex the first of its mesh at the same point: itself where the mesh is smooth.
   const std::vector<std::uint32_t>& places() const { return places_; }
 
@@ -68,8 +76,8 @@ class DrawnSurface {
   };
   struct MeshTriangles {
     float depth;  // m before the eye, of the mesh's middle
-    std::size_t first;
-    std::size_t end;
+    TriangleRange range;
+    std::size_t mesh;  // of the frame
   };
   using Key = std::weak_ptr<const MeshShape>;
 
@@ -94,6 +102,7 @@ class DrawnSurface {
   std::vector<Triangle> triangles_;
   std::size_t sunward_count_ = 0;
   std::vector<MeshTriangles> meshes_;
+  std::vector<std::array<TriangleRange, 2>> parts_;  // per mesh
   std::vector<Triangle> sunward_, averted_;
   std::vector<std::uint32_t> places_;
 };

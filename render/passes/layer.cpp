@@ -38,11 +38,12 @@ Layer::Samples::Samples(int width, int height, int samples)
   glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, colour.name());
   glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, GL_RGBA8, width, height, GL_TRUE);
   glBindRenderbuffer(GL_RENDERBUFFER, depth.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width, height);
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH24_STENCIL8, width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D_MULTISAMPLE,
                          colour.name(), 0);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth.name());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                            depth.name());
   check_framebuffer();
   average.program().use();
   set_uniform(average.program().uniform("layer"), 0);
@@ -71,7 +72,7 @@ Layer::~Layer() = default;
 
 void Layer::begin(const Frame& frame, const View& view, std::span<const SurfaceVertex> surface) {
   glDepthMask(GL_TRUE);
-  if (!samples_) return glClear(GL_DEPTH_BUFFER_BIT);
+  if (!samples_) return glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   const Region region = region_of_bodies(frame, view, surface);
   glBindFramebuffer(GL_FRAMEBUFFER, samples_->framebuffer.name());
   glScissor(region.x, region.y, region.width, region.height);
@@ -80,7 +81,7 @@ void Layer::begin(const Frame& frame, const View& view, std::span<const SurfaceV
   const bool part = 3 * region.width * region.height < target_.width() * target_.height();
   if (part) glEnable(GL_SCISSOR_TEST);
   glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glEnable(GL_SCISSOR_TEST);
 }
 

@@ -1,7 +1,9 @@
 #include "render/passes/segments.h"
 
 #include <cstddef>
+#include <map>
 
+#include "render/passes/mesh_marks.h"
 #include "render/passes/shader_sources.h"
 
 namespace pneuma::render {
@@ -59,6 +61,8 @@ void main() {
 }
 )";
 
+constexpr float faint = 0.4f;  // opacity
+
 }  // namespace
 
 Segments::Segments()
@@ -69,18 +73,38 @@ Segments::Segments()
               {1, offsetof(Instance, width)}}),
       near_(quads_.program().uniform("near")) {}
 
+void Segments::add(const View& view, const Line& line) {
+  instances_.push_back({line.from, line.to, line.colour, line.width * view.pixel_scale});
+}
+
 void Segments::draw_lines(const View& view, const std::vector<Line>& lines) {
-  const auto collect = [&](bool hidden) {
-    instances_.clear();
-    for (const Line& line : lines) {
-      if (hidden && !line.always_visible) continue;
-      instances_.push_back({line.from, line.to, line.colour, line.width * view.pixel_scale});
-    }
-  };
-  collect(true);
-  draw(view, GL_GEQUAL, 0.4f);
-  collect(false);
+  instances_.clear();
+  for (const Line& line : lines) {
+    if (line.always_visible && !line.through) add(view, line);
+  }
+  draw(view, GL_GEQUAL, faint);
+  draw_through(view, lines);
+  instances_.clear();
+  for (const Line& line : lines) add(view, line);
   draw(view, GL_LESS, 1.0f);
+}
+
+void Segments::draw_through(const View& view, const std::vector<Line>& lines) {
+  std::map<std::uint32_t, std::vector<const Line*>> by_mesh;
+  for (const Line& line : lines) {
+    if (line.always_visible && line.through) by_mesh[*line.through].push_back(&line);
+  }
+  if (by_mesh.empty()) return;
+  glEnable(GL_STENCIL_TEST);
+  for (const auto& [mesh, own] : by_mesh) {
+    instances_.clear();
+    for (const Line* line : own) add(view, *line);
+    for (const GLint mark : {MeshMarks::none, MeshMarks::of(mesh)}) {
+      glStencilFunc(GL_EQUAL, mark, 0xff);
+      draw(view, GL_GEQUAL, faint);
+    }
+  }
+  glDisable(GL_STENCIL_TEST);
 }
 
 void Segments::draw_wireframe(const View& view, const std::vector<Mesh>& meshes) {

@@ -12,7 +12,7 @@ class Segments {
  public:
   Segments();
 
-  /// The frame's own lines.
+  /// The frame's own lines. Those that shine through one mesh need the marks (mesh_marks.h).
   void draw_lines(const View& view, const std::vector<Line>& lines);
 
   /// The meshes' edges, over the surfaces.
@@ -26,6 +26,9 @@ class Segments {
     float width;  // pixels
   };
 
+  /// Those that shine through one mesh, over it and the ground.
+  void draw_through(const View& view, const std::vector<Line>& lines);
+  void add(const View& view, const Line& line);
   void draw(const View& view, GLenum depth_test, float opacity);
 
   std::vector<Instance> instances_;

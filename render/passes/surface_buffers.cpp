@@ -48,6 +48,10 @@ void SurfaceBuffers::draw_sunward() const { draw(0, sunward_count_); }
 
 void SurfaceBuffers::draw_averted() const { draw(sunward_count_, index_count_ - sunward_count_); }
 
+void SurfaceBuffers::draw(const TriangleRange& range) const {
+  draw(static_cast<GLsizei>(3 * range.first), static_cast<GLsizei>(3 * (range.end - range.first)));
+}
+
 void SurfaceBuffers::draw(GLsizei first_index, GLsizei count) const {
   if (count == 0) return;
   glBindVertexArray(vao_.name());

@@ -22,6 +22,7 @@ class SurfaceBuffers {
   void draw() const;
   void draw_sunward() const;
   void draw_averted() const;
+  void draw(const TriangleRange& range) const;
 
  private:
   void draw(GLsizei first_index, GLsizei count) const;

@@ -38,8 +38,9 @@ Target::Target(int width, int height)
 void Target::add_depth() {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glBindRenderbuffer(GL_RENDERBUFFER, depth_.name());
-  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width_, height_);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_.name());
+  glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, width_, height_);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
+                            depth_.name());
   check_framebuffer();
 }
 

@@ -76,6 +76,7 @@ const std::vector<BadCase> bad_cases = {
     {"point_size", "diameter", [](Frame& f) { f.points[0].diameter = not_a_number; }},
     {"line", "line 0", [](Frame& f) { f.lines[0].to.z() = infinity; }},
     {"line_width", "width", [](Frame& f) { f.lines[0].width = 0.0f; }},
+    {"line_through", "shines through mesh 9", [](Frame& f) { f.lines[0].through = 9; }},
 };
 
 void PrintTo(const BadCase& bad, std::ostream* out) { *out << bad.name; }

@@ -108,6 +108,42 @@ TEST(Lines, GoFromEndToEnd) {
   EXPECT_NEAR(right, seen_at(frame.camera, {1.5f, 0, 0.5f}, 320, 240).x(), 2.0);
 }
 
+TEST(Lines, ThatShineThroughOneMeshAreHiddenByOthers) {
+  Frame frame = empty_frame();
+  // The box stands before the right half of the ball.
+  frame.meshes = {make_ball({0, 0, 0}, 1.0f, {0.2f, 0.6f, 0.2f}),
+                  make_box({0.5f, -3, 0}, {1, 1, 1}, {0.2f, 0.2f, 0.6f})};
+  const Line line = {{-2, 3, 0}, {0.8f, 3, 0}, magenta, 6.0f, true};
+  const Vec3f beside = {-1.8f, 3, 0}, behind_ball = {-0.4f, 3, 0}, behind_both = {0.4f, 3, 0};
+  for (const int samples : {1, 4}) {
+    frame.lines.clear();
+    const Image bare = draw_once(frame, small_picture(samples));
+    const auto is_changed = [&](const Vec3f& point) {
+      const Image image = draw_once(frame, small_picture(samples));
+      return pixel_of(image, frame.camera, point) != pixel_of(bare, frame.camera, point);
+    };
+    frame.lines = {line};
+    for (const Vec3f& point : {beside, behind_ball, behind_both}) EXPECT_TRUE(is_changed(point));
+    frame.lines[0].through = 0;
+    EXPECT_TRUE(is_changed(beside));
+    EXPECT_TRUE(is_changed(behind_ball));
+    EXPECT_FALSE(is_changed(behind_both));
+    frame.lines[0].through = 1;
+    EXPECT_FALSE(is_changed(behind_ball));
+    EXPECT_TRUE(is_changed(behind_both));
+  }
+}
+
+TEST(Lines, ThatShineThroughOneMeshShineThroughTheGround) {
+  Frame frame;
+  frame.light.shadows = false;
+  frame.meshes = {make_ball({0, 0, 5}, 1.0f, {0.2f, 0.6f, 0.2f})};
+  const Image bare = draw_once(frame, small_picture());
+  frame.lines = {{{-1, 0, -1}, {1, 0, -1}, magenta, 6.0f, true, 0}};
+  const Image image = draw_once(frame, small_picture());
+  EXPECT_NE(pixel_of(image, frame.camera, {0, 0, -1}), pixel_of(bare, frame.camera, {0, 0, -1}));
+}
+
 TEST(Lines, FromBehindTheEyeAreCutOff) {
   Frame frame = empty_frame();
   const Image empty = draw_once(frame, small_picture());

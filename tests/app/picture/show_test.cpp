@@ -258,6 +258,7 @@ TEST(Ghost, IsDrawnAsTheEdgesOfTheRestShape) {
   const auto& edges = made.world.soft[0].mesh->topology.edges();
   ASSERT_EQ(frame.lines.size(), edges.size());
   EXPECT_TRUE(frame.lines.front().always_visible);
+  EXPECT_EQ(frame.lines.front().through, 0u) << "and no box before it";
   // At the start the body is its rest shape; single precision.
   const render::Vec3f from = Vec3(made.world.soft[0].positions[edges[0][0]]).cast<float>();
   EXPECT_LT((frame.lines.front().from - from).norm(), 1e-5f);
