@@ -23,6 +23,7 @@
 #include "app/render/turntable.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
+#include "app/world/find_model.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -185,6 +186,14 @@ void make_video(const RunFolder& folder, const Frames& frames, int frames_per_se
   }
 }
 
+/// As a scene file in the run's folder.
+void name_model_from(const RunFolder& folder, scenes::Scene& scene) {
+  for (scenes::BodyScene& body : scene.bodies) {
+    body.model.file = model_name_from(folder.path(), body.model.file);
+  }
+  scene.folder = folder.path();
+}
+
 /// What was chosen for a model does not replace a scene of the user's own, or one that he has
 /// edited. Before the run, which may take long.
 void check_kept_scene(const scenes::Scene& scene, const RunFolder& folder, ExistingRun existing) {
@@ -258,11 +267,13 @@ ExitCode make_more(const RenderRequest& request, const scenes::Scene& scene,
 
 ExitCode render_scene(const RenderRequest& request) {
   Progress progress(progress_style(request.quiet));
-  const auto [scene, choice] =
+  auto [scene, choice] =
       open_scene(request.scene, request.overrides, request.model, request.accuracy);
   if (!choice.empty()) progress.say(choice);
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);
+  const bool is_model = assets::has_model_ending(request.scene);
+  if (is_model) name_model_from(folder, scene);
   try {
     if (!request.video.empty()) check_video(scene, request.video, progress);
     if (request.turntable > 0) {
@@ -271,7 +282,6 @@ ExitCode render_scene(const RenderRequest& request) {
       fmt::print("{}\n", pictures.path().string());
       return make_more(request, scene, pictures, {0, request.turntable - 1});
     }
-    const bool is_model = assets::has_model_ending(request.scene);
     if (is_model) check_kept_scene(scene, folder, request.existing);
     make_frames(request, scene, frames, folder, progress);
     if (is_model) keep_scene(scene, folder, request.existing);

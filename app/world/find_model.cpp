@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "app/world/refuse_body.h"
 #include "assets/load_model.h"
 #include "assets/model_file.h"
+#include "scenes/loader/text_checks.h"
 #include "sim/base/nearest.h"
 
 namespace pneuma::app {
@@ -70,11 +73,32 @@ fs::path find_model(const std::string& file, const fs::path& scene_folder) {
     std::error_code ignored;
     const fs::path candidate = folder / path;
     if (fs::exists(candidate, ignored)) return candidate;
+    // The folder that a scene is to be kept in may be missing yet.
+    const fs::path without_folder = fs::weakly_canonical(candidate, ignored);
+    if (fs::exists(without_folder, ignored)) return without_folder;
     searched.push_back(candidate.string());
   }
   throw assets::ModelError(fmt::format("{}: no such model file; looked for {}{}", file,
                                        fmt::join(searched, ", "),
                                        near_name(path.filename().string(), folders)));
+}
+
+std::string model_name_from(const fs::path& folder, const fs::path& model) {
+  if (model.is_relative()) return model.string();
+  constexpr std::ptrdiff_t max_climb = 2;
+  // Links are followed, but not the model's own: ".." leaves the folder that a link leads to.
+  std::error_code unreadable;  // then a path is empty, and nothing relative to it
+  fs::path from = fs::weakly_canonical(fs::absolute(folder), unreadable);
+  if (!from.has_filename()) from = from.parent_path();  // "out/"
+  const fs::path place = fs::weakly_canonical(model.parent_path(), unreadable);
+  const fs::path relative = (place / model.filename()).lexically_relative(from);
+  const std::ptrdiff_t climb = std::ranges::count(relative, fs::path(".."));
+  const fs::path below_root = from.relative_path();
+  const bool is_near =
+      climb <= max_climb && climb < std::distance(below_root.begin(), below_root.end());
+  if (relative.empty() || !is_near) return model.string();
+  // A folder that a link leads to may have a name that scene files cannot say.
+  return scenes::check_file(relative.string()).empty() ? relative.string() : model.string();
 }
 
 namespace {

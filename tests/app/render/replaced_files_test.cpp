@@ -84,5 +84,25 @@ TEST_F(ReplacedFiles, DoesNotReplaceASceneBesideAModelUnasked) {
   EXPECT_EQ(read_text(kept), chosen + "# edited\n");
 }
 
+TEST_F(ReplacedFiles, KeepsASceneThatMovesWithItsModel) {
+  const fs::path project = folder_ / "project", moved = folder_ / "moved";
+  fs::create_directories(project / "models");
+  write_text(project / "models" / "tetrahedron.obj",
+             "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  const auto render_in = [](const fs::path& folder, const std::string& arguments) {
+    return run_pneuma("render " + arguments + " --frames 1 --size 64x48 2>&1",
+                      "cd '" + folder.string() + "' &&");
+  };
+  EXPECT_EQ(render_in(project, "models/tetrahedron.obj").exit_code, 0);
+  const std::string kept = "out/tetrahedron/tetrahedron.toml";
+  EXPECT_NE(read_text(project / kept).find("\"../../models/tetrahedron.obj\""), std::string::npos)
+      << read_text(project / kept);
+  fs::rename(project, moved);
+  const ProgramResult again = render_in(moved, kept + " --resume");
+  EXPECT_EQ(again.exit_code, 0) << "and it is the scene of the run: " << again.output;
+  EXPECT_EQ(render_in(moved, "models/tetrahedron.obj --resume").exit_code, 0);
+  EXPECT_EQ(render_in(moved, "models/tetrahedron.obj --out beside").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace pneuma

@@ -10,6 +10,7 @@
 #include "app/host/errors.h"
 #include "app/record/shape_deviation.h"
 #include "app/world/build_world.h"
+#include "app/world/find_model.h"
 #include "app/world/model_scene.h"
 #include "app/world/settled_volume.h"
 #include "assets/model.h"
@@ -236,6 +237,30 @@ TEST_F(OpenSceneFile, SaysAllErrorsAtOnceAlsoThoseOfModels) {
   EXPECT_EQ(errors("[[body]]\nshape = \"model\"\nmodel.file = \"none.obj\"\n"
                    "model.scale = -1\n"),
             (std::vector<int>{4}));
+}
+
+TEST(ModelNameFrom, IsShortWhereTheModelIsNear) {
+  const TemporaryFolder folder;
+  const std::filesystem::path scene = folder.path() / "run" / "out" / "cat";
+  const auto name = [&](const std::filesystem::path& model) {
+    return model_name_from(scene, model);
+  };
+  EXPECT_EQ(name(scene / "cat.ply"), "cat.ply");
+  EXPECT_EQ(name(scene / "models" / "cat.ply"), "models/cat.ply");
+  EXPECT_EQ(name(folder.path() / "run" / "cat.ply"), "../../cat.ply");
+  EXPECT_EQ(name(folder.path() / "cat.ply"), (folder.path() / "cat.ply").string());
+  EXPECT_EQ(name("/usr/share/cat.ply"), "/usr/share/cat.ply");
+  EXPECT_EQ(model_name_from(scene / "", scene / "cat.ply"), "cat.ply");
+  EXPECT_EQ(model_name_from("/pneuma-none", "/usr/cat.ply"), "/usr/cat.ply");
+}
+
+TEST(ModelNameFrom, FollowsLinks) {
+  const TemporaryFolder folder;
+  const std::filesystem::path far = folder.path() / "a" / "b" / "c", link = folder.path() / "out";
+  std::filesystem::create_directories(far);
+  std::filesystem::create_directory_symlink(far, link);
+  EXPECT_EQ(model_name_from(link, folder.path() / "a" / "cat.ply"), "../../cat.ply");
+  EXPECT_EQ(model_name_from(link, folder.path() / "cat.ply"), (folder.path() / "cat.ply").string());
 }
 
 TEST_F(OpenSceneFile, KeepsTheStepWhereDampingIsByIt) {
