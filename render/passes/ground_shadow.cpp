@@ -18,8 +18,11 @@ constexpr std::size_t texels = static_cast<std::size_t>(size) * size;
 // What is seen of the sky changes slowly over the ground: one point for so many texels a side.
 constexpr int texels_per_point = 4;
 constexpr int points = size / texels_per_point;
-constexpr int contact_size = size / 2;  // texels on a side of what is blurred widely
-constexpr int block = 8;                // points on a side that are lit together
+constexpr int texels_per_contact = 2;
+constexpr int contact_size = size / texels_per_contact;  // texels on a side
+// Texels between the weights of a blur: crisper, a slanted edge would show the texels as steps.
+constexpr float least_step = 0.4f;
+constexpr int block = 8;  // points on a side that are lit together
 static_assert(points % block == 0 && block * block <= Receivers::most);
 
 /// Depth of the ground z = 0 over the map's coordinates: dot(result, (u, v, 1)). In those
@@ -62,19 +65,22 @@ std::uint8_t byte_of(float left) {
 /// The green channel, close to the luminance.
 constexpr int green = 1;
 
-/// The two points around a texel.
+/// The two around a texel of what there is one for so many texels a side.
 struct Between {
   int first;
   float rest;  // of the way to the next
 
-  explicit Between(int texel) {
-    const float at = std::clamp((static_cast<float>(texel) + 0.5f) / texels_per_point - 0.5f, 0.0f,
-                                static_cast<float>(points) - 1.001f);
+  Between(int texel, int texels_for_one) {
+    const int count = size / texels_for_one;
+    const float at =
+        std::clamp((static_cast<float>(texel) + 0.5f) / static_cast<float>(texels_for_one) - 0.5f,
+                   0.0f, static_cast<float>(count) - 1.001f);
     first = static_cast<int>(at);
     rest = at - static_cast<float>(first);
   }
 
-  Eigen::Array4f mix(const Eigen::Array4f& a, const Eigen::Array4f& b) const {
+  template <typename Value>
+  Value mix(const Value& a, const Value& b) const {
     return a + rest * (b - a);
   }
 };
@@ -119,8 +125,8 @@ void GroundShadow::draw(const ShadowMap& map, const ShadowDepths& depths, const 
   texel_ = map.extent() / inner;
   measure_cover(map, depths);
   // Nine weights spread over two and a half steps to each side, to the eye.
-  const float wide_step = 0.4f * map.edge() * inner;
-  const float narrow_step = std::min(0.5f * wide_step, 1.0f);
+  const float wide_step = std::max(0.4f * map.edge() * inner, least_step);
+  const float narrow_step = std::clamp(0.5f * wide_step, least_step, 1.0f);
   blur(cover_, narrow_step, size);
   blur(soft_cover_, narrow_step, size);
   narrow_ = cover_;
@@ -244,8 +250,18 @@ void GroundShadow::measure_contact(const DrawnSurface& surface) {
 void GroundShadow::add_up() {
   const Eigen::Array4f sun = GroundLight(to_light_).sun;
   std::array<Eigen::Array4f, points> ambient;  // of a row
+  std::array<float, contact_size> contact;     // likewise
+  std::vector<Between> columns_of_points, columns_of_contact;
+  for (int x = 0; x < size; ++x) {
+    columns_of_points.emplace_back(x, texels_per_point);
+    columns_of_contact.emplace_back(x, texels_per_contact);
+  }
   for (int y = 0; y < size; ++y) {
-    const Between rows(y);
+    const Between rows(y, texels_per_point), contact_rows(y, texels_per_contact);
+    const float* touching = contact_.data() + contact_rows.first * contact_size;
+    for (int i = 0; i < contact_size; ++i)
+      contact[static_cast<std::size_t>(i)] =
+          contact_rows.mix(touching[i], touching[contact_size + i]);
     const Eigen::Array4f* at = ambient_.data() + rows.first * points;
     for (int i = 0; i < points; ++i)
       ambient[static_cast<std::size_t>(i)] = rows.mix(at[i], at[points + i]);
@@ -254,8 +270,10 @@ void GroundShadow::add_up() {
       const float softness = soft_cover_[i] / std::max(cover_[i], 0.004f);
       const float blocked =
           std::clamp(narrow_[i] + (cover_[i] - narrow_[i]) * softness, 0.0f, 1.0f);
-      const float open = 1.0f - contact_[static_cast<std::size_t>(y / 2 * contact_size + x / 2)];
-      const Between columns(x);
+      const Between& columns = columns_of_points[static_cast<std::size_t>(x)];
+      const Between& contact_columns = columns_of_contact[static_cast<std::size_t>(x)];
+      const auto near = static_cast<std::size_t>(contact_columns.first);
+      const float open = 1.0f - contact_columns.mix(contact[near], contact[near + 1]);
       const auto first = static_cast<std::size_t>(columns.first);
       const Eigen::Array4f of_sky = columns.mix(ambient[first], ambient[first + 1]);
       const Eigen::Array4f of_sun = (1.0f - blocked) * sun;

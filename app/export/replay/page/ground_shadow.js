@@ -7,6 +7,7 @@ const groundInner = groundSize - 2 * groundMargin;  // the shadow map's
 const groundLevels = Math.floor(Math.log2(groundSize)) + 1;  // each of half as many texels a side
 const ambientSize = groundSize / 4;
 const contactSize = groundSize / 2;
+const leastStep = 0.4;  // texels between the weights of a blur
 const groundFading = 0.5;  // widths of the picture over which its border's darkness falls to none beyond it
 
 // Red: how much of the light is blocked. Green: that times how soft the shadow is to be.
@@ -91,7 +92,7 @@ out vec4 result;
 void main() {
   vec4 w = texture(wide, at);
   float blocked = clamp(mix(texture(narrow, at).r, w.r, w.g / max(w.r, 0.004)), 0.0, 1.0);
-  float open = 1.0 - texelFetch(contact, ivec2(gl_FragCoord.xy) / 2, 0).r;
+  float open = 1.0 - texture(contact, at).r;
   vec3 direct = sun * light_z;
   vec3 sky_part = sky_irradiance(1.0) / (sky_irradiance(1.0) + direct);
   vec3 of_sky = sky_part * texture(ambient, at).rgb;
@@ -181,8 +182,8 @@ class GroundShadow {
     const ground = [-normal[0] / normal[2], -normal[1] / normal[2], dot(normal, map.offset) / normal[2]];
     this.raw.begin();
     this.cover.draw({ ground, softness: map.range / (0.35 * map.extent) }, { depths: map.depth });
-    const wide = 0.4 * map.edge * groundInner;
-    this.blurInto(this.narrow, this.raw, this.between, Math.min(0.5 * wide, 1));
+    const wide = Math.max(0.4 * map.edge * groundInner, leastStep);
+    this.blurInto(this.narrow, this.raw, this.between, Math.min(Math.max(0.5 * wide, leastStep), 1));
     this.blurInto(this.wide, this.narrow, this.between, wide);
   }
 
