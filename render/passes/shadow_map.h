@@ -20,7 +20,8 @@ struct ShadowDepths {
 
 /// Depth of the meshes' far sides as the light sees them. Storing far sides rather than near ones
 /// leaves the whole thickness of a body between a lit surface and the stored depth, so that there
-/// is neither acne nor a bias that would lift a shadow off its body.
+/// is no acne, nor a bias that would lift a shadow off its body by more than a texel or so: edges
+/// and bodies without gas have no thickness.
 class ShadowMap {
  public:
   explicit ShadowMap(int size);

@@ -83,14 +83,25 @@ float left_by_box(vec4 at) {
 #ifdef SHADOWED
 in vec3 in_map;
 uniform sampler2DShadow map;
-uniform float edge;  // in the map's coordinates
+uniform mat4 world_to_map;
+uniform float edge;       // in the map's coordinates
+uniform float texel;      // likewise
+uniform vec3 lean_scale;  // see SurfaceUniforms
 
-// Three reads of two by two texels each, on a triangle turned so that no two share a row.
-float lit_share() {
-  vec3 a = vec3(0.97, 0.26, 0.0) * edge;
-  vec3 b = vec3(-0.71, 0.71, 0.0) * edge;
-  return (texture(map, in_map + a) + texture(map, in_map + b) + texture(map, in_map - a - b)) *
-         (1.0 / 3.0);
+// Three reads of two by two texels each, on a triangle turned so that no two share a row. The facet
+// has another depth there: where it meets the far side, which is in the map, that is no deeper.
+float lit_share(vec3 facet) {
+  vec3 turned = mat3(world_to_map) * facet;
+  // How fast its depth changes over the map.
+  vec2 lean = turned.xy * (lean_scale.x / max(-turned.z, lean_scale.y));
+  // A read mixes texels that lie up to one away. Both sides of a body that has collapsed lie in
+  // each other: half a texel lets the sun through.
+  vec3 at = in_map - vec3(0.0, 0.0, (abs(lean.x) + abs(lean.y) + lean_scale.z) * texel);
+  vec2 first = vec2(0.97, 0.26) * edge;
+  vec2 second = vec2(-0.71, 0.71) * edge;
+  vec3 a = vec3(first, dot(first, lean));
+  vec3 b = vec3(second, dot(second, lean));
+  return (texture(map, at + a) + texture(map, at + b) + texture(map, at - a - b)) * (1.0 / 3.0);
 }
 #endif
 
@@ -114,7 +125,7 @@ void main() {
   float vh = (1.0 + el) * over_length;
   float lit = nl;
 #ifdef SHADOWED
-  lit *= lit_share();
+  lit *= lit_share(facet);
 #endif
   float roughness = surface.a;
 #ifdef NEAR_BOXES
@@ -153,6 +164,8 @@ SurfaceUniforms::SurfaceUniforms(const Program& program, bool shadowed)
   if (!shadowed) return;
   world_to_map = program.uniform("world_to_map");
   edge = program.uniform("edge");
+  texel = program.uniform("texel");
+  lean_scale = program.uniform("lean_scale");
   program.use();
   set_uniform(program.uniform("map"), 0);
 }
@@ -167,6 +180,12 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
   // A body's shadow on another falls from near by and is crisper than one on the ground. Further
   // apart than this, the three reads would be seen one by one.
   set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
+  set_uniform(texel, shadow->texel());
+  // A normal is scaled the other way than the axes. Light that comes along a facet more than ten to
+  // one hardly lights it.
+  const float steepness = shadow->extent() / shadow->depth_range();
+  set_uniform(lean_scale,
+              Vec3f(steepness * steepness, 0.1f / shadow->depth_range(), 0.5f * steepness));
 }
 
 Surfaces::Variant::Variant(bool shadowed, bool near_boxes)

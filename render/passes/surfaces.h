@@ -17,6 +17,10 @@ struct SurfaceUniforms {
   GLint to_light;
   GLint world_to_map = -1;
   GLint edge = -1;
+  GLint texel = -1;
+  // In the map: from a facet's normal to how it leans; the least that its normal is taken to turn
+  // to the light; how many texels' widths the light goes through.
+  GLint lean_scale = -1;
 };
 
 class Surfaces {

@@ -173,7 +173,9 @@ class Picture {
     const values = { view_projection: view.viewProjection, eye: view.eye, to_light: this.toLight };
     if (map) {
       bindTexture(gl, 0, map.depth, map.comparing);
-      Object.assign(values, { map: 0, world_to_map: map.worldToMap, edge: Math.min(0.5 * map.edge, 2.2 / shadowSize) });
+      Object.assign(values, {
+        map: 0, world_to_map: map.worldToMap, edge: Math.min(0.5 * map.edge, 2.2 / shadowSize), texel: 1 / shadowSize,
+        lean_scale: [(map.extent / map.range) ** 2, 0.1 / map.range, 0.5 * map.extent / map.range] });
     }
     gl.enable(gl.CULL_FACE);
     gl.cullFace(gl.BACK);
