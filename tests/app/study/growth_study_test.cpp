@@ -37,6 +37,7 @@ TEST(GrowthStudy, FitsTheTimesItMeasured) {
 TEST(GrowthStudy, TheDiagramNamesTheExponents) {
   const GrowthSeries series{.name = "things",
                             .points = {{1.0, 1e-6, 60}, {10.0, 2e-5, 120}},
+                            .step = {},
                             .second = {.exponent = 1.6, .factor = 6e-5}};
   const Diagram diagram = growth_diagram({series});
   ASSERT_EQ(diagram.series.size(), 1U);
