@@ -165,7 +165,10 @@ class Loader {
 
   void read_body(const Table& table, BodyScene& body, Origin header) {
     reader_.read_selectors(table, body_section(body));
-    if (body.kind != BodyKind::soft) make_box(table, body, header);
+    if (body.kind != BodyKind::soft) {
+      body.skin_mass.reset();  // read before its kind was known
+      make_box(table, body, header);
+    }
     reader_.read_others(table, body_section(body));
   }
 

@@ -69,7 +69,7 @@ constexpr double share_of_distance = 0.4;
 /// Of the skin: less than this below the ground is left.
 constexpr double left_of_skin = 1e-3;
 /// m. At less than this the direction between two points is rounding.
-constexpr double min_distance = 1e-9;
+constexpr double least_distance = 1e-9;
 constexpr double any_height = std::numeric_limits<double>::infinity();
 
 class SunkVertices {
@@ -117,7 +117,7 @@ class SunkVertices {
     const double distance = closest->distance;
     const double up = closest->first_point.z() - closest->second_point.z();
     const auto limit = [distance](double towards) {
-      const bool is_clear = distance > min_distance;
+      const bool is_clear = distance > least_distance;
       const double room = is_clear && towards <= 0.0 ? any_height
                           : is_clear ? share_of_distance * distance * distance / towards
                                      : 0.0;

@@ -126,7 +126,10 @@ void set_at_random(const Section& section, bool selectors) {
 void make_supply_consistent(const Scene& scene, BodyScene& body) {
   const bool is_soft = body.kind == BodyKind::soft;
   if (!is_soft) body.skin_mass.reset();
-  if (body.skin_mass) body.density.reset();
+  if (body.skin_mass) {
+    body.density.reset();
+    body.thickness = BodyScene{}.thickness;
+  }
   if (!is_soft) {
     body.density.reset();
     body.stiffness.reset();

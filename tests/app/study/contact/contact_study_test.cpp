@@ -137,7 +137,7 @@ TEST(ContactStudy, ComparesAllFormsWithOneMotion) {
   options.errors.steps_per_second = {60, 120};
   const ContactStudy study = study_contacts(balls(0.02), options, says_nothing);
   ASSERT_EQ(study.forms.size(), 4U);
-  EXPECT_EQ(study.forms[0].runs.size(), 12U);  // six integrators at two steps
+  EXPECT_EQ(study.forms[0].runs.size(), 14U);  // seven integrators at two steps
   EXPECT_EQ(study.forms[3].runs.size(), 2U);   // the paper's alone
   for (const ContactRuns& form : study.forms) {
     EXPECT_FALSE(cheapest_runs(form).empty()) << to_string(form.form);
