@@ -3,9 +3,9 @@
 // A linear method makes of a motion x'' = -omega^2 x - delta x' the product of (x, v) with a matrix
 // that depends on h omega and h delta alone. It is stable while no eigenvalue of it exceeds 1 in
 // size: on undamped motions up to h omega = 2 for martin, symplectic_euler and velocity_verlet, 2
-// sqrt 2 for rk4 and 5.97 for rk8. The matrix is taken from the integrators themselves. The fastest motion of a
-// body is that of the largest eigenvalue of its springs and gas; dashpots may make another one the
-// first to fail, so that the fastest of both together is looked at, too.
+// sqrt 2 for rk4 and 5.97 for rk8. The matrix is taken from the integrators themselves. The fastest
+// motion of a body is that of the largest eigenvalue of its springs and gas; dashpots may make
+// another one the first to fail, so that the fastest of both together is looked at, too.
 //
 // Small motions are those of a body at rest. One that is hit hard, whose springs are drawn out to
 // many times their length, or that presses its gas together, is stiffer.
