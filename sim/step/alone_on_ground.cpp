@@ -79,7 +79,7 @@ class SunkVertices {
   void find() {
     m_.sunk.clear();
     for (int i = 0; i < static_cast<int>(world_.soft.size()); ++i) {
-      if (!m_.on_ground[at(i)].meets_alone) continue;
+      if (m_.bodies.is_lone(i) || !m_.on_ground[at(i)].meets_alone) continue;
       const SoftBody& body = world_.soft[at(i)];
       const double lowest = -left_of_skin * m_.bodies.skin(i);
       for (int v = 0; v < body.positions.size(); ++v) {
@@ -101,6 +101,12 @@ class SunkVertices {
   }
 
  private:
+  /// m, by which a side may rise whose other side is `towards` above it, of their distance.
+  static double room_towards(double towards, double distance) {
+    if (distance <= least_distance) return 0.0;
+    return towards <= 0.0 ? any_height : share_of_distance * distance * distance / towards;
+  }
+
   /// Halfway between the nearest points of two features a plane separates them, to which neither
   /// gets as it rises.
   void leave_room(const SweptCandidate& candidate) {
@@ -117,10 +123,7 @@ class SunkVertices {
     const double distance = closest->distance;
     const double up = closest->first_point.z() - closest->second_point.z();
     const auto limit = [distance](double towards) {
-      const bool is_clear = distance > least_distance;
-      const double room = is_clear && towards <= 0.0 ? any_height
-                          : is_clear ? share_of_distance * distance * distance / towards
-                                     : 0.0;
+      const double room = room_towards(towards, distance);
       return [room](SunkVertex& sunk) { sunk.room = std::min(sunk.room, room); };
     };
     for_each_sunk({first, candidate.features.first}, limit(-up));

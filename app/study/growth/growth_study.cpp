@@ -26,7 +26,7 @@ constexpr MeasuredPart until_pressed{0.05, 0.25};
 double icosphere_vertices(int subdivisions) { return 10.0 * std::pow(4.0, subdivisions) + 2.0; }
 
 /// The material stays the same: springs of one stiffness, and vertices that share a mass of 20 kg.
-/// So the step, a quarter of the longest that is stable, shrinks with the edges.
+/// So the step, about a quarter of the longest that is stable, shrinks with the edges.
 std::string icosphere(int subdivisions) {
   return fmt::format(
       "[simulation]\nsteps_per_second = {}\n[[body]]\nshape = \"icosphere\"\nsubdivisions = "
