@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "app/check/check_report.h"
+#include "app/record/pressed_volume.h"
 #include "app/record/world_json.h"
 #include "app/terminal/table.h"
 #include "scenes/loader/print_scene.h"
@@ -180,9 +181,6 @@ std::string contacts_text(const ContactTally& contacts) {
   }
   return text;
 }
-
-/// Of its volume at the start: a body that keeps its gas is not meant to be pressed to less.
-constexpr double pressed_fraction = 0.1;
 
 std::string volumes_text(const RunStatistics& run) {
   std::string text;

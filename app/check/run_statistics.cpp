@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/host/interrupt.h"
+#include "app/record/pressed_volume.h"
 #include "app/record/shape_deviation.h"
 #include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
@@ -101,9 +102,8 @@ class Observer {
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
       const int index = static_cast<int>(result_.volumes.size());
-      const bool keeps_gas = body.material.n > 0.0 && !sim::has_gas_flow(start, index);
       result_.volumes.push_back(
-          {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas});
+          {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas(start, index)});
       result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
       add_gas(body, result_.gas.back());
     }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/joints/gas_flow.h"
+#include "app/record/pressed_volume.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -61,8 +61,7 @@ void PressedBodies::add(const sim::World& world) {
   }
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const sim::SoftBody& body = world.soft[i];
-    const bool keeps_gas = body.material.n > 0.0 && !sim::has_gas_flow(world, static_cast<int>(i));
-    if (!keeps_gas || shapes_[i] <= 0.0) continue;
+    if (!keeps_gas(world, static_cast<int>(i)) || shapes_[i] <= 0.0) continue;
     const double volume = std::max(0.0, sim::volume(body.mesh->topology, body.positions));
     if (volume / shapes_[i] >= least_fraction_) continue;
     least_fraction_ = volume / shapes_[i];
@@ -72,7 +71,6 @@ void PressedBodies::add(const sim::World& world) {
 }
 
 void PressedBodies::summarise(Progress& progress) const {
-  constexpr double pressed_fraction = 0.1;
   if (least_fraction_ >= pressed_fraction) return;
   progress.say(fmt::format(
       "body '{}' was pressed to {:.2g} % of its shape's volume, at t = {:.2f} s: more gas (n, "
