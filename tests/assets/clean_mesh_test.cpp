@@ -23,11 +23,6 @@ CleanModel clean(const sim::TriangleMesh& mesh, const CleanOptions& options = {}
   return clean_mesh({mesh, {}, {}, 0, {}}, options);
 }
 
-double volume(const sim::TriangleMesh& mesh) {
-  const auto soft = sim::make_soft_mesh(mesh);
-  return sim::volume(soft->topology, soft->rest_positions);
-}
-
 TEST(CleanMesh, LeavesAGoodMeshAsItIs) {
   const sim::TriangleMesh mesh = crooked_box();
   const CleanModel model = clean(mesh, {.centre = false});
@@ -47,7 +42,7 @@ TEST(CleanMesh, TurnsAnInsideOutCube) {
   sim::TriangleMesh mesh = cube();
   for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
   const CleanModel model = clean(mesh);
-  EXPECT_DOUBLE_EQ(volume(model.mesh), 8.0);
+  EXPECT_DOUBLE_EQ(enclosed_volume(model.mesh), 8.0);
   EXPECT_EQ(model.mended, Strings{"12 triangles turned"});
 }
 
@@ -84,7 +79,7 @@ TEST(CleanMesh, KeepsTheOnlyClosedComponent) {
   sim::TriangleMesh lid = moved(cube(), {10.0, 0.0, 0.0});
   lid.triangles.resize(2);
   const CleanModel model = clean(both(lid, cube()));
-  EXPECT_DOUBLE_EQ(volume(model.mesh), 8.0);
+  EXPECT_DOUBLE_EQ(enclosed_volume(model.mesh), 8.0);
   EXPECT_EQ(model.kept, 1);
   EXPECT_EQ(model.components.size(), 2u);
   EXPECT_EQ(model.components[0].boundary_edges, 4);  // two triangles that share a side
@@ -97,9 +92,9 @@ TEST(CleanMesh, KeepsTheComponentThatIsNamed) {
   model.parts.assign(12, 0);
   model.parts.resize(24, 1);
   model.part_names = {"big", "small"};
-  EXPECT_DOUBLE_EQ(volume(clean_mesh(model, {.component = "small"}).mesh), 1.0);
-  EXPECT_DOUBLE_EQ(volume(clean_mesh(model, {.component = "big"}).mesh), 8.0);
-  EXPECT_DOUBLE_EQ(volume(clean_mesh(model, {.component = "2"}).mesh), 1.0);
+  EXPECT_DOUBLE_EQ(enclosed_volume(clean_mesh(model, {.component = "small"}).mesh), 1.0);
+  EXPECT_DOUBLE_EQ(enclosed_volume(clean_mesh(model, {.component = "big"}).mesh), 8.0);
+  EXPECT_DOUBLE_EQ(enclosed_volume(clean_mesh(model, {.component = "2"}).mesh), 1.0);
   for (const char* component : {"3", "0", "-1", "medium", "1.0", "99999999999999999999"}) {
     EXPECT_THROW(clean_mesh(model, {.component = component}), ModelError) << component;
   }
@@ -127,7 +122,7 @@ TEST(CleanMesh, ScalesThenTurnsThenCentres) {
       near(size({.rotation = {0.0, 0.0, 90.0}, .centre = false}).centre(), {-8.0, 7.0, 9.0}));
 }
 
-std::string refusal(const sim::TriangleMesh& mesh, const CleanOptions& options = {}) {
+std::string cleaning_refusal(const sim::TriangleMesh& mesh, const CleanOptions& options = {}) {
   try {
     clean(mesh, options);
   } catch (const ModelError& error) {
@@ -138,7 +133,7 @@ std::string refusal(const sim::TriangleMesh& mesh, const CleanOptions& options =
 
 void expect_refusal(const sim::TriangleMesh& mesh, const Strings& fragments,
                     const CleanOptions& options = {}) {
-  const std::string message = refusal(mesh, options);
+  const std::string message = cleaning_refusal(mesh, options);
   for (const std::string& fragment : fragments) {
     EXPECT_NE(message.find(fragment), message.npos) << "'" << fragment << "' in: " << message;
   }
@@ -163,7 +158,7 @@ TEST(CleanMesh, RefusesWhatIsNoMesh) {
 TEST(CleanMesh, SaysWhereASurfaceIsOpen) {
   sim::TriangleMesh mesh = cube();
   mesh.triangles.erase(mesh.triangles.begin());
-  const std::string message = refusal(mesh);
+  const std::string message = cleaning_refusal(mesh);
   EXPECT_NE(message.find("3 boundary edges"), message.npos) << message;
   // The three sides of the triangle that is gone, with their ends.
   for (std::size_t i = 0; i < 3; ++i) {
@@ -177,7 +172,7 @@ TEST(CleanMesh, SaysWhereASurfaceIsOpen) {
   for (std::size_t t = 0; t < sieve.triangles.size() / 8; ++t) {
     sieve.triangles.erase(sieve.triangles.begin() + static_cast<std::ptrdiff_t>(6 * t));
   }
-  const std::string many = refusal(sieve);
+  const std::string many = cleaning_refusal(sieve);
   std::size_t places = 0;
   for (std::size_t i = many.find("edge "); i != many.npos; i = many.find("edge ", i + 1)) {
     if (std::isdigit(static_cast<unsigned char>(many[i + 5])) != 0) ++places;
@@ -188,7 +183,7 @@ TEST(CleanMesh, SaysWhereASurfaceIsOpen) {
 TEST(CleanMesh, NumbersPlacesAsTheInputDoes) {
   sim::TriangleMesh mesh = cube_of_24();
   mesh.triangles.pop_back();
-  const std::string message = refusal(mesh);
+  const std::string message = cleaning_refusal(mesh);
   // Whatever three edges are open, their vertices are among the input's first 24 and are at a
   // corner of the cube.
   EXPECT_NE(message.find("3 boundary edges"), message.npos) << message;
@@ -243,7 +238,7 @@ TEST(CleanMesh, RefusesFlatTrianglesAndFlatBodies) {
   expect_refusal(needle, {"1 triangle without area", "triangle 3 at (0.5,"});
   // A double tetrahedron so low that its triangles are not flat by themselves but its inside is.
   sim::TriangleMesh slab = sim::make_box({1.0, 1.0, 1e-9}, 1);
-  EXPECT_NE(refusal(slab), "no error");
+  EXPECT_NE(cleaning_refusal(slab), "no error");
 }
 
 TEST(CleanMesh, RefusesWhatIsTooLargeOrTooSmallAndSaysAScale) {
@@ -280,7 +275,7 @@ RC_GTEST_PROP(CleanMesh, WhatItAcceptsIsASoftBody, ()) {
       index, index, index));
   try {
     const CleanModel model = clean(mesh);
-    RC_ASSERT(volume(model.mesh) > 0.0);
+    RC_ASSERT(enclosed_volume(model.mesh) > 0.0);
   } catch (const ModelError&) {
     RC_ASSERT(true);
   }
@@ -305,7 +300,8 @@ RC_GTEST_PROP(CleanMesh, MendsWhatWasGood, ()) {
   RC_ASSERT(model.mesh.vertices.size() == good.vertices.size());
   RC_ASSERT(model.mesh.triangles.size() == good.triangles.size());
   // Summed in another order, about another point.
-  RC_ASSERT(std::abs(volume(model.mesh) - volume(good)) <= 1e-12 * volume(good));
+  RC_ASSERT(std::abs(enclosed_volume(model.mesh) - enclosed_volume(good)) <=
+            1e-12 * enclosed_volume(good));
 }
 
 }  // namespace

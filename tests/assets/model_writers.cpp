@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
+#include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/mesh/soft_mesh.h"
 
 namespace pneuma::assets {
 namespace {
@@ -270,6 +272,11 @@ TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
 TriangleMesh scaled(TriangleMesh mesh, double by) {
   for (Vec3& v : mesh.vertices) v *= by;
   return mesh;
+}
+
+double enclosed_volume(const sim::TriangleMesh& mesh) {
+  const auto soft = sim::make_soft_mesh(mesh);
+  return sim::volume(soft->topology, soft->rest_positions);
 }
 
 }  // namespace pneuma::assets

@@ -39,4 +39,7 @@ sim::TriangleMesh both(const sim::TriangleMesh& a, const sim::TriangleMesh& b);
 sim::TriangleMesh moved(sim::TriangleMesh mesh, const sim::Vec3& by);
 sim::TriangleMesh scaled(sim::TriangleMesh mesh, double by);
 
+/// m^3 inside a closed mesh.
+double enclosed_volume(const sim::TriangleMesh& mesh);
+
 }  // namespace pneuma::assets

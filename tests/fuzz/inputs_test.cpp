@@ -11,6 +11,7 @@
 #include "tests/fuzz/surface_promises.h"
 #include "tests/fuzz/targets.h"
 #include "tests/fuzz/triangle_soup.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::fuzz {
@@ -25,7 +26,8 @@ TEST(FuzzTargets, KeepTheirPromisesOnTheSeeds) {
 /// found/TARGET-ANYTHING: the bytes that broke the target.
 TEST(FuzzTargets, KeepTheirPromisesOnWhatOnceBrokeThem) {
   int inputs = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PNEUMA_FOUND_FOLDER)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(project_folder() / "tests/fuzz/found")) {
     const std::string name = entry.path().filename().string();
     const std::string target = name.substr(0, name.find('-'));
     const std::string bytes = read_text(entry.path());

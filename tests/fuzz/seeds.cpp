@@ -12,6 +12,7 @@
 #include "sim/mesh/primitives.h"
 #include "tests/assets/model_writers.h"
 #include "tests/fuzz/triangle_soup.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::fuzz {
@@ -43,7 +44,7 @@ std::vector<std::string> scene_seeds() {
                                    {"body.k=200", "ball.k=3.5", "body.2.mass=1e-3",
                                     "simulation.particles.max_sweeps=5", "camera.eye=[1, 2, 3]",
                                     "camera.target=[0, 0, 0]", "title=words"})};
-  for (const scenes::SceneInfo& info : scenes::list_scenes(PNEUMA_SCENE_FOLDER)) {
+  for (const scenes::SceneInfo& info : scenes::list_scenes(project_folder() / "scenes")) {
     seeds.push_back(read_text(info.path));
     seeds.push_back(scenes::print_scene(scenes::load_scene(info.path)));
   }

@@ -9,6 +9,7 @@
 
 #include "render/image/png.h"
 #include "tests/project/include_graph.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -30,8 +31,8 @@ class Installed : public testing::Test {
   static void SetUpTestSuite() {
     installation_ = std::make_unique<TemporaryFolder>();
     const ProgramResult result =
-        run_command("cmake --install '" PNEUMA_BUILD_FOLDER "' --prefix '" + prefix().string() +
-                    "' 2>&1 >/dev/null");
+        run_command("cmake --install '" + build_folder().string() + "' --prefix '" +
+                    prefix().string() + "' 2>&1 >/dev/null");
     ASSERT_EQ(result.exit_code, 0) << result.output;
   }
   static void TearDownTestSuite() { installation_.reset(); }
@@ -83,8 +84,9 @@ TEST_F(Installed, FindsItsScenesAndModelsAlsoWhenMoved) {
 TEST_F(LongInstalled, IsFoundByAProjectOutsideWhichDrawsAPicture) {
   fs::create_directories(elsewhere_);
   const std::string build = (folder_ / "build").string();
+  const std::string example = project_folder() / "tests/outside/example";
   const ProgramResult built =
-      run_command("exec 2>&1; cmake -S '" PNEUMA_EXAMPLE_FOLDER "' -B '" + build +
+      run_command("exec 2>&1; cmake -S '" + example + "' -B '" + build +
                   "' -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER='" PNEUMA_CXX_COMPILER
                   "' -DCMAKE_PREFIX_PATH='" +
                   prefix().string() + "' && cmake --build '" + build + "'");
@@ -116,8 +118,8 @@ TEST_F(Installed, HasAllHeadersThatItsHeadersInclude) {
 TEST(LongDebianPackage, DependsOnWhatTheProgramLinksAndRunsWhereItIsUnpacked) {
   const TemporaryFolder folder;
   const std::string here = "exec 2>&1; cd '" + folder.path().string() + "' && ";
-  const ProgramResult made = run_command(here + "cpack --config '" PNEUMA_BUILD_FOLDER
-                                                "/CPackConfig.cmake' -B . && mv *.deb it.deb");
+  const ProgramResult made = run_command(here + "cpack --config '" + build_folder().string() +
+                                         "/CPackConfig.cmake' -B . && mv *.deb it.deb");
   ASSERT_EQ(made.exit_code, 0) << made.output;
   const std::string depends = run_command(here + "dpkg-deb --field it.deb Depends").output;
   for (const char* package : {"libc6", "libstdc++6", "libassimp5", "libsundials-cvode"}) {

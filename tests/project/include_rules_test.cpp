@@ -8,13 +8,13 @@
 #include <stdexcept>
 
 #include "tests/project/include_graph.h"
+#include "tests/support/paths.h"
 
 namespace pneuma {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path project_folder = PNEUMA_PROJECT_FOLDER;
 const std::vector<std::string> program_folders = {"sim", "render", "scenes", "assets", "app"};
 constexpr int most_files = 40;
 
@@ -93,7 +93,7 @@ std::string where(const Include& include) {
 }
 
 const std::vector<Include>& program_includes() {
-  static const std::vector<Include> includes = includes_of_tree(project_folder, program_folders);
+  static const std::vector<Include> includes = includes_of_tree(project_folder(), program_folders);
   return includes;
 }
 
@@ -124,8 +124,8 @@ TEST(IncludeRules, ALibraryBehindOneFileIsIncludedThereOnly) {
 TEST(IncludeRules, EveryIncludeNamesItsFileFromTheProjectsFolder) {
   for (const Include& include : program_includes()) {
     if (!include.ours) continue;
-    const bool made_by_cmake = fs::exists(project_folder / (include.included + ".in"));
-    EXPECT_TRUE(made_by_cmake || fs::exists(project_folder / include.included)) << where(include);
+    const bool made_by_cmake = fs::exists(project_folder() / (include.included + ".in"));
+    EXPECT_TRUE(made_by_cmake || fs::exists(project_folder() / include.included)) << where(include);
   }
 }
 
@@ -142,9 +142,9 @@ TEST(IncludeRules, NoFoldersIncludeEachOtherInACycle) {
 TEST(Folders, HaveAtMostFortyFilesOfTheirOwn) {
   std::map<std::string, int> files;
   for (const char* top : {"sim", "render", "scenes", "assets", "app", "tests", "scripts"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(project_folder / top)) {
+    for (const auto& entry : fs::recursive_directory_iterator(project_folder() / top)) {
       if (!entry.is_regular_file() || entry.path().extension() == ".toml") continue;
-      ++files[entry.path().parent_path().lexically_relative(project_folder).generic_string()];
+      ++files[entry.path().parent_path().lexically_relative(project_folder()).generic_string()];
     }
   }
   EXPECT_GT(files.size(), 40u) << "the search for folders finds too few";

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma {
@@ -69,8 +70,9 @@ TEST(LongReportPage, ReadsTablesAndDiagrams) {
     GTEST_SKIP() << "chromium is not installed";
   const TemporaryFolder folder;
   const auto page = folder / "page.html";
-  write_text(page, fmt::format("<!doctype html><body>{}<script>{}{}</script>", body,
-                               read_text(PNEUMA_REPORT_SCRIPT), questions));
+  write_text(page,
+             fmt::format("<!doctype html><body>{}<script>{}{}</script>", body,
+                         read_text(project_folder() / "scripts/report.d/page.js"), questions));
   const std::string command = fmt::format(
       "chromium --headless=new --no-sandbox --disable-gpu --window-size=900,900 "
       "--enable-logging=stderr "

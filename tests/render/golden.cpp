@@ -9,6 +9,7 @@
 #include "render/image/compare.h"
 #include "render/image/png.h"
 #include "sim/base/file.h"
+#include "tests/support/paths.h"
 
 namespace pneuma::render {
 namespace {
@@ -33,7 +34,7 @@ bool updating() {
 }  // namespace
 
 void expect_golden(const std::string& name, const Image& image) {
-  const auto golden = std::filesystem::path(PNEUMA_GOLDEN_FOLDER) / (name + ".png");
+  const auto golden = project_folder() / "tests/golden" / (name + ".png");
   if (updating()) {
     save(golden, image);
     return;
@@ -46,7 +47,7 @@ void expect_golden(const std::string& name, const Image& image) {
   const ImageDifference difference = compare_images(image, expected, threshold);
   if (difference.fraction_beyond <= allowed_share && difference.mean <= allowed_mean) return;
 
-  const std::filesystem::path folder = PNEUMA_FAILURE_FOLDER;
+  const std::filesystem::path folder = build_folder() / "tests/render/golden_failures";
   std::filesystem::create_directories(folder);
   save(folder / (name + ".actual.png"), image);
   save(folder / (name + ".expected.png"), expected);

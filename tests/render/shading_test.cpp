@@ -12,7 +12,6 @@
 namespace pneuma::render {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180.0;
 constexpr double roughness = 0.35;  // of meshes that say nothing else
 
 /// The renderer's light, restated from light/environment.h.
@@ -156,7 +155,7 @@ TEST(SmoothShading, HasTheColourThatTheFormulasGiveABall) {
       // The ball at the middle of a pixel: where that pixel's ray meets it.
       const Eigen::Vector2d seen =
           seen_at(frame.camera, 2.0f * Vec3f(x, -std::sqrt(forward), z), 320, 240);
-      const double slope = std::tan(20.0 * radians) / 120.0;
+      const double slope = std::tan(std::numbers::pi / 9.0) / 120.0;
       const Eigen::Vector3d ray = Eigen::Vector3d((std::floor(seen.x()) + 0.5 - 160.0) * slope, 1.0,
                                                   (120.0 - std::floor(seen.y()) - 0.5) * slope)
                                       .normalized();

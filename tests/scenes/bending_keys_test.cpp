@@ -9,22 +9,13 @@
 namespace pneuma::scenes {
 namespace {
 
-Scene load(const std::string& body, const std::vector<std::string>& overrides = {}) {
-  return parse_scene("[[body]]\n" + body, "x.toml", overrides);
-}
-
-std::string refusal_of_body(const std::string& body,
-                            const std::vector<std::string>& overrides = {}) {
-  return refusal("[[body]]\n" + body, overrides);
-}
-
 const std::string both = "bending_damping = 0.001\nbending = 2.5\n";
 
 TEST(BendingKeys, SetTheirMembersAndReadBack) {
-  const Scene scene = load(both);
+  const Scene scene = load_body(both);
   EXPECT_EQ(scene.bodies[0].material.bending, 2.5);
   EXPECT_EQ(scene.bodies[0].material.bending_damping, 0.001);
-  EXPECT_EQ(load("bending = 2.5\n").bodies[0].material.bending_damping, 0.0);
+  EXPECT_EQ(load_body("bending = 2.5\n").bodies[0].material.bending_damping, 0.0);
   Scene again = parse_scene(print_scene(scene), "x.toml");
   EXPECT_EQ(difference(again, scene), "");
 }
@@ -35,7 +26,7 @@ TEST(BendingKeys, DampingNeedsBending) {
   expect_in(refusal_of_body("bending = 0\nbending_damping = 0.001\n"),
             {"soft bodies with bending"});
   // An override takes the file's back.
-  EXPECT_EQ(load(both, {"body.bending=0"}).bodies[0].material.bending, 0.0);
+  EXPECT_EQ(load_body(both, {"body.bending=0"}).bodies[0].material.bending, 0.0);
 }
 
 TEST(BendingKeys, SayWhatIsAllowed) {
@@ -47,7 +38,7 @@ TEST(BendingKeys, SayWhatIsAllowed) {
 
 TEST(BendingKeys, ThePapersMethodHasNone) {
   expect_in(refusal_of_body("", {"simulation.method=paper", "body.bending=1"}), {"method"});
-  const Scene scene = load(both, {"simulation.method=paper"});
+  const Scene scene = load_body(both, {"simulation.method=paper"});
   EXPECT_EQ(scene.bodies[0].material.bending, 0.0);
   EXPECT_EQ(scene.bodies[0].material.bending_damping, 0.0);
 }

@@ -9,18 +9,9 @@
 namespace pneuma::scenes {
 namespace {
 
-Scene load(const std::string& body, const std::vector<std::string>& overrides = {}) {
-  return parse_scene("[[body]]\n" + body, "x.toml", overrides);
-}
-
-std::string refusal_of_body(const std::string& body,
-                            const std::vector<std::string>& overrides = {}) {
-  return refusal("[[body]]\n" + body, overrides);
-}
-
 TEST(GasKeys, SetTheirMembersAndReadBack) {
   for (const char* body : {"gauge_pressure = -100.0\n", "inflation = 1.25\n"}) {
-    const Scene scene = load(body, {"simulation.ambient_pressure=101325"});
+    const Scene scene = load_body(body, {"simulation.ambient_pressure=101325"});
     EXPECT_EQ(scene.bodies[0].gauge_pressure.value_or(-100.0), -100.0);
     EXPECT_EQ(scene.bodies[0].inflation.value_or(1.25), 1.25);
     EXPECT_NE(scene.bodies[0].gauge_pressure.has_value(), scene.bodies[0].inflation.has_value());
@@ -42,7 +33,7 @@ TEST(GasKeys, OneOfThemIsGiven) {
             {"--set a.n=1: both n and inflation (--set a.inflation=2)"});
   expect_in(refusal_of_body("kind = \"rigid\"\ninflation = 1.5\n"), {"soft bodies"});
   // An override takes the place of the file's n.
-  EXPECT_EQ(load("n = 1\n", {"body.inflation=1.5"}).bodies[0].inflation, 1.5);
+  EXPECT_EQ(load_body("n = 1\n", {"body.inflation=1.5"}).bodies[0].inflation, 1.5);
 }
 
 TEST(GasKeys, SayWhatIsAllowed) {

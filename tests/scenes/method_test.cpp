@@ -22,7 +22,7 @@ particles.per_vertex = 0.5
 damping = "dashpot"
 )";
 
-Scene load(const std::string& text, const std::vector<std::string>& overrides = {}) {
+Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_scene(text, "x.toml", overrides);
 }
 
@@ -41,13 +41,13 @@ void expect_the_papers(const Scene& scene) {
 }
 
 TEST(Method, OfTheFileOrOfAnOverrideSetsThePapersChoices) {
-  expect_the_papers(load(plain));
-  expect_the_papers(load("[[body]]\n", {"simulation.method=paper"}));
-  EXPECT_EQ(load("[[body]]\n").settings.method, sim::Method::corrected);
+  expect_the_papers(parse(plain));
+  expect_the_papers(parse("[[body]]\n", {"simulation.method=paper"}));
+  EXPECT_EQ(parse("[[body]]\n").settings.method, sim::Method::corrected);
 }
 
 TEST(Method, OfAnOverrideTakesTheFilesKeysBack) {
-  expect_the_papers(load(with_choices, {"simulation.method=paper"}));
+  expect_the_papers(parse(with_choices, {"simulation.method=paper"}));
 }
 
 TEST(Method, RefusesAnOverrideOfWhatItSets) {
@@ -80,22 +80,22 @@ TEST(Method, AWrongValueIsReportedOnce) {
 }
 
 TEST(Method, OfAnOverrideCanBeCorrectedInAPaperScene) {
-  const Scene scene = load(plain, {"simulation.method=corrected", "simulation.integrator=rk4"});
-  EXPECT_EQ(difference(scene, load("[[body]]\n[[body]]\nkind = \"rigid\"\n")), "");
+  const Scene scene = parse(plain, {"simulation.method=corrected", "simulation.integrator=rk4"});
+  EXPECT_EQ(difference(scene, parse("[[body]]\n[[body]]\nkind = \"rigid\"\n")), "");
 }
 
 TEST(Method, PrintsWhatItSetsAsComments) {
-  const Scene scene = load(with_choices, {"simulation.method=paper"});
+  const Scene scene = parse(with_choices, {"simulation.method=paper"});
   const std::string text = print_scene(scene);
   EXPECT_NE(text.find("\nmethod = \"paper\""), std::string::npos) << text;
   EXPECT_NE(text.find("\n# by method: integrator = \"martin\""), std::string::npos) << text;
   EXPECT_NE(text.find("\n# by method: damping = \"literal\""), std::string::npos) << text;
-  EXPECT_EQ(difference(load(text), scene), "");
+  EXPECT_EQ(difference(parse(text), scene), "");
 }
 
 /// Every key whose value the method changes is one that it refuses.
 TEST(Method, SetsNoKeyThatItDoesNotRefuse) {
-  Scene scene = load("simulation.contact = \"impulses\"\n[[body]]\n");
+  Scene scene = parse("simulation.contact = \"impulses\"\n[[body]]\n");
   Scene set = scene;
   set.settings.relaxation_time = 3.0;
   sim::use_paper_method(set.settings);

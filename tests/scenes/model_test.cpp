@@ -3,6 +3,7 @@
 
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
+#include "tests/scenes/refusal.h"
 #include "tests/scenes/same_scene.h"
 
 namespace pneuma::scenes {
@@ -14,23 +15,8 @@ const std::string one_model =
     "[[body]]\nshape = \"model\"\nmodel.file = \"cat.ply\"\nname = \"tom\"\n";
 const std::string with_others = one_model + "[[body]]\n[[body]]\nkind = \"rigid\"\n";
 
-Scene parse(const std::string& text, const Strings& overrides = {}) {
+Scene parse_model(const std::string& text, const Strings& overrides = {}) {
   return parse_scene(text, "folder/x.toml", overrides);
-}
-
-std::string refusal(const std::string& text, const Strings& overrides = {}) {
-  try {
-    parse(text, overrides);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-void expect_in(const std::string& message, const Strings& parts) {
-  for (const std::string& part : parts) {
-    EXPECT_NE(message.find(part), message.npos) << "'" << part << "' in: " << message;
-  }
 }
 
 TEST(Model, IsReadWithDottedKeysOrATable) {
@@ -42,7 +28,7 @@ TEST(Model, IsReadWithDottedKeysOrATable) {
     dotted += "model." + keys.substr(start, keys.find('\n', start) + 1 - start);
   }
   for (const std::string& text : {dotted, "[[body]]\nshape = \"model\"\n[body.model]\n" + keys}) {
-    const Scene scene = parse(text);
+    const Scene scene = parse_model(text);
     EXPECT_EQ(scene.folder, "folder");
     const ModelScene& model = scene.bodies.at(0).model;
     EXPECT_EQ(model.file, "a/cat.obj");
@@ -50,14 +36,15 @@ TEST(Model, IsReadWithDottedKeysOrATable) {
     EXPECT_EQ(model.scale, 0.01);
     EXPECT_EQ(model.rotation, Vec3(90.0, 0.0, 5.0));
     EXPECT_FALSE(model.centre);
-    EXPECT_EQ(difference(parse(print_scene(scene)), scene), "");
+    EXPECT_EQ(difference(parse_model(print_scene(scene)), scene), "");
   }
 }
 
 TEST(Model, ComponentIsANameOrANumber) {
-  EXPECT_EQ(parse(one_model + "model.component = 2\n").bodies[0].model.component, "2");
-  EXPECT_EQ(parse(one_model, {"model.component=12"}).bodies[0].model.component, "12");
-  EXPECT_EQ(parse(one_model, {"model.component=left leg"}).bodies[0].model.component, "left leg");
+  EXPECT_EQ(parse_model(one_model + "model.component = 2\n").bodies[0].model.component, "2");
+  EXPECT_EQ(parse_model(one_model, {"model.component=12"}).bodies[0].model.component, "12");
+  EXPECT_EQ(parse_model(one_model, {"model.component=left leg"}).bodies[0].model.component,
+            "left leg");
   expect_in(refusal(one_model + "model.component = 1.5\n"),
             {"x.toml:5:", "a string in quotes or a whole number, got number 1.5"});
 }
@@ -65,12 +52,13 @@ TEST(Model, ComponentIsANameOrANumber) {
 TEST(Model, IsOverriddenInEveryWay) {
   for (const char* path :
        {"model.file", "body.model.file", "body.1.model.file", "tom.model.file"}) {
-    const Scene scene = parse(with_others, {std::string(path) + "=/home/me/my cat.stl"});
+    const Scene scene = parse_model(with_others, {std::string(path) + "=/home/me/my cat.stl"});
     EXPECT_EQ(scene.bodies[0].model.file, "/home/me/my cat.stl") << path;
   }
-  EXPECT_EQ(parse("[[body]]\n", {"body.shape=model", "model.file=1.obj"}).bodies[0].model.file,
-            "1.obj");
-  EXPECT_EQ(parse(one_model, {"model.rotation=[0, 0, 9]"}).bodies[0].rotation, Vec3::Zero());
+  EXPECT_EQ(
+      parse_model("[[body]]\n", {"body.shape=model", "model.file=1.obj"}).bodies[0].model.file,
+      "1.obj");
+  EXPECT_EQ(parse_model(one_model, {"model.rotation=[0, 0, 9]"}).bodies[0].rotation, Vec3::Zero());
 }
 
 TEST(Model, OverridesAreAsStrictAsOthers) {
@@ -106,7 +94,7 @@ TEST(Model, MistakesInTheFileHaveTheirPlace) {
 
 TEST(Model, IsPartOfTheFingerprint) {
   const auto fingerprint = [](const Strings& overrides) {
-    return scene_fingerprint(parse(one_model, overrides));
+    return scene_fingerprint(parse_model(one_model, overrides));
   };
   EXPECT_EQ(fingerprint({}), fingerprint({}));
   for (const char* change : {"model.file=dog.ply", "model.component=2", "model.scale=2",
@@ -120,7 +108,7 @@ TEST(Model, IsInTheReference) {
 }
 
 TEST(Model, CountsWhenItIsRead) {
-  const Scene scene = parse(one_model, {"limits.vertices=1"});
+  const Scene scene = parse_model(one_model, {"limits.vertices=1"});
   EXPECT_EQ(vertex_count(scene.bodies[0]), 0);
   // 1000 bytes per vertex of a body without copies, in round numbers.
   EXPECT_NEAR(estimated_memory_gib(1 << 20, 1), 1000.0 / 1024.0, 0.2);

@@ -16,13 +16,13 @@ name = "cube"
 kind = "rigid"
 )";
 
-Scene scene_with(const std::vector<std::string>& overrides,
+Scene overridden(const std::vector<std::string>& overrides,
                  const std::string& text = three_bodies) {
   return parse_scene(text, "x.toml", overrides);
 }
 
-std::string refusal(const std::vector<std::string>& overrides,
-                    const std::string& text = three_bodies) {
+std::string refusal_of(const std::vector<std::string>& overrides,
+                       const std::string& text = three_bodies) {
   try {
     parse_scene(text, "x.toml", overrides);
   } catch (const SceneError& error) {
@@ -32,7 +32,7 @@ std::string refusal(const std::vector<std::string>& overrides,
 }
 
 void expect_refusal(const std::string& override_text, const std::vector<std::string>& words) {
-  const std::string message = refusal({override_text});
+  const std::string message = refusal_of({override_text});
   EXPECT_EQ(message.rfind("--set " + override_text + ": ", 0), 0u) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   for (const std::string& word : words) EXPECT_NE(message.find(word), std::string::npos) << message;
@@ -40,7 +40,7 @@ void expect_refusal(const std::string& override_text, const std::vector<std::str
 
 TEST(Overrides, SetKeysOfTables) {
   const Scene scene =
-      scene_with({"duration=2", "simulation.integrator=martin", "simulation.gravity=[0,0,-1.62]",
+      overridden({"duration=2", "simulation.integrator=martin", "simulation.gravity=[0,0,-1.62]",
                   "simulation.contact=impulses", "simulation.particles.max_sweeps=3",
                   "picture.width=640", "ground.present=false", "title=Three bodies on the moon",
                   "figure='6.5'", "limits.frames=60"});
@@ -56,7 +56,7 @@ TEST(Overrides, SetKeysOfTables) {
 }
 
 TEST(Overrides, OfEveryBodyReachThoseToWhichTheKeyApplies) {
-  const Scene scene = scene_with({"body.k=200", "body.stacks=5", "body.mass=4"});
+  const Scene scene = overridden({"body.k=200", "body.stacks=5", "body.mass=4"});
   EXPECT_EQ(scene.bodies[0].material.k, 200.0);
   EXPECT_EQ(scene.bodies[1].material.k, 200.0);
   EXPECT_EQ(scene.bodies[2].material.k, sim::SoftMaterial{}.k);
@@ -67,7 +67,7 @@ TEST(Overrides, OfEveryBodyReachThoseToWhichTheKeyApplies) {
 
 TEST(Overrides, OfOneBodyByNumberOrName) {
   const Scene scene =
-      scene_with({"body.2.k=7", "left.n=3", "cube.mass=9", "body2.slices=11", "body.3.name=dice"});
+      overridden({"body.2.k=7", "left.n=3", "cube.mass=9", "body2.slices=11", "body.3.name=dice"});
   EXPECT_EQ(scene.bodies[0].material.k, 10.0);
   EXPECT_EQ(scene.bodies[1].material.k, 7.0);
   EXPECT_EQ(scene.bodies[0].material.n, 3.0);
@@ -77,19 +77,19 @@ TEST(Overrides, OfOneBodyByNumberOrName) {
 }
 
 TEST(Overrides, TheLastOneWins) {
-  EXPECT_EQ(scene_with({"left.k=1", "body.k=2"}).bodies[0].material.k, 2.0);
-  EXPECT_EQ(scene_with({"body.k=2", "left.k=1"}).bodies[0].material.k, 1.0);
+  EXPECT_EQ(overridden({"left.k=1", "body.k=2"}).bodies[0].material.k, 2.0);
+  EXPECT_EQ(overridden({"body.k=2", "left.k=1"}).bodies[0].material.k, 1.0);
 }
 
 TEST(Overrides, TakeTheFilesPlaceBeforeAnythingIsChecked) {
   const std::string bad = "duration = \"long\"\n[picture]\nframes_per_second = 25\n[[body]]\n";
-  EXPECT_NE(refusal({}, bad), "");
-  EXPECT_EQ(refusal({"duration=2", "simulation.steps_per_second=100"}, bad), "");
+  EXPECT_NE(refusal_of({}, bad), "");
+  EXPECT_EQ(refusal_of({"duration=2", "simulation.steps_per_second=100"}, bad), "");
 }
 
 TEST(Overrides, OfASelectorSilenceTheFilesKeysThatNoLongerApply) {
   const std::string text = "[ground]\nfriction = 0.25\n[[body]]\nk = 10\n";
-  const Scene scene = scene_with({"ground.present=false", "body.kind=rigid"}, text);
+  const Scene scene = overridden({"ground.present=false", "body.kind=rigid"}, text);
   EXPECT_FALSE(scene.settings.ground);
   EXPECT_EQ(scene.bodies[0].kind, BodyKind::rigid);
   EXPECT_EQ(scene.bodies[0].shape, Shape::box);
@@ -99,9 +99,9 @@ TEST(Overrides, OfASelectorSilenceTheFilesKeysThatNoLongerApply) {
       std::string::npos)
       << scene.warnings[0];
   // What an override takes the place of is not worth a word.
-  EXPECT_TRUE(scene_with({"body.inflation=2"}, "[[body]]\nn = 1\n").warnings.empty());
+  EXPECT_TRUE(overridden({"body.inflation=2"}, "[[body]]\nn = 1\n").warnings.empty());
   // An override of such a key is still an error.
-  const std::string message = refusal({"body.kind=rigid", "body.1.k=5"}, text);
+  const std::string message = refusal_of({"body.kind=rigid", "body.1.k=5"}, text);
   EXPECT_NE(message.find("k applies to soft bodies only"), std::string::npos) << message;
 }
 
@@ -155,11 +155,11 @@ TEST(Overrides, PathsThatLeadNowhere) {
 TEST(Overrides, ValuesThatAreNone) {
   expect_refusal("simulation.gravity=[0,0", {"cannot be read"});
   expect_refusal("title=\"open", {"cannot be read"});
-  EXPECT_NE(refusal({"duration=2\ntitle=\"x\""}).find("line break"), std::string::npos);
+  EXPECT_NE(refusal_of({"duration=2\ntitle=\"x\""}).find("line break"), std::string::npos);
 }
 
 TEST(Overrides, FollowTheFilesErrors) {
-  const std::string message = refusal({"duration=x"}, "titel = 1\n[[body]]\n");
+  const std::string message = refusal_of({"duration=x"}, "titel = 1\n[[body]]\n");
   const std::size_t file = message.find("x.toml:1:1: unknown key 'titel'");
   const std::size_t set = message.find("--set duration=x: duration: expected a number");
   ASSERT_NE(file, std::string::npos) << message;

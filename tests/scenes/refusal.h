@@ -1,4 +1,4 @@
-// What the loader says of a scene that it refuses.
+// Scenes of one body, and what the loader says of those that it refuses.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,6 +11,11 @@
 
 namespace pneuma::scenes {
 
+/// A scene of one soft body with these keys.
+inline Scene load_body(const std::string& keys, const std::vector<std::string>& overrides = {}) {
+  return parse_scene("[[body]]\n" + keys, "x.toml", overrides);
+}
+
 /// Empty if it takes the text of `x.toml` with these overrides.
 inline std::string refusal(const std::string& text,
                            const std::vector<std::string>& overrides = {}) {
@@ -20,6 +25,11 @@ inline std::string refusal(const std::string& text,
     return error.what();
   }
   return {};
+}
+
+inline std::string refusal_of_body(const std::string& keys,
+                                   const std::vector<std::string>& overrides = {}) {
+  return refusal("[[body]]\n" + keys, overrides);
 }
 
 inline void expect_in(const std::string& text, std::initializer_list<const char*> parts) {

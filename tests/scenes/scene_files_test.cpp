@@ -7,11 +7,12 @@
 #include <set>
 
 #include "scenes/loader/load_scene.h"
+#include "tests/support/paths.h"
 
 namespace pneuma::scenes {
 namespace {
 
-const std::filesystem::path folder = PNEUMA_SCENE_FOLDER;
+const std::filesystem::path folder = project_folder() / "scenes";
 
 const std::set<std::string> not_of_the_paper = {
     "balloons_and_valve", "bouncing_castle", "tied_balls", "bowl",  "compactor",

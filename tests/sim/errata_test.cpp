@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.h"
+
 namespace pneuma::sim {
 namespace {
-
-const std::filesystem::path project_folder = PNEUMA_PROJECT_FOLDER;
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -82,7 +82,7 @@ std::vector<Citation> citations_of_project() {
   std::vector<Citation> citations;
   for (const char* folder : {"app", "assets", "render", "scenes", "sim", "tests"}) {
     for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(project_folder / folder)) {
+         std::filesystem::recursive_directory_iterator(project_folder() / folder)) {
       const std::filesystem::path& file = entry.path();
       if (file.extension() != ".h" && file.extension() != ".cpp") continue;
       if (file.filename() == "errata_test.cpp") continue;  // its examples are no citations
@@ -160,7 +160,7 @@ TEST(Errata, CitationsAreReadInAllTheirForms) {
 }
 
 TEST(Errata, RowsAreNumberedFromOneWithoutAGap) {
-  const std::vector<int> rows = rows_of(read_text(project_folder / "sim/ERRATA.md"));
+  const std::vector<int> rows = rows_of(read_text(project_folder() / "sim/ERRATA.md"));
   ASSERT_GE(rows.size(), 25U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i], static_cast<int>(i) + 1) << "the heading after row " << i;
@@ -168,18 +168,18 @@ TEST(Errata, RowsAreNumberedFromOneWithoutAGap) {
 }
 
 TEST(Errata, EveryCitedRowExists) {
-  const int rows = static_cast<int>(rows_of(read_text(project_folder / "sim/ERRATA.md")).size());
+  const int rows = static_cast<int>(rows_of(read_text(project_folder() / "sim/ERRATA.md")).size());
   const std::vector<Citation> citations = citations_of_project();
   EXPECT_GT(citations.size(), 40U) << "the search for citations finds next to none";
   for (const Citation& citation : citations) {
     EXPECT_TRUE(citation.row >= 1 && citation.row <= rows)
-        << citation.file.lexically_relative(project_folder).string() << ":" << citation.line
+        << citation.file.lexically_relative(project_folder()).string() << ":" << citation.line
         << " cites ERRATA row " << citation.row << "; sim/ERRATA.md has rows 1 to " << rows;
   }
 }
 
 TEST(Errata, EveryRowHasAReasonAndAPlace) {
-  const std::string page = read_text(project_folder / "sim/ERRATA.md");
+  const std::string page = read_text(project_folder() / "sim/ERRATA.md");
   const std::size_t rows = rows_of(page).size();
   std::size_t start = page.find("\n## 1. ");
   for (std::size_t row = 1; row <= rows; ++row) {
@@ -206,9 +206,9 @@ TEST(Errata, PlacesAreReadFromALineOfWhere) {
 TEST(Errata, SymbolsStandInTheFilesThatItNames) {
   std::size_t places = 0;
   for (const std::string& where :
-       entries_of(read_text(project_folder / "sim/ERRATA.md"), "Where")) {
+       entries_of(read_text(project_folder() / "sim/ERRATA.md"), "Where")) {
     for (const auto& [symbol, file] : places_of(where)) {
-      EXPECT_TRUE(names(read_text(project_folder / file), symbol)) << symbol << " in " << file;
+      EXPECT_TRUE(names(read_text(project_folder() / file), symbol)) << symbol << " in " << file;
       ++places;
     }
   }
@@ -217,10 +217,10 @@ TEST(Errata, SymbolsStandInTheFilesThatItNames) {
 
 TEST(Errata, FilesThatItNamesExist) {
   const std::regex file(R"(`((?:assets|render|scenes|sim|tests)/[\w./]+)`)");
-  const auto named = find_all(read_text(project_folder / "sim/ERRATA.md"), file);
+  const auto named = find_all(read_text(project_folder() / "sim/ERRATA.md"), file);
   EXPECT_GT(named.size(), 60U);
   for (const std::string& name : named) {
-    EXPECT_TRUE(std::filesystem::exists(project_folder / name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(project_folder() / name)) << name;
   }
 }
 

@@ -14,8 +14,6 @@
 namespace pneuma::sim {
 namespace {
 
-double volume_of(const SoftBody& body) { return volume(body.mesh->topology, body.positions); }
-
 /// In which the gas is at the pressure P at the start.
 SoftBody filled(const TriangleMesh& mesh, double exponent, double absolute, double ambient) {
   SoftBody body = make_body(mesh, {3.0, -1.0, 2.0});

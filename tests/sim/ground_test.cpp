@@ -11,8 +11,6 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr double g = 9.81;
-
 World sphere_on_ground(double k, double n, double height) {
   World world;
   world.soft.push_back(make_body(make_sphere(3.0, 8, 8), {0.0, 0.0, height}));

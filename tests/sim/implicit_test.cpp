@@ -68,11 +68,11 @@ TriangleMesh tetrahedron() {
 
 /// Breathing of a tetrahedron: all six springs lengthen by sqrt(8/3) of the vertices' way r, so its
 /// energy is 6 k/2 (8/3) r^2 + 4 m/2 r'^2, and omega^2 = 4 k / m; likewise the dashpots, 4 c / m.
-struct Breathing {
+struct BreathingTetrahedron {
   World world;
   double omega, damping;
 
-  Breathing(Integrator integrator, int steps_per_second, double rho_g, double k_max) {
+  BreathingTetrahedron(Integrator integrator, int steps_per_second, double rho_g, double k_max) {
     SoftBody body = make_body(tetrahedron());
     body.material.n = 0.0;
     body.material.k = 100.0;
@@ -107,7 +107,7 @@ Eigen::Matrix2d step_matrix(Integrator integrator, double omega, double damping,
 
 TEST_P(Implicit, DecaysAsItsStabilityFunctionSays) {
   for (const double k_max : {std::numeric_limits<double>::infinity(), 400.0}) {
-    Breathing breathing(GetParam(), 60, 0.02, k_max);
+    BreathingTetrahedron breathing(GetParam(), 60, 0.02, k_max);
     const Eigen::Matrix2d step =
         step_matrix(GetParam(), breathing.omega, breathing.damping, 1.0 / 60.0);
     Eigen::Vector2d expected(1.0, 0.0);
@@ -122,7 +122,7 @@ TEST_P(Implicit, DecaysAsItsStabilityFunctionSays) {
 }
 
 TEST_P(Implicit, ComesToTheHarmonicMotionInTheLimit) {
-  Breathing breathing(GetParam(), 7680, 0.02, 400.0);
+  BreathingTetrahedron breathing(GetParam(), 7680, 0.02, 400.0);
   ASSERT_FALSE(run(breathing.world, 0.25));
   const double half = 0.5 * breathing.damping, t = 0.25;
   const double turn = std::sqrt(breathing.omega * breathing.omega - half * half);

@@ -118,8 +118,6 @@ World any_world(std::uint64_t seed, int bodies) {
   return world;
 }
 
-double volume_of(const SoftBody& body) { return volume(body.mesh->topology, body.positions); }
-
 bool holds_gas(const SoftBody& body) { return body.material.n * body.material.temperature > 0.0; }
 
 /// Crumpled bodies may start inside out; then there is nothing to promise.

@@ -8,8 +8,6 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr double g = 9.81;
-
 World boxes_on_ground(double friction = 0.5, double restitution = 0.2) {
   World world;
   world.settings.ground = ContactMaterial{restitution, friction};

@@ -12,7 +12,6 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr double g = 9.81;
 constexpr double pi = std::numbers::pi;
 
 /// A box that spins mostly about its middle axis, which is the unstable one: it tumbles.

@@ -1,5 +1,4 @@
-// Counts the allocations of a test program. Link support/count_allocations.cpp with
-// -Wl,--wrap=malloc (Eigen allocates through malloc, everything else through operator new).
+// Counts the allocations of a test program that links the CMake target count_allocations.
 #pragma once
 
 namespace pneuma {

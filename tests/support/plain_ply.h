@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/mesh/triangle_mesh.h"
+#include "tests/support/paths.h"
 
 namespace pneuma {
 
@@ -31,7 +32,7 @@ inline sim::TriangleMesh parse_plain_ply(const std::string& text) {
 
 /// The whole file of that name in assets/.
 inline std::string read_asset(const std::string& name) {
-  std::ifstream file(std::string(PNEUMA_ASSETS_FOLDER) + "/" + name, std::ios::binary);
+  std::ifstream file(project_folder() / "assets" / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

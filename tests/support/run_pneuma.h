@@ -3,14 +3,15 @@
 
 #include <string>
 
+#include "tests/support/paths.h"
 #include "tests/support/run_command.h"
 
 namespace pneuma {
 
 /// `arguments` as in a shell, so that a redirection at their end works; `environment` as
-/// "NAME=value ". PNEUMA_PROGRAM is the path of the program, from CMake.
+/// "NAME=value ".
 inline ProgramResult run_pneuma(const std::string& arguments, const std::string& environment = "") {
-  return run_command(environment + " '" PNEUMA_PROGRAM "' " + arguments);
+  return run_command(environment + " '" + program_file() + "' " + arguments);
 }
 
 }  // namespace pneuma

@@ -15,6 +15,8 @@
 
 namespace pneuma::sim {
 
+inline constexpr double g = 9.81;  // m/s^2
+
 /// A body at rest in its rest shape, moved by `offset`.
 inline SoftBody make_body(const TriangleMesh& mesh, const Vec3& offset = Vec3::Zero()) {
   SoftBody body;
@@ -24,6 +26,10 @@ inline SoftBody make_body(const TriangleMesh& mesh, const Vec3& offset = Vec3::Z
   body.velocities = VertexArray(body.positions.size());
   for (int v = 0; v < body.positions.size(); ++v) body.positions[v] += offset;
   return body;
+}
+
+inline double volume_of(const SoftBody& body) {
+  return volume(body.mesh->topology, body.positions);
 }
 
 /// Moves every vertex, and gives it a velocity, by up to `amount` in each coordinate.

@@ -13,6 +13,7 @@
 
 #include "app/all_commands.h"
 #include "app/manual/write_manual.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_command.h"
 #include "tests/support/temporary_folder.h"
 
@@ -50,7 +51,7 @@ TEST(CommandModel, HasNamesValuesChoicesAndExamples) {
 
 /// The commands of the README's section, without their comments.
 std::vector<std::string> readme_commands() {
-  std::ifstream readme(PNEUMA_README);
+  std::ifstream readme(project_folder() / "README.md");
   std::vector<std::string> commands;
   for (std::string line; std::getline(readme, line);) {
     if (!line.starts_with("pneuma ")) continue;

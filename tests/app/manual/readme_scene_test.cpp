@@ -8,13 +8,14 @@
 #include "app/world/build_world.h"
 #include "app/world/gas_advice.h"
 #include "scenes/loader/load_scene.h"
+#include "tests/support/paths.h"
 
 namespace pneuma::app {
 namespace {
 
 /// What stands between ```toml and ```.
 std::string readme_scene() {
-  std::ifstream readme(PNEUMA_README);
+  std::ifstream readme(project_folder() / "README.md");
   std::string text;
   bool inside = false;
   for (std::string line; std::getline(readme, line);) {

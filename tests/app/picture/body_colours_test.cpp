@@ -9,9 +9,10 @@ using render::Colour;
 using sim::Vec3;
 
 // To light and back in single precision.
-constexpr float rounding = 2e-6f;
+constexpr float colour_rounding = 2e-6f;
 
-void expect_colour(const Colour& actual, const Colour& expected, float tolerance = rounding) {
+void expect_colour(const Colour& actual, const Colour& expected,
+                   float tolerance = colour_rounding) {
   EXPECT_LT((actual - expected).cwiseAbs().maxCoeff(), tolerance)
       << "is " << actual.transpose() << ", expected " << expected.transpose();
 }
@@ -71,8 +72,8 @@ TEST(BodyColours, ThreeBelongToXYAndZ) {
   expect_colour(colours[3], from_bytes(0, 0, 255));
   // All alike, where none and where all of the three directions lie: a grey.
   expect_colour(colours[0], colours[4]);
-  EXPECT_NEAR(colours[0].x(), colours[0].y(), rounding);
-  EXPECT_NEAR(colours[0].y(), colours[0].z(), rounding);
+  EXPECT_NEAR(colours[0].x(), colours[0].y(), colour_rounding);
+  EXPECT_NEAR(colours[0].y(), colours[0].z(), colour_rounding);
 }
 
 }  // namespace

@@ -88,13 +88,13 @@ TEST(DetectionScore, CountsFoundAndMissed) {
   EXPECT_EQ(DetectionScore{}.vertex_share(), 1.0) << "nothing to find, nothing missed";
 }
 
-CollisionStudy small_study() {
+CollisionStudy small_collision_study() {
   const scenes::Scene scene = scenes::load_scene(find_scene("two_spheres_contact"));
   return study_collision(scene, {.seconds = 4.0, .few = true});
 }
 
 TEST(CollisionStudy, ExactFindsEverythingAndParticlesDoNot) {
-  const CollisionStudy study = small_study();
+  const CollisionStudy study = small_collision_study();
   ASSERT_EQ(study.results.size(), 5U);
   EXPECT_GT(study.steps, 60);
   EXPECT_GT(study.exact().score.vertices, 100);

@@ -84,7 +84,7 @@ TEST(BodyAtRest, IsWhereSpringsAndGasHoldEachOther) {
   EXPECT_NEAR(volume() / before, 1.0, 1e-3);  // 0.01 m/s, of a body 10 m wide
 }
 
-StabilityStudy small_study() {
+StabilityStudy small_stability_study() {
   const scenes::Scene scene =
       scenes::load_scene(find_scene("one_sphere"), std::vector<std::string>{"body.n=1"});
   StabilityOptions options;
@@ -97,7 +97,7 @@ StabilityStudy small_study() {
 
 class SmallStudy : public testing::Test {
  protected:
-  static void SetUpTestSuite() { study_ = small_study(); }
+  static void SetUpTestSuite() { study_ = small_stability_study(); }
   static StabilityStudy study_;
 };
 StabilityStudy SmallStudy::study_;

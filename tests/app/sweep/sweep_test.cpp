@@ -12,6 +12,7 @@
 #include "app/sweep/sweep_plots.h"
 #include "app/sweep/workflow.h"
 #include "tests/app/sweep/sweep_folder.h"
+#include "tests/support/paths.h"
 
 namespace pneuma::app {
 namespace {
@@ -95,10 +96,11 @@ TEST_F(SweepTest, AKilledSweepLosesNothing) {
                          "[[parameter]]\nkey = \"body.rho_g\"\nrange = [0, 0.1]\ncount = 40\n");
   ASSERT_EQ(sweep("--cores 2", "whole").exit_code, 0);
   for (int kills = 0; kills < 3; ++kills) {
+    const std::string program = program_file();
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      execl(PNEUMA_PROGRAM, "pneuma", "sweep", file().c_str(), "--quiet", "--resume", "--cores",
+      execl(program.c_str(), "pneuma", "sweep", file().c_str(), "--quiet", "--resume", "--cores",
             "2", "--out", out().c_str(), static_cast<char*>(nullptr));
       _exit(127);
     }
@@ -172,7 +174,7 @@ TEST_F(SweepTest, AFullDiskIsNamedAndTheSweepGoesOn) {
   // Files of at most 1 KiB: a few rows.
   const ProgramResult full = run_command(
       fmt::format("bash -c \"ulimit -f 1; '{}' sweep '{}' --quiet --cores 1 --out '{}'\" 2>&1",
-                  PNEUMA_PROGRAM, file().string(), out().string()));
+                  program_file(), file().string(), out().string()));
   EXPECT_EQ(full.exit_code, 6) << full.output;
   EXPECT_NE(full.output.find("free some space"), std::string::npos) << full.output;
   ASSERT_EQ(sweep("--resume --cores 1").exit_code, 0);

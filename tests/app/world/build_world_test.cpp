@@ -51,17 +51,17 @@ void expect_near(const Vec3& actual, const Vec3& expected, double tolerance) {
 }
 
 // A few roundings of numbers of size 1 to 100.
-constexpr double rounding = 1e-13;
+constexpr double place_rounding = 1e-13;
 
 TEST(BuildWorld, PlacesCopiesXFastestAndNumbersThem) {
   const sim::World world = build_world(scene_of(block_of_spheres));
   ASSERT_EQ(world.soft.size(), 12u);
   EXPECT_EQ(world.soft[0].name, "ball.1");
   EXPECT_EQ(world.soft[11].name, "ball.12");
-  expect_near(sim::mean(world.soft[0].positions), {1.0, 2.0, 3.0}, rounding);
-  expect_near(sim::mean(world.soft[1].positions), {11.0, 2.0, 3.0}, rounding);
-  expect_near(sim::mean(world.soft[3].positions), {1.0, 22.0, 3.0}, rounding);
-  expect_near(sim::mean(world.soft[6].positions), {1.0, 2.0, 33.0}, rounding);
+  expect_near(sim::mean(world.soft[0].positions), {1.0, 2.0, 3.0}, place_rounding);
+  expect_near(sim::mean(world.soft[1].positions), {11.0, 2.0, 3.0}, place_rounding);
+  expect_near(sim::mean(world.soft[3].positions), {1.0, 22.0, 3.0}, place_rounding);
+  expect_near(sim::mean(world.soft[6].positions), {1.0, 2.0, 33.0}, place_rounding);
 }
 
 TEST(BuildWorld, LeavesTheNameOfASingleBodyAlone) {
@@ -107,9 +107,9 @@ position = [1.0, 2.0, 3.0]
   const sim::World world = build_world(scene_of(box, {"body.rotation=[90, -90, 90]"}));
   ASSERT_EQ(world.rigid.size(), 1u);
   const Eigen::Quaterniond& turn = world.rigid[0].orientation;
-  expect_near(turn * Vec3::UnitX(), Vec3::UnitZ(), rounding);
+  expect_near(turn * Vec3::UnitX(), Vec3::UnitZ(), place_rounding);
   // About x: y becomes z. About y by -90: z becomes -x. About z: -x becomes -y.
-  expect_near(turn * Vec3::UnitY(), -Vec3::UnitY(), rounding);
+  expect_near(turn * Vec3::UnitY(), -Vec3::UnitY(), place_rounding);
   EXPECT_EQ(world.rigid[0].position, Vec3(1.0, 2.0, 3.0));
 }
 
@@ -121,7 +121,7 @@ TEST(BuildWorld, GivesSoftBodiesTheVelocityOfARigidRotation) {
   for (int v = 0; v < body.positions.size(); ++v) {
     const Vec3 arm = Vec3(body.positions[v]) - Vec3(1.0, 2.0, 3.0);
     // (3, 0, 0) x (x, y, z) written out.
-    expect_near(body.velocities[v], {1.0, -3.0 * arm.z(), 3.0 * arm.y()}, rounding);
+    expect_near(body.velocities[v], {1.0, -3.0 * arm.z(), 3.0 * arm.y()}, place_rounding);
   }
 }
 

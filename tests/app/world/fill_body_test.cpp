@@ -15,10 +15,6 @@ sim::World world_of(const std::string& body) {
   return build_world(scenes::parse_scene(body, "test.toml"));
 }
 
-double volume_of(const sim::SoftBody& body) {
-  return sim::volume(body.mesh->topology, body.positions);
-}
-
 /// Volume over that of the start, once the body has come to rest under an explicit integrator.
 double inflation_of_a_run(const sim::World& world) {
   sim::SoftBody body = world.soft.at(0);

@@ -9,18 +9,21 @@
 
 #include "app/record/world_json.h"
 #include "scenes/loader/integrator_names.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pneuma::app {
 namespace {
 
 const std::vector<GoldenSection>& golden_states() {
-  static const auto sections = read_golden_states(PNEUMA_GOLDEN_STATES);
+  static const auto sections =
+      read_golden_states(project_folder() / "tests/golden/state_hashes.txt");
   return sections;
 }
 
 const std::vector<GoldenSection>& golden_paper_states() {
-  static const auto sections = read_golden_states(PNEUMA_GOLDEN_PAPER_STATES);
+  static const auto sections =
+      read_golden_states(project_folder() / "tests/golden/paper_hashes.txt");
   return sections;
 }
 

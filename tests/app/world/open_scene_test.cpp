@@ -24,10 +24,6 @@
 namespace pneuma::app {
 namespace {
 
-double volume_of(const sim::SoftBody& body) {
-  return sim::volume(body.mesh->topology, body.positions);
-}
-
 class OpenScene : public testing::Test {
  protected:
   scenes::Scene open(const sim::TriangleMesh& mesh,

@@ -13,8 +13,6 @@ namespace {
 
 using sim::SoftBody;
 
-double volume_of(const SoftBody& body) { return sim::volume(body.mesh->topology, body.positions); }
-
 /// Of the body once it has come to rest under an explicit integrator.
 double volume_after_a_run(SoftBody body) {
   body.material.rho_g = 0.5;  // so that it comes to rest

@@ -1,34 +1,16 @@
 // Contacts of boxes with soft bodies, against a look at every vertex and every corner.
 #include <gtest/gtest.h>
 
-#include <random>
 #include <set>
 
 #include "sim/collision/bounding_sphere.h"
 #include "sim/collision/find_body_contacts.h"
 #include "sim/collision/point_in_body.h"
+#include "tests/sim/collision/uniform.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
 namespace {
-
-class Uniform {
- public:
-  explicit Uniform(unsigned seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3 within(const Bounds& bounds, double beyond) {
-    Vec3 point;
-    for (int k = 0; k < 3; ++k) {
-      point[k] = (*this)(bounds.low[k] - beyond, bounds.high[k] + beyond);
-    }
-    return point;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// The paper's torus, dented.
 SoftBody dented_torus() {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <random>
 
 #include "sim/mesh/primitives.h"
 #include "tests/sim/collision/feature_samples.h"
 #include "tests/sim/collision/surface_body.h"
+#include "tests/sim/collision/uniform.h"
 
 namespace pneuma::sim {
 namespace {
@@ -28,18 +28,6 @@ double winding_number(const SurfaceBody& body, const Vec3& point) {
   }
   return half_angles / (2.0 * std::numbers::pi);
 }
-
-class Uniform {
- public:
-  explicit Uniform(unsigned seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
-
- private:
-  std::mt19937 engine_;
-};
 
 /// The paper's torus, dented and wrung: z over x, y is many-valued and no face is vertical or flat.
 SurfaceBody deformed_torus() {

@@ -111,7 +111,7 @@ SoftBody make_light_ball(const Vec3& centre) {
 }
 
 /// A ball that hangs from a static one.
-World make_hanging() {
+World make_hung_by_springs() {
   World world;
   world.settings.steps_per_second = 480;
   world.soft = {make_ball(0.3, 1.2, true, {0.0, 0.0, 6.0}), make_light_ball({0.0, 0.0, 4.0})};
@@ -122,7 +122,7 @@ World make_hanging() {
 
 TEST(BodySprings, HoldABodyByAnObstacle) {
   for (const Integrator integrator : all_integrators) {
-    World world = make_hanging();
+    World world = make_hung_by_springs();
     world.settings.integrator = integrator;
     const VertexArray obstacle = world.soft[0].positions;
     const auto divergence = run(world, 6.0);

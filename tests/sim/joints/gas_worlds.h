@@ -54,10 +54,6 @@ inline SoftBody make_ball(double radius, double pressure, bool stiff,
   return ball;
 }
 
-inline double volume_of(const SoftBody& body) {
-  return volume(body.mesh->topology, body.positions);
-}
-
 /// Pa.
 inline double pressure_of(const SoftBody& body) {
   return absolute_pressure(gas_law(body.material), volume_of(body));

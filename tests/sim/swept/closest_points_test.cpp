@@ -43,12 +43,12 @@ void expect_closest(const FeaturePair& pair, const ClosestPoints& closest) {
                  pair.tolerance);
 }
 
-constexpr int pairs = 20'000;
+constexpr int feature_pairs = 20'000;
 constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 TEST(ClosestPoints, OfVertexAndTriangleAreAtTheTrueDistance) {
   FeatureSampler sampler(1);
-  for (int i = 0; i < pairs && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < feature_pairs && !testing::Test::HasFailure(); ++i) {
     const FeaturePair pair = sampler.sample(1, 3, i % FeatureSampler::relations);
     expect_closest(pair,
                    *closest_vertex_triangle(pair.first[0], corners(pair.second), any_distance));
@@ -57,7 +57,7 @@ TEST(ClosestPoints, OfVertexAndTriangleAreAtTheTrueDistance) {
 
 TEST(ClosestPoints, OfTwoEdgesAreAtTheTrueDistance) {
   FeatureSampler sampler(2);
-  for (int i = 0; i < pairs && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < feature_pairs && !testing::Test::HasFailure(); ++i) {
     const FeaturePair pair = sampler.sample(2, 2, i % FeatureSampler::relations);
     expect_closest(pair,
                    *closest_edge_edge(segment(pair.first), segment(pair.second), any_distance));

@@ -19,7 +19,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr double any_distance = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// A body's surface at rest in its rest shape.
 MovingSurface make_surface(const SoftMesh& mesh, const Vec3& offset, bool is_rigid = false) {
@@ -163,7 +163,7 @@ TEST(MovingSurface, OnePairStandsForEachPairOfParts) {
     std::vector<Vec3> points;  // the middles between nearest points
     double nearest = 1.0;
     for (const NearFeatures& pair : pairs) {
-      const ClosestPoints closest = *closest_points(a, b, pair, Moment::start, any_distance);
+      const ClosestPoints closest = *closest_points(a, b, pair, Moment::start, unlimited);
       if (!stands_for_its_parts(a, b, pair, closest, Moment::start, 1e-6)) continue;
       nearest = std::min(nearest, closest.distance);
       points.push_back(0.5 * (closest.first_point + closest.second_point));
@@ -209,7 +209,7 @@ double distance_at(const MovingSurface& a, const MovingSurface& b, const NearFea
   MovingSurface now_a = a, now_b = b;
   now_a.start.rows() = (1.0 - t) * a.start.rows() + t * a.end.rows();
   now_b.start.rows() = (1.0 - t) * b.start.rows() + t * b.end.rows();
-  return closest_points(now_a, now_b, pair, Moment::start, any_distance)->distance;
+  return closest_points(now_a, now_b, pair, Moment::start, unlimited)->distance;
 }
 
 void turn(MovingSurface& surface, std::mt19937& random) {

@@ -77,9 +77,9 @@ TEST(EnvelopeCholesky, SaysWhenAMatrixIsNotPositive) {
 
 /// Cubes of 2 m on each other and on the ground, falling at 1 m/s: the impulses at their corners
 /// must stop them.
-class Stack {
+class StackOfNodes {
  public:
-  explicit Stack(const std::vector<double>& masses) {
+  explicit StackOfNodes(const std::vector<double>& masses) {
     for (std::size_t i = 0; i < masses.size(); ++i) {
       const RigidBox box =
           make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 1.0 + 2.0 * static_cast<double>(i)}, masses[i]);
@@ -124,7 +124,7 @@ class Stack {
   std::vector<ImpulseNodes> nodes_;
 };
 
-void improve_with_growing_penalty(Stack& stack) {
+void improve_with_growing_penalty(StackOfNodes& stack) {
   NewtonSolver solver;
   ASSERT_TRUE(solver.begin(stack.impulses()));
   for (double penalty = 1e3; penalty < 1e9; penalty *= 30.0) {
@@ -133,7 +133,7 @@ void improve_with_growing_penalty(Stack& stack) {
 }
 
 TEST(NewtonSolver, StopsAStackThatIterationsDoNotStop) {
-  Stack stack(std::vector(20, 1.0)), iterated(std::vector(20, 1.0));
+  StackOfNodes stack(std::vector(20, 1.0)), iterated(std::vector(20, 1.0));
   improve_with_growing_penalty(stack);
   EXPECT_LT(stack.error(), 1e-6);
   iterated.iterate(0.0, 10'000);
@@ -142,7 +142,7 @@ TEST(NewtonSolver, StopsAStackThatIterationsDoNotStop) {
 
 TEST(GaussSeidel, EndsWhereNoCorrectionIsLeft) {
   constexpr double tolerance = 1e-4;
-  Stack stack(std::vector(6, 1.0));
+  StackOfNodes stack(std::vector(6, 1.0));
   EXPECT_LE(stack.iterate(tolerance, 100'000), tolerance);
   for (SweptImpulse* impulse : stack.impulses()) EXPECT_LE(impulse->correct(), 2.0 * tolerance);
   EXPECT_LT(stack.error(), 0.02);  // the tolerance, times what is left in a stack of six by then
@@ -150,7 +150,7 @@ TEST(GaussSeidel, EndsWhereNoCorrectionIsLeft) {
 
 /// What has settled is not touched for the sake of what has not.
 TEST(GaussSeidel, CorrectsOnlyWhatDependsOnTheUnsettled) {
-  Stack tall(std::vector(20, 1.0)), low(std::vector(2, 1.0)), alone(std::vector(2, 1.0));
+  StackOfNodes tall(std::vector(20, 1.0)), low(std::vector(2, 1.0)), alone(std::vector(2, 1.0));
   std::vector<SweptImpulse*> impulses(low.impulses().begin(), low.impulses().end());
   std::vector<ImpulseNodes> nodes(low.nodes().begin(), low.nodes().end());
   impulses.insert(impulses.end(), tall.impulses().begin(), tall.impulses().end());
@@ -166,7 +166,7 @@ TEST(GaussSeidel, CorrectsOnlyWhatDependsOnTheUnsettled) {
   }
 }
 
-void iterate_conjugately(Stack& stack, int iterations) {
+void iterate_conjugately(StackOfNodes& stack, int iterations) {
   ConjugateIterations conjugate;
   conjugate.begin(stack.impulses());
   conjugate.correct(0.0, iterations);
@@ -174,7 +174,7 @@ void iterate_conjugately(Stack& stack, int iterations) {
 
 /// Of boxes many are corrected at once, each as by itself.
 TEST(ConjugateIterations, BeginWithOneCorrectionOfEach) {
-  Stack stack({1.0, 2.0}), iterated({1.0, 2.0});
+  StackOfNodes stack({1.0, 2.0}), iterated({1.0, 2.0});
   iterate_conjugately(stack, 1);
   iterated.iterate(0.0, 1);
   for (std::size_t i = 0; i < stack.impulses().size(); ++i) {
@@ -185,7 +185,7 @@ TEST(ConjugateIterations, BeginWithOneCorrectionOfEach) {
 }
 
 TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
-  Stack stack(std::vector(8, 1.0)), iterated(std::vector(8, 1.0));
+  StackOfNodes stack(std::vector(8, 1.0)), iterated(std::vector(8, 1.0));
   iterate_conjugately(stack, 200);
   iterated.iterate(0.0, 1'000);
   EXPECT_LT(stack.error(), iterated.error());
@@ -193,7 +193,7 @@ TEST(ConjugateIterations, NeedAFractionOfThePlainOnes) {
 
 TEST(ConjugateIterations, EndWithinTheLimits) {
   for (const int iterations : {1, 2, 3, 5, 8, 13}) {
-    Stack stack(std::vector(20, 1.0));
+    StackOfNodes stack(std::vector(20, 1.0));
     iterate_conjugately(stack, iterations);
     for (const SweptImpulse* impulse : stack.impulses()) {
       EXPECT_GE(impulse->normal_impulse(), 0.0);
@@ -204,7 +204,7 @@ TEST(ConjugateIterations, EndWithinTheLimits) {
 
 /// Boxes go on by themselves, and their impulses too.
 TEST(ConjugateIterations, GiveBoxesTheMomentumOfTheImpulses) {
-  Stack stack(std::vector(20, 1.0));
+  StackOfNodes stack(std::vector(20, 1.0));
   iterate_conjugately(stack, 13);
   std::set<const BoxChange*> boxes;
   Vec3 momentum = Vec3::Zero(), given = Vec3::Zero();
@@ -220,7 +220,7 @@ TEST(ConjugateIterations, GiveBoxesTheMomentumOfTheImpulses) {
 }
 
 TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
-  Stack stack(std::vector(3, 1.0)), iterated(std::vector(3, 1.0));
+  StackOfNodes stack(std::vector(3, 1.0)), iterated(std::vector(3, 1.0));
   improve_with_growing_penalty(stack);
   iterated.iterate(0.0, 10'000);
   EXPECT_LT(stack.error(), 1e-8);
@@ -230,7 +230,7 @@ TEST(NewtonSolver, StopsAStackAsIterationsWithoutEndDo) {
 TEST(NewtonSolver, StopsAThousandKilogramsOnCubesOfOne) {
   std::vector<double> masses(10, 1.0);
   masses.back() = 1000.0;
-  Stack stack(masses);
+  StackOfNodes stack(masses);
   improve_with_growing_penalty(stack);
   EXPECT_LT(stack.error(), 1e-5);
   double carried = 0.0;
@@ -239,7 +239,7 @@ TEST(NewtonSolver, StopsAThousandKilogramsOnCubesOfOne) {
 }
 
 TEST(NewtonSolver, LeavesAloneWhatIsTooLarge) {
-  Stack stack(std::vector(1000, 1.0));
+  StackOfNodes stack(std::vector(1000, 1.0));
   NewtonSolver solver;
   EXPECT_FALSE(solver.begin(stack.impulses()));
   for (const SweptImpulse* impulse : stack.impulses()) EXPECT_EQ(impulse->normal_impulse(), 0.0);

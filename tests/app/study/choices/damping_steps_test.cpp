@@ -9,7 +9,7 @@
 namespace pneuma::app {
 namespace {
 
-sim::SoftBody sphere() {
+sim::SoftBody damped_sphere() {
   sim::SoftBody body = sim::make_body(sim::make_sphere(3.0, 8, 8));
   body.material.n = 5.0;
   return body;
@@ -17,11 +17,11 @@ sim::SoftBody sphere() {
 
 const std::vector<int> rates = {60, 120, 480};
 
-DampingStudy small_study() { return study_damping(sphere(), rates, 0.5); }
+DampingStudy damping_study() { return study_damping(damped_sphere(), rates, 0.5); }
 
 TEST(StudyDamping, FindsTheFallOfTheEquationAtEveryStepUnderDashpot) {
-  const DampingStudy study = small_study();
-  const double gamma = -60.0 * std::log(1.0 - sphere().material.rho_g);
+  const DampingStudy study = damping_study();
+  const double gamma = -60.0 * std::log(1.0 - damped_sphere().material.rho_g);
   const double exact = 9.81 / gamma * (1.0 - std::exp(-0.5 * gamma));
   EXPECT_NEAR(study.exact_fall_speed, exact, 1e-12);
   for (std::size_t i = 0; i < rates.size(); ++i) {
@@ -33,8 +33,8 @@ TEST(StudyDamping, FindsTheFallOfTheEquationAtEveryStepUnderDashpot) {
 }
 
 TEST(StudyDamping, FindsThatLiteralHoldsAFallingBodyBackTheMoreTheShorterTheStep) {
-  const DampingStudy study = small_study();
-  const sim::SoftMaterial material = sphere().material;
+  const DampingStudy study = damping_study();
+  const sim::SoftMaterial material = damped_sphere().material;
   const double rho = material.rho_g + (1.0 - material.rho_g) * material.k / material.k_max;
   for (std::size_t i = 0; i < rates.size(); ++i) {
     const DampingRun& run = study.runs[rates.size() + i];
@@ -51,7 +51,7 @@ TEST(StudyDamping, FindsThatLiteralHoldsAFallingBodyBackTheMoreTheShorterTheStep
 }
 
 TEST(StudyDamping, FindsThatTheSwingDependsOnTheStepUnderLiteralOnly) {
-  const DampingStudy study = study_damping(sphere(), {120, 240, 960}, 1.0);
+  const DampingStudy study = study_damping(damped_sphere(), {120, 240, 960}, 1.0);
   const auto swing = [&](std::size_t i) { return *study.runs[i].swing_left; };
   // Looked at once a step, a peak of the kinetic energy is missed by half a step at most.
   EXPECT_NEAR(swing(0), swing(2), 0.03 * swing(2));
@@ -60,7 +60,7 @@ TEST(StudyDamping, FindsThatTheSwingDependsOnTheStepUnderLiteralOnly) {
 }
 
 TEST(StudyDamping, SaysWhatDiverges) {
-  sim::SoftBody body = sphere();
+  sim::SoftBody body = damped_sphere();
   body.material.k = 1e7;
   body.material.k_max = 1e9;
   const DampingStudy study = study_damping(body, {15}, 0.5);

@@ -10,27 +10,29 @@ namespace {
 
 using sim::PressureWeighting;
 
-sim::SoftBody sphere() { return sim::make_body(sim::make_sphere(3.0, 8, 8), {7.0, 0.0, 9.0}); }
+sim::SoftBody lying_sphere() {
+  return sim::make_body(sim::make_sphere(3.0, 8, 8), {7.0, 0.0, 9.0});
+}
 
 DriftOptions few_trials() { return {.trials = 4, .seconds = 1.0, .steps_per_second = 120}; }
 
 // Sums over 58 forces of size 1, and their motion over 480 evaluations: rounding.
-constexpr double rounding = 1e-13;
+constexpr double force_rounding = 1e-13;
 
 TEST(StudyDrift, FindsThatABodyPropelsItselfUnderValenceOnly) {
-  const DriftStudy study = study_drift(sphere(), few_trials());
+  const DriftStudy study = study_drift(lying_sphere(), few_trials());
   ASSERT_EQ(study.uniform.size(), 4u);
   ASSERT_EQ(study.valence.size(), 4u);
   for (std::size_t t = 0; t < 4; ++t) {
     EXPECT_EQ(study.valence[t].distances.size(), 15u);
-    EXPECT_LT(study.uniform[t].distances.back(), rounding);
-    EXPECT_LT(study.uniform[t].net_force, rounding);
+    EXPECT_LT(study.uniform[t].distances.back(), force_rounding);
+    EXPECT_LT(study.uniform[t].net_force, force_rounding);
     EXPECT_GT(study.valence[t].distances.back(), 1e-4);
     EXPECT_GT(study.valence[t].net_force, 1e-3);
   }
   // The conclusion once more, by a plain run of another perturbed sphere.
   for (const auto weighting : {PressureWeighting::uniform, PressureWeighting::valence}) {
-    sim::SoftBody body = sphere();
+    sim::SoftBody body = lying_sphere();
     sim::perturb(body, 0.4, 99);
     body.velocities.rows().setZero();
     body.material.pressure_weighting = weighting;
@@ -39,7 +41,7 @@ TEST(StudyDrift, FindsThatABodyPropelsItselfUnderValenceOnly) {
     ASSERT_FALSE(sim::run(world, 1.0));
     const double distance = (sim::mean(world.soft[0].positions) - start).norm() / 3.0;
     if (weighting == PressureWeighting::uniform) {
-      EXPECT_LT(distance, rounding);
+      EXPECT_LT(distance, force_rounding);
     } else {
       EXPECT_GT(distance, 1e-4);
     }
@@ -49,7 +51,7 @@ TEST(StudyDrift, FindsThatABodyPropelsItselfUnderValenceOnly) {
 TEST(StudyDrift, FindsTheNetForcesOfTheErrata) {
   // Row 4: 0.03 to 0.27 of a mean vertex force over 20 trials, with other random numbers. The least
   // of 20 is a matter of luck, the greatest less so.
-  sim::SoftBody body = sphere();
+  sim::SoftBody body = lying_sphere();
   body.material.n = 100.0;
   const auto force = force_range(
       study_drift(body, {.trials = 20, .seconds = 0.1, .steps_per_second = 240}).valence);
@@ -61,12 +63,12 @@ TEST(StudyDrift, FindsTheNetForcesOfTheErrata) {
 TEST(StudyDrift, FindsNoneWhereEveryVertexHasAsManySprings) {
   const DriftStudy study =
       study_drift(sim::make_body(sim::make_torus(6.0, 2.0, 8, 8)), few_trials());
-  EXPECT_LT(drift_range(study.valence)[2], rounding);
+  EXPECT_LT(drift_range(study.valence)[2], force_rounding);
 }
 
 TEST(StudyDrift, IsTheSameEachTime) {
-  const DriftStudy one = study_drift(sphere(), few_trials());
-  const DriftStudy other = study_drift(sphere(), few_trials());
+  const DriftStudy one = study_drift(lying_sphere(), few_trials());
+  const DriftStudy other = study_drift(lying_sphere(), few_trials());
   EXPECT_EQ(one.valence[3].distances, other.valence[3].distances);
   EXPECT_NE(one.valence[2].distances, one.valence[3].distances);
 }

@@ -49,17 +49,17 @@ double difference_from_simulation(const sim::SoftBody& body) {
 }
 
 // Sums of some ten terms, of the size of the greatest: rounding.
-constexpr double rounding = 1e-13;
+constexpr double sum_rounding = 1e-13;
 
 TEST(ReferenceEquation, IsTheSimulations) {
-  EXPECT_LT(difference_from_simulation(moving_body()), rounding);
+  EXPECT_LT(difference_from_simulation(moving_body()), sum_rounding);
 }
 
 TEST(ReferenceEquation, IsTheSimulationsWithEveryChoice) {
   const auto check = [](const char* what, const auto& change) {
     sim::SoftBody body = moving_body();
     change(body.material);
-    EXPECT_LT(difference_from_simulation(body), rounding) << what;
+    EXPECT_LT(difference_from_simulation(body), sum_rounding) << what;
   };
   check("valence", [](auto& m) { m.pressure_weighting = sim::PressureWeighting::valence; });
   check("air outside", [](auto& m) {
@@ -81,11 +81,11 @@ TEST(ReferenceEquation, IsTheSimulationsWithBending) {
   body.material.bending = 200.0;
   const double without = difference_from_simulation(moving_body());
   // Angles by an arc function, against the distance of unit normals: some ten roundings more.
-  EXPECT_LT(difference_from_simulation(body), 10.0 * rounding);
-  EXPECT_LT(without, rounding);
+  EXPECT_LT(difference_from_simulation(body), 10.0 * sum_rounding);
+  EXPECT_LT(without, sum_rounding);
   for (const double damping : {0.01, 1.0}) {
     body.material.bending_damping = damping;
-    EXPECT_LT(difference_from_simulation(body), 10.0 * rounding) << damping;
+    EXPECT_LT(difference_from_simulation(body), 10.0 * sum_rounding) << damping;
   }
   sim::AccelerationScratch scratch(*body.mesh);
   sim::VertexArray with(body.positions.size()), none(body.positions.size());
