@@ -11,7 +11,7 @@ namespace pneuma::assets {
 namespace {
 
 template <class Read>
-std::string refusal(const Read& read) {
+std::string read_refusal(const Read& read) {
   try {
     read();
   } catch (const ModelError& error) {
@@ -37,7 +37,7 @@ TEST(ModelLimits, FileSize) {
   EXPECT_THROW(import_model(path, limits), ModelError);
   // The default limit, on a file that takes no room on the disk.
   std::filesystem::resize_file(path, (std::size_t{64} << 20) + 1);
-  expect_parts(refusal([&] { load_model(path); }),
+  expect_parts(read_refusal([&] { load_model(path); }),
                {"67108865 bytes are more than the limit of 67108864 for a model;",
                 "raise model_file_mib in [limits]"});
 }
@@ -51,7 +51,7 @@ TEST(ModelLimits, FileSizeWithBuffers) {
   limits.bytes = text.size() + buffer.size();
   EXPECT_NO_THROW(import_model(folder / "a.gltf", limits));
   --limits.bytes;
-  expect_parts(refusal([&] { import_model(folder / "a.gltf", limits); }),
+  expect_parts(read_refusal([&] { import_model(folder / "a.gltf", limits); }),
                {fmt::format("{} bytes are more than the limit of {} for a model with its files",
                             limits.bytes + 1, limits.bytes)});
 }
@@ -61,7 +61,7 @@ TEST(ModelLimits, VerticesInTheFile) {
   sim::TriangleMesh mesh = cube();
   mesh.vertices.resize(800'008, Vec3::Zero());  // eight times 100,001, most without triangles
   write_text(folder / "a.ply", ply_bytes(mesh));
-  expect_parts(refusal([&] { load_model(folder / "a.ply"); }),
+  expect_parts(read_refusal([&] { load_model(folder / "a.ply"); }),
                {"800008 vertices are more than the limit of 800000 for a file",
                 "raise vertices_per_body in [limits]"});
   EXPECT_EQ(load_model(folder / "a.ply", {.most_vertices = 100'001}).mesh.vertices.size(), 8u);
@@ -74,7 +74,7 @@ TEST(ModelLimits, TrianglesWithInstances) {
   limits.triangles = 12;
   EXPECT_NO_THROW(import_model(folder / "a.obj", limits));
   limits.triangles = 11;
-  expect_parts(refusal([&] { import_model(folder / "a.obj", limits); }),
+  expect_parts(read_refusal([&] { import_model(folder / "a.obj", limits); }),
                {"more than 11 triangles", "raise vertices_per_body in [limits]"});
 }
 
