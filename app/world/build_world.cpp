@@ -191,23 +191,33 @@ class Builder {
     } catch (const sim::EquilibriumError& error) {
       refuse_body(scene_, body.rest_place, body.name,
                   fmt::format("rest = \"equilibrium\": {}{}", error.what(),
-                              step_with_stiffer_springs(body, mesh, material)));
+                              advice_of_stiffer_springs(body, mesh, material)));
     }
   }
 
-  /// Springs that hold the gas may need shorter steps than the scene's: "; with that k ...".
-  std::string step_with_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh,
+  /// Springs that can hold the gas may still fold, and may need shorter steps than the scene's:
+  /// "; from k = ... on no push folds it; with that k ...".
+  std::string advice_of_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh,
                                         const sim::SoftMaterial& material) const {
     sim::SoftMaterial stiff = material;
     try {
       const double held = sim::max_held_gas(mesh.topology, mesh.rest_positions, material);
       if (!(held < material.n)) return "";
       stiff.k = std::stod(base::text_above(material.k * material.n / held));
+      std::string text;
+      const bool quick = mesh.topology.vertex_count() <= sim::quickly_stable;
+      const double steady =
+          quick ? sim::stable_stiffness(mesh, mesh.rest_positions, stiff) : stiff.k;
+      if (steady > stiff.k && std::isfinite(steady)) {
+        const std::string k = base::text_above(steady);
+        text = fmt::format("; from k = {} N/m on no push folds it", k);
+        stiff.k = std::stod(k);
+      }
       Builder with_stiff(scene_);
       with_stiff.add_soft(body, {body.name, body.position, Quaternion::Identity()},
                           held_mesh_of(mesh, stiff), stiff);
       const StepAdvice advice = step_advice(with_stiff.world_, with_stiff.world_.soft.front());
-      return advice.too_long() ? "; with that k use " + remedy(advice) : "";
+      return advice.too_long() ? text + "; with that k use " + remedy(advice) : text;
     } catch (const sim::EquilibriumError&) {
       return "";
     }

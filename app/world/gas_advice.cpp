@@ -27,11 +27,49 @@ constexpr double least_share = 0.5;
 /// Times its volume: what is advised for.
 constexpr double carried_share = 0.8;
 
+/// Of the volume at the start: what is left unbalanced moves a held body by less.
+constexpr double held_change = 0.1;
+
+/// N/m, from which on springs hold the shape and no push folds it.
+std::optional<double> steady_k(const sim::SoftBody& body, const sim::SoftMaterial& material) {
+  if (body.mesh->topology.vertex_count() > sim::quickly_stable) return std::nullopt;
+  return sim::stable_stiffness(*body.mesh, body.mesh->rest_positions, material);
+}
+
+/// mol, with which springs can hold the shape without folding. Beside an ambient pressure as
+/// without: what it takes from the gas it takes from the tensions of the springs, too.
 std::optional<double> max_held(const sim::SoftBody& body) {
   try {
-    return sim::max_held_gas(body.mesh->topology, body.positions, body.material);
+    const double most = sim::max_held_gas(body.mesh->topology, body.positions, body.material);
+    if (!std::isfinite(most) || body.material.ambient_pressure > 0.0) return most;
+    sim::SoftMaterial filled = body.material;
+    filled.n = 0.999 * most;
+    return most * body.material.k / steady_k(body, filled).value_or(body.material.k);
   } catch (const sim::EquilibriumError&) {
     return std::nullopt;
+  }
+}
+
+/// Whether springs are stretched or pressed in the shape that the body was given.
+bool is_held(const sim::SoftBody& body) {
+  constexpr double rounding = 1e-9;
+  const auto& edges = body.mesh->topology.edges();
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto& [a, b] = edges[e];
+    const double length = (body.mesh->rest_positions[b] - body.mesh->rest_positions[a]).norm();
+    if (std::abs(length - body.mesh->rest_lengths[e]) > rounding * length) return true;
+  }
+  return false;
+}
+
+void predict_folding(const sim::SoftBody& body, GasAdvice& advice) {
+  advice.held = sim::gas_strength(body.material) > 0.0 && is_held(body);
+  if (!advice.held || advice.filled_at || body.pins) return;
+  try {
+    const auto k = steady_k(body, body.material);
+    if (k && *k > body.material.k) advice.steady_k = k;
+  } catch (const sim::EquilibriumError&) {
+    return;  // rest lengths of its own
   }
 }
 
@@ -135,6 +173,7 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   advice.n = body.material.n;
   advice.temperature = body.material.temperature;
   if (advice.blown_up()) advice.max_held = max_held(body);
+  predict_folding(body, advice);
   predict_pressed(body, world.settings, advice);
   advice.limp &= !has_valve(world, at_start);
   return advice;
@@ -145,6 +184,11 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
 bool GasAdvice::crushed() const { return limp || (pressed && *pressed < least_share * volume); }
 
 bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
+
+bool GasAdvice::leaves_shape() const {
+  if (!held || filled_at || blown_up()) return false;
+  return steady_k || (settled && std::abs(*settled - volume) > held_change * volume);
+}
 
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
@@ -189,6 +233,22 @@ std::string gas_warning(const GasAdvice& advice) {
           ? ""
           : fmt::format(", and mass = {} kg, which that carries (now {:.3g} kg), or a greater k",
                         base::text_below(*advice.held_mass), advice.mass));
+}
+
+std::string shape_warning(const GasAdvice& advice) {
+  const std::string body = body_and_alike(advice.body, advice.count);
+  if (!advice.steady_k) {
+    return fmt::format(
+        "{}: with rest = \"equilibrium\" springs of this mesh leave a part of the pressure "
+        "unbalanced: {}; a greater k or a coarser mesh keeps its shape better",
+        body, volumes_text(advice));
+  }
+  const std::string folds = fmt::format(
+      "{}: with rest = \"equilibrium\" springs of k = {:g} N/m balance its gas, but the slightest "
+      "push folds it; ",
+      body, advice.k);
+  if (std::isinf(*advice.steady_k)) return folds + "give it bending, or a rounder shape";
+  return fmt::format("{}use at least k = {} N/m", folds, base::text_above(*advice.steady_k));
 }
 
 std::string weight_warning(const GasAdvice& advice) {

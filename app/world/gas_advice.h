@@ -18,6 +18,9 @@ struct GasAdvice {
   std::optional<double> settled;    // m^3 at rest and without weight (settled_volume.h)
   std::optional<double> max_held;   // mol; of a body blown up: the most that rest = "equilibrium"
                                     // can hold in its shape; none: it cannot hold it at all
+  bool held = false;                // its springs balance its gas in its shape, or nearly
+  std::optional<double> steady_k;   // N/m: from there on they do without folding at a push; none:
+                                    // they do, or it is not known
   double mass = 0.0;                // kg in all
   std::optional<double> held_mass;  // kg in all, that such gas carries; none: any, or no weight
   // s: when keys of supply give it the most gas, with which all of this is; none: at the start.
@@ -36,8 +39,9 @@ struct GasAdvice {
   std::optional<double> strengthened;  // times its gas and its springs, which keeps its shape;
                                        // none: its gas does not press, or air does too
 
-  bool blown_up() const;  // to more than twice its volume
-  bool crushed() const;   // by its weight, to less than half its volume, or being limp
+  bool blown_up() const;      // to more than twice its volume
+  bool crushed() const;       // by its weight, to less than half its volume, or being limp
+  bool leaves_shape() const;  // being held: it folds, or rests at another volume
 };
 
 /// Vertices of all distinct bodies for which there is advice: before a run it is to take well below
@@ -53,6 +57,9 @@ std::string volumes_text(const GasAdvice& advice);
 
 /// A line about a body that is blown up, with what keeps its size.
 std::string gas_warning(const GasAdvice& advice);
+
+/// A line about a body that its springs do not hold, with what would.
+std::string shape_warning(const GasAdvice& advice);
 
 /// A line about a body that its weight crushes, with what would carry it.
 std::string weight_warning(const GasAdvice& advice);

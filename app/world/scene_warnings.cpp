@@ -75,6 +75,8 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
   }
   for (const GasAdvice& advice : gas) {
     if (advice.blown_up()) warnings.push_back(warning_at(scene, advice.body, gas_warning(advice)));
+    if (advice.leaves_shape())
+      warnings.push_back(warning_at(scene, advice.body, shape_warning(advice)));
     if (advice.crushed())
       warnings.push_back(warning_at(scene, advice.body, weight_warning(advice)));
   }

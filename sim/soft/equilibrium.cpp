@@ -1,5 +1,6 @@
 #include "sim/soft/equilibrium.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,9 @@
 #include "sim/base/text.h"
 #include "sim/mesh/edge_length.h"
 #include "sim/mesh/measure.h"
+#include "sim/soft/incremental_potential.h"
 #include "sim/soft/pressure_force.h"
+#include "sim/soft/vertex_matrix.h"
 
 namespace pneuma::sim {
 namespace {
@@ -182,6 +185,51 @@ std::vector<double> edge_lengths(const MeshTopology& topology, const VertexArray
   return lengths;
 }
 
+/// The rigid motions, which take no energy, and q of the gas, whose part of d^2E/dx^2 is q q^T.
+constexpr int rigid_motions = 6, low_rank = rigid_motions + 1;
+
+std::vector<VertexArray> rigid_motions_and_gas(const IncrementalPotential& energy,
+                                               const EnergyPoint& point) {
+  const VertexArray& x = point.positions;
+  std::vector<VertexArray> columns(low_rank, VertexArray(x.size()));
+  const Vec3 centre = mean(x);
+  for (int v = 0; v < x.size(); ++v) {
+    const Vec3 arm = x[v] - centre;
+    for (int axis = 0; axis < 3; ++axis) {
+      columns[at(axis)][v] = Vec3::Unit(axis);
+      columns[at(3 + axis)][v] = Vec3::Unit(axis).cross(arm);
+    }
+  }
+  const double slope = energy.gas.strength > 0.0 ? pressure_slope(energy.gas, point.volume) : 0.0;
+  columns.back().rows() = std::sqrt(slope) * point.volume_gradient.rows();
+  return columns;
+}
+
+/// Negative eigenvalues of S + q q^T across the rigid motions R, S = L D L^T: as many as of D and
+/// of -diag(0, 1) - B^T S^-1 B together, B = (R q), less the columns of B (Haynsworth 1968).
+int negative_directions(const VertexMatrix& factors, const std::vector<VertexArray>& columns) {
+  Eigen::Matrix<double, low_rank, low_rank> complement;
+  for (int j = 0; j < low_rank; ++j) {
+    VertexArray solved = columns[at(j)];
+    factors.solve(solved);
+    for (int i = 0; i < low_rank; ++i) complement(i, j) = -dot(columns[at(i)], solved);
+  }
+  complement(rigid_motions, rigid_motions) -= 1.0;
+  // Metres and square metres side by side: to size 1, which leaves the signs.
+  const auto scale = complement.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse().eval();
+  complement = (scale.asDiagonal() * complement * scale.asDiagonal()).eval();
+  const auto values = complement.selfadjointView<Eigen::Lower>().eigenvalues();
+  const auto negative = static_cast<int>((values.array() < 0.0).count());
+  return factors.negative_count() + negative - low_rank;
+}
+
+std::shared_ptr<const SoftMesh> held(const SoftMesh& mesh, const VertexArray& positions,
+                                     const SoftMaterial& material,
+                                     const EquilibriumOptions& options) {
+  return make_soft_mesh(mesh,
+                        find_equilibrium(mesh.topology, positions, material, options).rest_lengths);
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
@@ -208,6 +256,45 @@ double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
       greatest_strain(edge_lengths(topology, positions), tensions, material.k).value;
   if (!(strain > 0.0)) return std::numeric_limits<double>::infinity();
   return gas.n / strain + balanced_gas(topology, positions, material);
+}
+
+bool is_stable(const SoftMesh& mesh, const VertexArray& positions, const SoftMaterial& material) {
+  constexpr double rounding = 1e-9;  // of k: of no size beside any motion that is not rigid
+  IncrementalPotential energy(mesh);
+  energy.stiffness = material.k;
+  energy.inertia = rounding * material.k;
+  energy.rest_lengths = mesh.rest_lengths;
+  energy.bending = material.bending;
+  energy.gas = gas_law(material);
+  energy.target = positions;
+  EnergyPoint point(mesh);
+  point.positions = positions;
+  if (!evaluate(mesh, energy, point)) return false;
+  VertexMatrix hessian(mesh.topology, mesh.hinges.get());
+  hessian_without_rank_one(mesh, energy, point, opposite_vertices(mesh.topology), hessian);
+  return hessian.factorize() &&
+         negative_directions(hessian, rigid_motions_and_gas(energy, point)) <= 0;
+}
+
+double stable_stiffness(const SoftMesh& mesh, const VertexArray& positions,
+                        const SoftMaterial& material, const EquilibriumOptions& options) {
+  constexpr double most = 1e3, precision = 1.02;
+  SoftMaterial stiff = material;
+  const auto stable = [&](double k) {
+    stiff.k = k;
+    return is_stable(*held(mesh, positions, stiff, options), positions, stiff);
+  };
+  if (stable(material.k)) return material.k;
+  double low = material.k, high = 2.0 * material.k;
+  for (; !stable(high); high *= 2.0) {
+    if (high > most * material.k) return std::numeric_limits<double>::infinity();
+    low = high;
+  }
+  while (high > precision * low) {
+    const double middle = std::sqrt(low * high);
+    (stable(middle) ? high : low) = middle;
+  }
+  return high;
 }
 
 }  // namespace pneuma::sim

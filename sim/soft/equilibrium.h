@@ -18,6 +18,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim/mesh/soft_mesh.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/vertex_array.h"
 #include "sim/world/soft_body.h"
@@ -57,5 +58,19 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
 /// for the other reasons of find_equilibrium. The temperature must be above 0.
 double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
                     const SoftMaterial& material, const EquilibriumOptions& options = {});
+
+/// Whether springs, hinges and gas that are in balance at the positions come back to it from every
+/// small push: d^2E/dx^2 is above 0 in all directions but those of rigid motion. Near a balance,
+/// too: what is unbalanced moves the body a little, and no further.
+bool is_stable(const SoftMesh& mesh, const VertexArray& positions, const SoftMaterial& material);
+
+/// Vertices up to which that takes well below a second: sparse factors of 3 V rows.
+inline constexpr int quickly_stable = 3'000;
+
+/// N/m: the k, from the material's on and to within 2 %, from which the shape is stable that
+/// find_equilibrium makes of it. Infinite when it is not at a thousand times the k. Throws
+/// EquilibriumError.
+double stable_stiffness(const SoftMesh& mesh, const VertexArray& positions,
+                        const SoftMaterial& material, const EquilibriumOptions& options = {});
 
 }  // namespace pneuma::sim

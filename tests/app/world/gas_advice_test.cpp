@@ -33,6 +33,48 @@ TEST(GasAdvice, WhatItSaysKeepsTheSize) {
   EXPECT_NEAR(held.settled.value() / held.volume, 1.0, 0.01) << warning;
 }
 
+TEST(GasAdvice, SpringsThatBalanceItsGasAndFoldAreToldFromThoseThatHoldIt) {
+  const auto ring = [](const std::string& k) {
+    return "[[body]]\nshape = \"torus\"\nradius = 6\ntube_radius = 2\nslices = 32\nstacks = 16\n"
+           "rest = \"equilibrium\"\nn = 100\nk = " +
+           k + "\n";
+  };
+  const GasAdvice folding = advices_on(ring("6200")).at(0);
+  EXPECT_TRUE(folding.held && folding.leaves_shape());
+  const std::string warning = shape_warning(folding);
+  EXPECT_NE(warning.find("the slightest push folds it"), std::string::npos) << warning;
+  const GasAdvice steady = advices_on(ring(number_after(warning, "at least k = "))).at(0);
+  EXPECT_TRUE(steady.held && !steady.leaves_shape()) << shape_warning(steady);
+  // What is named to those who ask for too much is as good.
+  try {
+    advices_on(ring("1000"));
+    ADD_FAILURE() << "was held";
+  } catch (const scenes::SceneError& error) {
+    const std::string k = number_after(error.what(), "; from k = ");
+    EXPECT_FALSE(advices_on(ring(k)).at(0).leaves_shape()) << error.what();
+  }
+  // And what is named to those who let it grow.
+  const std::string loose =
+      "[[body]]\nshape = \"torus\"\nradius = 6\ntube_radius = 2\nslices = 32\n"
+      "stacks = 16\nk = 200\nn = ";
+  const GasAdvice grown = advices_on(loose + "100\n").at(0);
+  ASSERT_TRUE(grown.blown_up());
+  const std::string n = number_after(gas_warning(grown), "n of at most ");
+  EXPECT_FALSE(advices_on(loose + n + "\nrest = \"equilibrium\"\n").at(0).leaves_shape()) << n;
+}
+
+TEST(GasAdvice, WhatAMeshLeavesUnbalancedIsSaid) {
+  const auto ball = [](const std::string& slices) {
+    return "[[body]]\nrest = \"equilibrium\"\nn = 100\nk = 7000\nslices = " + slices +
+           "\nstacks = " + slices + "\n";
+  };
+  const GasAdvice fine = advices_on(ball("36")).at(0);
+  EXPECT_TRUE(fine.leaves_shape());
+  EXPECT_GT(fine.settled.value(), 1.2 * fine.volume);
+  EXPECT_NE(shape_warning(fine).find("unbalanced"), std::string::npos);
+  EXPECT_FALSE(advices_on(ball("8")).at(0).leaves_shape());
+}
+
 /// m^3, on the ground, as rk4 finds it.
 double volume_after(const std::string& text, double seconds) {
   sim::World world = build_world(scenes::parse_scene(text, "test.toml"));
