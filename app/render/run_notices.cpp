@@ -48,7 +48,7 @@ void CrossedFrames::summarise(Progress& progress, bool is_resumed) const {
     progress.say(
         fmt::format("{} passes through itself in {} of {}; bending of the body makes that "
                     "rarer, and simulation.contact = \"potential\" with simulation.integrator = "
-                    "\"implicit_euler\" rules it out, for several times the time",
+                    "\"sdirk2\" rules it out, for several times the time",
                     itself_, of_themselves_, frames));
   }
 }

@@ -32,6 +32,13 @@ const RenamedKey* find_renamed(std::string_view table, std::string_view key) {
   return found == renamed_keys.end() ? nullptr : &*found;
 }
 
+/// For the last part of a dotted key: "; did you mean 'motion.path'?", or nothing.
+std::string whole_name(const std::string& part, const std::vector<std::string_view>& allowed) {
+  const auto whole = std::ranges::find_if(
+      allowed, [&](std::string_view key) { return key.ends_with("." + part); });
+  return whole == allowed.end() ? std::string() : fmt::format("; did you mean '{}'?", *whole);
+}
+
 /// For a key that is known, but in another table: "; it belongs in [camera]", or nothing. What
 /// joins bodies is thought of last.
 std::string belongs_elsewhere(std::string_view key) {
@@ -172,7 +179,8 @@ void Reader::refuse_unknown(const Section& section, const Member& member,
     if (key.applies) allowed.push_back(key.name);
   }
   allowed.insert(allowed.end(), children.begin(), children.end());
-  std::string hint = belongs_elsewhere(member.key);
+  std::string hint = whole_name(member.key, allowed);
+  if (hint.empty()) hint = belongs_elsewhere(member.key);
   const std::vector<std::string_view>& tables = table_names();
   if (hint.empty() && section.table == "body" &&
       std::ranges::find(tables, member.key) != tables.end()) {

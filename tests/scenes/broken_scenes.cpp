@@ -134,6 +134,11 @@ const std::vector<BrokenScene> unknown_keys = {
      1,
      {"unknown key 'duration' in [camera]", "belongs at the top, above the first [table]"}},
     {"gravity_of_a_body", sphere("gravity = [0, 0, 0]"), 2, 1, {"belongs in [simulation]"}},
+    {"path_of_a_moved_body",
+     sphere("kind = \"moved\"\npath = [[0, 0, 0, 0]]"),
+     3,
+     1,
+     {"did you mean 'motion.path'?"}},
     {"key_with_dots", sphere("k.spring = 1"), 2, 1, {"k: expected a number, got a table"}},
     {"strange_key", sphere("\"a\\u001bb\" = 1"), 2, 1, {"'a\\x1bb'"}},
 };
