@@ -187,7 +187,7 @@ class Builder {
   std::shared_ptr<const sim::SoftMesh> held_mesh(const BodyScene& body, const sim::SoftMesh& mesh,
                                                  const sim::SoftMaterial& material) {
     try {
-      return held_mesh_of(mesh, material);
+      return sim::held_mesh(mesh, mesh.rest_positions, material);
     } catch (const sim::EquilibriumError& error) {
       refuse_body(scene_, body.rest_place, body.name,
                   fmt::format("rest = \"equilibrium\": {}{}", error.what(),
@@ -215,18 +215,12 @@ class Builder {
       }
       Builder with_stiff(scene_);
       with_stiff.add_soft(body, {body.name, body.position, Quaternion::Identity()},
-                          held_mesh_of(mesh, stiff), stiff);
+                          sim::held_mesh(mesh, mesh.rest_positions, stiff), stiff);
       const StepAdvice advice = step_advice(with_stiff.world_, with_stiff.world_.soft.front());
       return advice.too_long() ? text + "; with that k use " + remedy(advice) : text;
     } catch (const sim::EquilibriumError&) {
       return "";
     }
-  }
-
-  static std::shared_ptr<const sim::SoftMesh> held_mesh_of(const sim::SoftMesh& mesh,
-                                                           const sim::SoftMaterial& material) {
-    return sim::make_soft_mesh(
-        mesh, sim::find_equilibrium(mesh.topology, mesh.rest_positions, material).rest_lengths);
   }
 
   bool is_within_limits() const {

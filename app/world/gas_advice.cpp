@@ -36,8 +36,8 @@ std::optional<double> steady_k(const sim::SoftBody& body, const sim::SoftMateria
   return sim::stable_stiffness(*body.mesh, body.mesh->rest_positions, material);
 }
 
-/// mol, with which springs can hold the shape without folding. Beside an ambient pressure as
-/// without: what it takes from the gas it takes from the tensions of the springs, too.
+/// mol, with which springs can hold the shape, without folding. Whether they fold is left out
+/// beside an ambient pressure, where their tensions are not in proportion to the gas.
 std::optional<double> max_held(const sim::SoftBody& body) {
   try {
     const double most = sim::max_held_gas(body.mesh->topology, body.positions, body.material);
@@ -64,7 +64,7 @@ bool is_held(const sim::SoftBody& body) {
 
 void predict_folding(const sim::SoftBody& body, GasAdvice& advice) {
   advice.held = sim::gas_strength(body.material) > 0.0 && is_held(body);
-  if (!advice.held || advice.filled_at || body.pins) return;
+  if (!advice.held || advice.filled_at || advice.left_out || body.pins) return;
   try {
     const auto k = steady_k(body, body.material);
     if (k && *k > body.material.k) advice.steady_k = k;

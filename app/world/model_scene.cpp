@@ -92,11 +92,9 @@ bool keeps_shape(const sim::SoftBody& body) {
 /// Whether springs can hold the shape, with tensions that also keep it there.
 bool hold(Choice& choice) {
   sim::SoftBody body = choice.body;
-  const sim::MeshTopology& topology = body.mesh->topology;
   fill(body, held_pressure);
   try {
-    body.mesh = sim::make_soft_mesh(
-        *body.mesh, sim::find_equilibrium(topology, body.positions, body.material).rest_lengths);
+    body.mesh = sim::held_mesh(*body.mesh, body.positions, body.material);
   } catch (const sim::EquilibriumError&) {
     return false;
   }

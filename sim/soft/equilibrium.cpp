@@ -223,13 +223,6 @@ int negative_directions(const VertexMatrix& factors, const std::vector<VertexArr
   return factors.negative_count() + negative - low_rank;
 }
 
-std::shared_ptr<const SoftMesh> held(const SoftMesh& mesh, const VertexArray& positions,
-                                     const SoftMaterial& material,
-                                     const EquilibriumOptions& options) {
-  return make_soft_mesh(mesh,
-                        find_equilibrium(mesh.topology, positions, material, options).rest_lengths);
-}
-
 }  // namespace
 
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
@@ -244,6 +237,13 @@ Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& po
   }
   result.residual = tensions.residual;
   return result;
+}
+
+std::shared_ptr<const SoftMesh> held_mesh(const SoftMesh& mesh, const VertexArray& positions,
+                                          const SoftMaterial& material,
+                                          const EquilibriumOptions& options) {
+  return make_soft_mesh(mesh,
+                        find_equilibrium(mesh.topology, positions, material, options).rest_lengths);
 }
 
 double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
@@ -282,7 +282,7 @@ double stable_stiffness(const SoftMesh& mesh, const VertexArray& positions,
   SoftMaterial stiff = material;
   const auto stable = [&](double k) {
     stiff.k = k;
-    return is_stable(*held(mesh, positions, stiff, options), positions, stiff);
+    return is_stable(*held_mesh(mesh, positions, stiff, options), positions, stiff);
   };
   if (stable(material.k)) return material.k;
   double low = material.k, high = 2.0 * material.k;

@@ -15,6 +15,7 @@
 // little.
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
@@ -52,6 +53,11 @@ class EquilibriumError : public std::runtime_error {
 /// be above zero, and when more of the pressure stays unbalanced than allowed.
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
                              const SoftMaterial& material, const EquilibriumOptions& options = {});
+
+/// The mesh with these rest lengths.
+std::shared_ptr<const SoftMesh> held_mesh(const SoftMesh& mesh, const VertexArray& positions,
+                                          const SoftMaterial& material,
+                                          const EquilibriumOptions& options = {});
 
 /// The amount of gas in mol at the material's temperature, whatever its n, from which on a rest
 /// length would not be above zero; infinite when no spring is stretched. Throws EquilibriumError
