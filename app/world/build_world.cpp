@@ -18,12 +18,12 @@
 #include "scenes/loader/print_scene.h"
 #include "scenes/loader/report.h"
 #include "sim/base/text.h"
+#include "sim/equilibrium/held_shape.h"
 #include "sim/mesh/hash_vertices.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/mesh/rotation.h"
 #include "sim/rigid/given_motion.h"
-#include "sim/soft/equilibrium.h"
 
 namespace pneuma::app {
 namespace {
@@ -201,7 +201,7 @@ class Builder {
                                         const sim::SoftMaterial& material) const {
     sim::SoftMaterial stiff = material;
     try {
-      const double held = sim::max_held_gas(mesh.topology, mesh.rest_positions, material);
+      const double held = sim::max_held_gas(mesh, mesh.rest_positions, material);
       if (!(held < material.n)) return "";
       stiff.k = std::stod(base::text_above(material.k * material.n / held));
       std::string text;

@@ -11,9 +11,9 @@
 #include "app/world/fill_body.h"
 #include "app/world/settled_volume.h"
 #include "sim/base/text.h"
+#include "sim/equilibrium/held_shape.h"
 #include "sim/mesh/measure.h"
 #include "sim/rigid/given_motion.h"
-#include "sim/soft/equilibrium.h"
 #include "sim/soft/gas_law.h"
 
 namespace pneuma::app {
@@ -40,7 +40,7 @@ std::optional<double> steady_k(const sim::SoftBody& body, const sim::SoftMateria
 /// beside an ambient pressure, where their tensions are not in proportion to the gas.
 std::optional<double> max_held(const sim::SoftBody& body) {
   try {
-    const double most = sim::max_held_gas(body.mesh->topology, body.positions, body.material);
+    const double most = sim::max_held_gas(*body.mesh, body.positions, body.material);
     if (!std::isfinite(most) || body.material.ambient_pressure > 0.0) return most;
     sim::SoftMaterial filled = body.material;
     filled.n = 0.999 * most;

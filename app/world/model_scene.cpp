@@ -11,8 +11,8 @@
 #include "assets/load_model.h"
 #include "assets/model_file.h"
 #include "scenes/loader/keys.h"
+#include "sim/equilibrium/held_shape.h"
 #include "sim/mesh/measure.h"
-#include "sim/soft/equilibrium.h"
 #include "sim/soft/gas_law.h"
 #include "sim/soft/stability_limit.h"
 

@@ -36,7 +36,7 @@ enum class Shape { sphere, torus, box, icosphere, model };
 enum class Rest {
   shape,        // in the shape as it is made: the gas then blows it up
   equilibrium,  // with tensions in them that hold the shape against its gas
-                // (sim/soft/equilibrium.h)
+                // (sim/equilibrium/equilibrium.h)
 };
 
 /// A triangle model from a file of anyone's.

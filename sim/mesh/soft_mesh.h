@@ -26,8 +26,8 @@ struct SoftMesh {
 /// Throws TopologyError when the mesh is not closed and manifold or has an edge of no length.
 std::shared_ptr<const SoftMesh> make_soft_mesh(const TriangleMesh& mesh);
 
-/// The same with other rest lengths, such as find_equilibrium's (sim/soft/equilibrium.h). Throws
-/// std::invalid_argument unless there is one per edge, finite and not negative.
+/// The same with other rest lengths, such as find_equilibrium's (sim/equilibrium/equilibrium.h).
+/// Throws std::invalid_argument unless there is one per edge, finite and not negative.
 std::shared_ptr<const SoftMesh> make_soft_mesh(const SoftMesh& mesh,
                                                std::vector<double> rest_lengths);
 

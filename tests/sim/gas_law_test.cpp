@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/equilibrium/held_shape.h"
 #include "sim/soft/acceleration.h"
-#include "sim/soft/equilibrium.h"
 #include "sim/soft/stability_limit.h"
 #include "tests/support/worlds.h"
 
@@ -185,8 +185,8 @@ TEST(GasLaw, SpringsInEquilibriumHoldWhatIsAboveTheAmbientPressure) {
   SoftMaterial vacuum = body.material;
   vacuum.ambient_pressure = 0.0;
   const double outside = 1000.0 * volume_of(body) / (gas_constant * vacuum.temperature);
-  EXPECT_NEAR(max_held_gas(body.mesh->topology, body.positions, body.material),
-              max_held_gas(body.mesh->topology, body.positions, vacuum) + outside, 1e-9 * outside);
+  EXPECT_NEAR(max_held_gas(*body.mesh, body.positions, body.material),
+              max_held_gas(*body.mesh, body.positions, vacuum) + outside, 1e-9 * outside);
 }
 
 TEST(GasLaw, PredictsTheLongestStableStep) {

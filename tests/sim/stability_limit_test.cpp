@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "sim/equilibrium/equilibrium.h"
 #include "sim/soft/acceleration.h"
 #include "sim/soft/damping.h"
-#include "sim/soft/equilibrium.h"
 #include "sim/soft/explicit_step.h"
 #include "tests/support/eigenvalues.h"
 #include "tests/support/worlds.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/soft/equilibrium.h"
+#include "sim/equilibrium/equilibrium.h"
 #include "sim/soft/pressure_force.h"
 #include "tests/support/worlds.h"
 

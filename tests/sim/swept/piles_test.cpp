@@ -5,11 +5,11 @@
 #include <cmath>
 #include <random>
 
+#include "sim/equilibrium/equilibrium.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/inspect/overlap.h"
 #include "sim/mesh/rotation.h"
-#include "sim/soft/equilibrium.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
 

@@ -15,11 +15,9 @@
 // little.
 #pragma once
 
-#include <memory>
 #include <stdexcept>
 #include <vector>
 
-#include "sim/mesh/soft_mesh.h"
 #include "sim/mesh/topology.h"
 #include "sim/mesh/vertex_array.h"
 #include "sim/world/soft_body.h"
@@ -47,36 +45,37 @@ class EquilibriumError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Tensions that balance the pressure as far as the softening lets them, whatever k is.
+struct Balance {
+  std::vector<double> tensions;  // N, per edge
+  double residual = 0.0;         // as above
+};
+
+/// Of the material's gas, temperature and pressure weighting. Throws EquilibriumError when the
+/// shape has no volume or the material no springs, and when the pressure has a net force or torque
+/// (`valence`).
+Balance find_balance(const MeshTopology& topology, const VertexArray& positions,
+                     const SoftMaterial& material, double softening);
+
+/// m, per edge, with which springs of the material's k have these tensions. Throws EquilibriumError
+/// when one would not be above zero.
+std::vector<double> rest_lengths(const MeshTopology& topology, const VertexArray& positions,
+                                 const SoftMaterial& material, const std::vector<double>& tensions);
+
+/// (l - L) / l of the spring that is stretched most; 0 when none is. From 1 on there is no rest
+/// length.
+double greatest_strain(const MeshTopology& topology, const VertexArray& positions,
+                       const SoftMaterial& material, const std::vector<double>& tensions);
+
+/// mol, with which the gas pushes no more than what is outside; 0 without ambient pressure.
+double balanced_gas(const MeshTopology& topology, const VertexArray& positions,
+                    const SoftMaterial& material);
+
 /// Rest lengths for the material's k, gas, temperature and pressure weighting. Without gas they are
 /// the lengths themselves. Throws EquilibriumError when the shape has no volume or the material no
 /// springs, when the pressure has a net force or torque (`valence`), when a rest length would not
 /// be above zero, and when more of the pressure stays unbalanced than allowed.
 Equilibrium find_equilibrium(const MeshTopology& topology, const VertexArray& positions,
                              const SoftMaterial& material, const EquilibriumOptions& options = {});
-
-/// The mesh with these rest lengths.
-std::shared_ptr<const SoftMesh> held_mesh(const SoftMesh& mesh, const VertexArray& positions,
-                                          const SoftMaterial& material,
-                                          const EquilibriumOptions& options = {});
-
-/// The amount of gas in mol at the material's temperature, whatever its n, from which on a rest
-/// length would not be above zero; infinite when no spring is stretched. Throws EquilibriumError
-/// for the other reasons of find_equilibrium. The temperature must be above 0.
-double max_held_gas(const MeshTopology& topology, const VertexArray& positions,
-                    const SoftMaterial& material, const EquilibriumOptions& options = {});
-
-/// Whether springs, hinges and gas that are in balance at the positions come back to it from every
-/// small push: d^2E/dx^2 is above 0 in all directions but those of rigid motion. Near a balance,
-/// too: what is unbalanced moves the body a little, and no further.
-bool is_stable(const SoftMesh& mesh, const VertexArray& positions, const SoftMaterial& material);
-
-/// Vertices up to which that takes well below a second: sparse factors of 3 V rows.
-inline constexpr int quickly_stable = 3'000;
-
-/// N/m: the k, from the material's on and to within 2 %, from which the shape is stable that
-/// find_equilibrium makes of it. Infinite when it is not at a thousand times the k. Throws
-/// EquilibriumError.
-double stable_stiffness(const SoftMesh& mesh, const VertexArray& positions,
-                        const SoftMaterial& material, const EquilibriumOptions& options = {});
 
 }  // namespace pneuma::sim
