@@ -196,7 +196,7 @@ class Builder {
   }
 
   /// Springs that can hold the gas may still fold, and may need shorter steps than the scene's:
-  /// "; from k = ... on no push folds it; with that k ...".
+  /// "; from k = ... on it keeps its shape; with that k ...".
   std::string advice_of_stiffer_springs(const BodyScene& body, const sim::SoftMesh& mesh,
                                         const sim::SoftMaterial& material) const {
     sim::SoftMaterial stiff = material;
@@ -205,12 +205,11 @@ class Builder {
       if (!(held < material.n)) return "";
       stiff.k = std::stod(base::text_above(material.k * material.n / held));
       std::string text;
-      const bool quick = mesh.topology.vertex_count() <= sim::quickly_stable;
-      const double steady =
-          quick ? sim::stable_stiffness(mesh, mesh.rest_positions, stiff) : stiff.k;
-      if (steady > stiff.k && std::isfinite(steady)) {
+      if (mesh.topology.vertex_count() <= sim::quickly_stable) {
+        const double steady = sim::stable_stiffness(mesh, mesh.rest_positions, stiff);
+        if (std::isinf(steady)) return "";
         const std::string k = base::text_above(steady);
-        text = fmt::format("; from k = {} N/m on no push folds it", k);
+        text = fmt::format("; from k = {} N/m on it keeps its shape", k);
         stiff.k = std::stod(k);
       }
       Builder with_stiff(scene_);

@@ -126,6 +126,18 @@ bool is_limp(const sim::SoftBody& body, double weight) {
   return weight > limp_weight * body.material.k * edge;
 }
 
+/// Whether springs carry its weight, from pinned vertices above its middle.
+bool hangs(const sim::SoftBody& body) {
+  if (!body.pins) return false;
+  double sum = 0.0, pinned = 0.0;
+  for (int v = 0; v < body.positions.size(); ++v) {
+    if (body.pins->is_pinned[sim::at(v)] == 0) continue;
+    sum += body.positions[v].z();
+    pinned += 1.0;
+  }
+  return sum > pinned * sim::mean(body.positions).z();
+}
+
 /// kg that the gas carries on an area, m^2, in nearly its volume, m^3.
 double carried_mass(const sim::GasLaw& law, double volume, double area, double gravity) {
   return std::max(0.0, sim::gauge_pressure(law, carried_share * volume)) * area / gravity;
@@ -134,7 +146,7 @@ double carried_mass(const sim::GasLaw& law, double volume, double area, double g
 /// Springs are left out: they hold a shape against its gas, and hardly against a weight.
 void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, GasAdvice& advice) {
   const double gravity = -settings.gravity.z();
-  if (!settings.ground || gravity <= 0.0) return;
+  if (!settings.ground || gravity <= 0.0 || hangs(body)) return;
   const sim::GasLaw law = sim::gas_law(body.material);
   const double area = ground_plan(body);
   advice.weight = advice.mass * gravity;
@@ -172,8 +184,8 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   advice.k = body.material.k;
   advice.n = body.material.n;
   advice.temperature = body.material.temperature;
-  if (advice.blown_up()) advice.max_held = max_held(body);
   predict_folding(body, advice);
+  if (advice.blown_up() || advice.leaves_shape()) advice.max_held = max_held(body);
   predict_pressed(body, world.settings, advice);
   advice.limp &= !has_valve(world, at_start);
   return advice;
@@ -238,10 +250,15 @@ std::string gas_warning(const GasAdvice& advice) {
 std::string shape_warning(const GasAdvice& advice) {
   const std::string body = body_and_alike(advice.body, advice.count);
   if (!advice.steady_k) {
+    const bool is_much = advice.max_held && *advice.max_held < advice.n;
     return fmt::format(
-        "{}: with rest = \"equilibrium\" springs of this mesh leave a part of the pressure "
-        "unbalanced: {}; a greater k or a coarser mesh keeps its shape better",
-        body, volumes_text(advice));
+        "{}: with rest = \"equilibrium\" springs of {} leave a part of the pressure unbalanced: "
+        "{}; "
+        "{} keeps its shape better",
+        body, is_much ? fmt::format("k = {:g} N/m", advice.k) : "this mesh", volumes_text(advice),
+        is_much ? fmt::format("n of at most {} mol, or a greater k,",
+                              base::text_below(*advice.max_held))
+                : "a coarser mesh");
   }
   const std::string folds = fmt::format(
       "{}: with rest = \"equilibrium\" springs of k = {:g} N/m balance its gas, but the slightest "

@@ -16,8 +16,8 @@ struct GasAdvice {
   bool left_out = false;            // too many vertices: no more is known than the next
   double volume = 0.0;              // m^3, at the start
   std::optional<double> settled;    // m^3 at rest and without weight (settled_volume.h)
-  std::optional<double> max_held;   // mol; of a body blown up: the most that rest = "equilibrium"
-                                    // can hold in its shape; none: it cannot hold it at all
+  std::optional<double> max_held;   // mol; of a body that leaves its shape: the most with which
+                                    // rest = "equilibrium" keeps it; none: it cannot hold it
   bool held = false;                // its springs balance its gas in its shape, or nearly
   std::optional<double> steady_k;   // N/m: from there on they do without folding at a push; none:
                                     // they do, or it is not known

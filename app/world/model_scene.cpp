@@ -11,6 +11,7 @@
 #include "assets/load_model.h"
 #include "assets/model_file.h"
 #include "scenes/loader/keys.h"
+#include "scenes/loader/text_checks.h"
 #include "sim/equilibrium/held_shape.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/gas_law.h"
@@ -182,6 +183,17 @@ std::string choice_text(ModelChoice given) {
   return text;
 }
 
+/// What the file is called, as far as a body may be called so.
+std::string body_name(const fs::path& model) {
+  constexpr std::size_t longest = 40;
+  const auto is_refused = [](char c) {
+    return !scenes::check_body_name(std::string("a") + c).empty();
+  };
+  std::string name = model.stem().string().substr(0, longest);
+  std::ranges::replace_if(name, is_refused, '_');
+  return scenes::check_body_name(name).empty() ? name : "model_" + name;
+}
+
 }  // namespace
 
 sim::Vec3 rotation_of_up(std::string_view axis) {
@@ -208,9 +220,10 @@ std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   const Choice choice = choose(model.mesh);
   const sim::SoftMaterial& material = choice.body.material;
   std::string file = fs::absolute(path).string();
+  const std::string name = body_name(path);
   return fmt::format(
       R"(# Made from the model's mesh, to be kept and edited.
-{}title = "A model falls"
+{}title = "{} falls"
 duration = {}
 
 [simulation]
@@ -226,6 +239,7 @@ target = [0.0, 0.0, {:g}]
 frames_per_second = {}
 
 [[body]]
+name = "{}"
 shape = "model"
 model.file = {}
 {}model.scale = {}  # the longest side is {} m
@@ -239,11 +253,11 @@ rho_g = {}  # so that what rocks comes to rest
 {}gauge_pressure = {}
 rest = "{}"
 )",
-      repairs_text(model.repaired),
+      repairs_text(model.repaired), name,
       choice.body.positions.size() > long_run_vertices ? short_duration : duration,
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
       ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
-      scenes::value_text(&file), choice_text(given), options.scale, extent,
+      name, scenes::value_text(&file), choice_text(given), options.scale, extent,
       scenes::value_text(&options.rotation), 0.5 * height + drop, slow_turn, material.k,
       material.k_max, material.vertex_mass, mass, material.rho_g, bending_text(material),
       choice.gauge_pressure, choice.held ? "equilibrium" : "shape");

@@ -98,6 +98,19 @@ TEST_F(OpenScene, ItsTextIsAFileToKeep) {
   EXPECT_EQ(scenes::scene_fingerprint(again), scenes::scene_fingerprint(scene));
 }
 
+TEST_F(OpenScene, ABodyIsCalledAsItsFile) {
+  const std::string ball = assets::ply_text(sim::make_icosphere(1.0, 1));
+  for (const auto& [stem, name] :
+       {std::pair{"duck-2", "duck-2"}, std::pair{"my duck (2)", "my_duck__2_"},
+        std::pair{"2", "model_2"}, std::pair{"camera", "model_camera"}}) {
+    const std::filesystem::path path = file().parent_path() / (std::string(stem) + ".ply");
+    write_text(path, ball);
+    const scenes::Scene scene = open_scene(path.string(), {});
+    EXPECT_EQ(scene.bodies.at(0).name, name);
+    EXPECT_EQ(scene.title, std::string(name) + " falls");
+  }
+}
+
 TEST_F(OpenScene, ADaeStandsAsItSays) {
   const std::string dae = assets::dae_text(sim::make_box({3.0, 6.0, 1.0}, 2));
   const std::string z_up = "<up_axis>Z_UP</up_axis>";
@@ -125,8 +138,7 @@ TEST_F(OpenScene, AModelThatIsTurnedStandsAboveTheGround) {
     EXPECT_NEAR(size, height, 1e-9) << up;
     EXPECT_NEAR(low, 1.0, 1e-9) << up;  // the drop
   }
-  for (const char* override :
-       {"body.model.rotation=[90, 0, 0]", "body1.model.rotation = [90,0,0]"}) {
+  for (const char* override : {"body.model.rotation=[90, 0, 0]", "it.model.rotation = [90,0,0]"}) {
     const auto [low, size] = lowest(open(slab, {override}));
     EXPECT_NEAR(size, 6.0, 1e-9) << override;
     EXPECT_NEAR(low, 1.0, 1e-9) << override;
