@@ -251,10 +251,22 @@ class SweptStep {
   void count_work_of_start() {
     m_.work_of_start.clear();
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      m_.work_of_start.push_back(m_.impulses[i].work(search_.start_velocity(m_.contacts[i])));
+      m_.work_of_start.push_back(work_of_start(i));
       m_.work += m_.work_of_start.back();
       m_.driven_work += driven_work(i, Moment::start);
     }
+  }
+
+  /// J. Euler-Cromer moves all of the step by the velocity v' at its end, so that of the change of
+  /// m v^2 / 2, (J + F h) (v + v') / 2, an impulse J at the start has its share: none at rest, where
+  /// its velocity is what the forces F take again.
+  double work_of_start(std::size_t i) const {
+    const SweptContact& contact = m_.contacts[i];
+    const Vec3 before = search_.start_velocity(contact);
+    const bool is_exact = world_.settings.integrator != Integrator::symplectic_euler;
+    if (is_exact || search_.is_rigid(contact)) return m_.impulses[i].work(before);
+    const Vec3 after = (search_.displacement(contact) - search_.shift(contact)) / step();
+    return 0.5 * m_.impulses[i].given().dot(before + after);
   }
 
   /// J, of what moves a side of the contact: by its velocity, while the work of contacts is by that

@@ -350,7 +350,7 @@ TEST(Nearness, IsThatOfABallsUnderside) {
   const Mesh ball = make_ball({0, 0, radius}, radius, {1, 1, 1}, 96);
   std::vector<SurfaceVertex> vertices;
   for (const Vec3f& position : ball.positions)
-    vertices.push_back({position, Vec3f::Zero(), Vec4f::Zero()});
+    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
   std::vector<float> nearness;
   ASSERT_TRUE(measure_nearness(vertices, ball.shape->triangles, ten_to_a_metre(reach), nearness));
   for (int row = 0; row < 64; ++row) {
@@ -372,7 +372,7 @@ TEST(Nearness, IsNoneOfWhatFloats) {
   const Mesh box = make_box({0, 0, 2}, {2, 2, 2}, {1, 1, 1});
   std::vector<SurfaceVertex> vertices;
   for (const Vec3f& position : box.positions)
-    vertices.push_back({position, Vec3f::Zero(), Vec4f::Zero()});
+    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
   std::vector<float> nearness;
   EXPECT_FALSE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(0.8f), nearness));
   EXPECT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(1.5f), nearness));
@@ -382,7 +382,7 @@ TEST(Nearness, OfWhatIsSunkIsWhereItGoesThroughTheGround) {
   const Mesh box = make_box({0, 0, 0}, {2, 2, 2}, {1, 1, 1});
   std::vector<SurfaceVertex> vertices;
   for (const Vec3f& position : box.positions)
-    vertices.push_back({position, Vec3f::Zero(), Vec4f::Zero()});
+    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
   std::vector<float> nearness;
   ASSERT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(0.8f), nearness));
   const auto at = [&](int column) { return nearness[static_cast<std::size_t>(32 * 64 + column)]; };
