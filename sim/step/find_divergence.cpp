@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "sim/base/text.h"
+#include "sim/inspect/state_energy.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/vec4d.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/spring_force.h"
+#include "sim/soft/stability_limit.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
@@ -16,6 +18,15 @@ namespace {
 
 /// Fraction of the energy of springs at twice their length, and of nRT: less gained is rounding.
 constexpr double energy_rounding = 1e-9;
+
+/// Of the energy of a body's motion in itself, to the end of a step: one that is too long by half a
+/// percent makes the fastest motion grow faster than that.
+constexpr double min_growth = 1.2;
+/// Of that energy and of the springs': what is gained from nothing in a step that is too long.
+constexpr double min_gain = 0.05;
+
+/// Steps of free fall: what is slower is left to later steps.
+constexpr double slow_falls = 10.0;
 
 /// Of the shortest side of a box that something moved presses on: it gives way before that if it
 /// can.
@@ -49,6 +60,10 @@ struct StepSums {
   MotionSums end;
   double squares_before = 0.0;  // (m/s)^2, of the velocities at the start
   double squared_ways = 0.0;    // m^2, of each vertex' way times its springs over their mean
+  // Less those of the mean motion:
+  double inner_squares = 0.0;         // (m/s)^2, of the velocities at the end
+  double inner_squares_before = 0.0;  // (m/s)^2, of those at the start
+  double inner_ways = 0.0;            // m^2, as above
 };
 
 MotionSums motion_sums(const SoftBody& body) {
@@ -66,16 +81,25 @@ StepSums step_sums(const SoftBody& body, const SoftState& start) {
   const VertexReader x(body.positions), v(body.velocities);
   const VertexReader x0(start.positions), v0(start.velocities);
   Vec4d positions{}, squares{}, squares_before{}, squared_ways{};
+  Vec4d velocity{}, velocity_before{}, whole_way{};
   for (int i = 0; i < body.positions.size(); ++i) {
     const Vec4d end = x[i], way = end - x0[i];
     positions += end;
     squares = fma(v[i], v[i], squares);
     squares_before = fma(v0[i], v0[i], squares_before);
     squared_ways = fma(weights[i] * way, way, squared_ways);
+    velocity += v[i];
+    velocity_before += v0[i];
+    whole_way += way;
   }
-  return {{sum_of_lanes(positions), sum_of_lanes(squares)},
-          sum_of_lanes(squares_before),
-          sum_of_lanes(squared_ways)};
+  const double count = body.positions.size();
+  StepSums sums{{sum_of_lanes(positions), sum_of_lanes(squares)},
+                sum_of_lanes(squares_before),
+                sum_of_lanes(squared_ways)};
+  sums.inner_squares = sums.end.squares - dot(velocity, velocity) / count;
+  sums.inner_squares_before = sums.squares_before - dot(velocity_before, velocity_before) / count;
+  sums.inner_ways = sums.squared_ways - dot(whole_way, whole_way) / count;
+  return sums;
 }
 
 std::optional<Divergence> find_wild_vertex(const World& world, Stage stage, const SoftBody& body,
@@ -144,6 +168,12 @@ double rounding_energy(const SoftBody& body) {
   return energy_rounding * (0.5 * body.material.k * squares + gas_strength(body.material));
 }
 
+/// Of a vertex.
+double mean_springs(const SoftBody& body) {
+  const MeshTopology& topology = body.mesh->topology;
+  return 2.0 * topology.edge_count() / topology.vertex_count();
+}
+
 /// Whether the energy of motion and springs may be more than max_gain times `before` (J), which is
 /// that of the start or less. No body can have strained its springs much without having moved much.
 ///
@@ -154,9 +184,7 @@ double rounding_energy(const SoftBody& body) {
 bool may_have_gained_energy(const SoftBody& body, const StepSums& sums, double before) {
   const SoftMaterial& material = body.material;
   if (kinetic_energy(material, sums.end.squares) > 0.5 * max_gain * before) return true;
-  const MeshTopology& topology = body.mesh->topology;
-  const double mean_springs = 2.0 * topology.edge_count() / topology.vertex_count();
-  return material.k * mean_springs * sums.squared_ways > 0.36 * max_gain * before;
+  return material.k * mean_springs(body) * sums.squared_ways > 0.36 * max_gain * before;
 }
 
 /// Springs are measured only of what motion alone leaves in doubt.
@@ -177,6 +205,40 @@ std::optional<Divergence> find_gained_energy(const World& world, const SoftBody&
                  "its energy of motion and springs jumped from " + base::text(before) + " to " +
                      base::text(after) + " J, to which gas and gravity added " + base::text(added) +
                      " J" + fastest_text(body, vertex));
+}
+
+/// Of an explicit step that pressed gas or drawn springs have made too long since it was chosen.
+/// Exact motion has no energy but what it had: where more is found, the small motions of the start
+/// tell a step that is too long from one that is coarse.
+std::optional<Divergence> find_outgrown_step(const World& world, const SoftBody& body,
+                                             const SoftState& start, const StepSums& sums) {
+  const SoftMaterial& material = body.material;
+  const Settings& settings = world.settings;
+  const double step = time_step(settings);
+  const double moving = kinetic_energy(material, sums.inner_squares),
+               moved = kinetic_energy(material, sums.inner_squares_before);
+  const double slow = slow_falls * step * settings.gravity.norm();
+  const double mass = material.vertex_mass * body.positions.size();
+  if (moving <= min_growth * moved || moving <= 0.5 * mass * slow * slow) return std::nullopt;
+  const double springs = spring_energy(*body.mesh, start.positions, material.k);
+  const double much = min_gain * (moved + springs);
+  // The fastest motion strains springs by about its ways, and has hardly a velocity in some
+  // methods.
+  const double strained = material.k * mean_springs(body) * sums.inner_ways;
+  if (moving + strained <= much) return std::nullopt;
+  const double gained =
+      energy(body, settings.gravity).total() - energy(body, start, settings.gravity).total();
+  if (gained <= much) return std::nullopt;
+  const double limit =
+      stability_limit(settings.integrator, *body.mesh, material, start.positions).step;
+  if (step <= limit) return std::nullopt;
+  const int vertex = fastest_vertex(body);
+  return failure(world, Stage::integrate_soft, body, vertex,
+                 "it gained " + base::text(gained) + " J from nothing: a step of " +
+                     base::text(step) +
+                     " s is too long for the shape that it has, whose small motions stay stable up "
+                     "to " +
+                     base::text(limit) + " s" + fastest_text(body, vertex));
 }
 
 class SqueezedBoxes {
@@ -234,7 +296,9 @@ std::optional<Divergence> find_divergence(const World& world, const SoftBody& bo
   const StepSums sums = checks_energy ? step_sums(body, start) : StepSums{.end = motion_sums(body)};
   if (auto wild = find_wild_vertex(world, stage, body, sums.end)) return wild;
   if (auto lost = find_lost_volume(world, stage, body, start, min_volume)) return lost;
-  return checks_energy ? find_gained_energy(world, body, start, sums) : std::nullopt;
+  if (!checks_energy) return std::nullopt;
+  if (auto gained = find_gained_energy(world, body, start, sums)) return gained;
+  return find_outgrown_step(world, body, start, sums);
 }
 
 std::optional<Divergence> find_divergence_of_joined(const World& world, const SoftBody& body,

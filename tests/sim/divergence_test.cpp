@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sim/equilibrium/held_shape.h"
 #include "sim/inspect/inspect.h"
 #include "sim/soft/spring_force.h"
 #include "sim/soft/stability_limit.h"
@@ -117,6 +118,41 @@ TEST(Divergence, NothingIsFoundUpToTheLimitOfStability) {
     body.material.k *= std::pow(0.95 * limit.step * 1000.0, 2);
     perturb(body, 1e-6, 1);
     EXPECT_FALSE(run(world, 5.0));
+  }
+}
+
+/// A ball whose gas and springs are in balance, and a step in units of its longest stable one.
+World balanced_ball(Integrator integrator, double times_the_limit) {
+  World world = one_sphere(1e5);
+  world.settings.integrator = integrator;
+  world.settings.gravity.setZero();
+  SoftBody& body = world.soft[0];
+  undamp(body.material);
+  body.material.n = 0.5;
+  body.mesh = held_mesh(*body.mesh, body.positions, body.material);
+  const StabilityLimit limit =
+      stability_limit(integrator, *body.mesh, body.material, body.positions);
+  world.settings.steps_per_second = 1000;
+  const double stiffer = std::pow(times_the_limit * limit.step * 1000.0, 2);
+  body.material.k *= stiffer;
+  body.material.n *= stiffer;
+  perturb(body, 1e-3, 1);
+  return world;
+}
+
+TEST(Divergence, AStepThatIsALittleTooLongIsFoundBeforeTheBodyBursts) {
+  for (const Integrator integrator :
+       {Integrator::martin, Integrator::symplectic_euler, Integrator::velocity_verlet,
+        Integrator::rk4, Integrator::rk8}) {
+    World stable = balanced_ball(integrator, 0.98);
+    EXPECT_FALSE(run(stable, 1.0));
+    World world = balanced_ball(integrator, 1.1);
+    const Energy start = energy(world);
+    const auto divergence = first_divergence(world);
+    ASSERT_TRUE(divergence);
+    expect_words(*divergence, {"from nothing", "too long"});
+    const Energy now = energy(world);  // after the last step that was sound
+    EXPECT_LT(now.total() - start.total(), 0.2 * start.spring);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "sim/equilibrium/held_shape.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/rotation.h"
@@ -148,6 +149,39 @@ TEST(Swept, BallsShotAtEachOtherBounceApart) {
         }
       }
     }
+  }
+}
+
+/// Of 5 kg, whose springs balance its gas.
+SoftBody make_held_ball(const TriangleMesh& mesh, double k, double n) {
+  SoftBody ball = make_body(mesh);
+  ball.material.k = k;
+  ball.material.n = n;
+  ball.material.vertex_mass = 5.0 / ball.positions.size();
+  ball.material.rho_g = 0.1;
+  ball.material.surface.restitution = 0.0;
+  ball.mesh = held_mesh(*ball.mesh, ball.positions, ball.material);
+  return ball;
+}
+
+/// Drag slows them until they hardly move, and springs push them apart from there.
+TEST(Swept, BallsThatPressEachOtherInTheAirPart) {
+  for (const Integrator integrator :
+       {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::rk4}) {
+    World world = make_free_swept_world();
+    world.settings.integrator = integrator;
+    world.settings.steps_per_second = 1200;
+    const SoftBody soft = make_held_ball(make_icosphere(1.0, 2), 187.0, 0.05);
+    SoftBody firm = make_held_ball(make_sphere(1.0, 12, 12), 4686.0, 0.13);
+    for (int v = 0; v < firm.positions.size(); ++v) {
+      firm.positions[v] += Vec3(0.1, 0.2, 2.3);
+      firm.velocities[v].z() = -4.0;
+    }
+    world.soft = {soft, firm};
+    Stepper stepper(world);
+    for (int i = 0; i < 2400; ++i) ASSERT_FALSE(stepper.step(world));
+    EXPECT_TRUE(stepper.contacts().empty());
+    EXPECT_NEAR(volume_of(world.soft[0]) / volume_of(soft), 1.0, 1e-3);
   }
 }
 
