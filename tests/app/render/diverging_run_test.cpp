@@ -115,7 +115,7 @@ TEST_F(RenderTest, ABodyWithoutRoomIsNotAdvisedOtherSteps) {
 TEST_F(RenderTest, ARunThatDivergedIsAdvisedWhatToAdd) {
   expect_words(render(too_stiff + "--on-divergence stop"),
                {"add --set simulation.steps_per_second=120 or --on-divergence substep to: "});
-  expect_words(render(too_stiff + "--on-divergence substep --overwrite"),
+  expect_words(render(too_stiff + "--set body.k=5e10 --on-divergence substep --overwrite"),
                {"Not even 1024 parts", "add --set simulation.integrator=implicit_euler to: "});
 }
 
