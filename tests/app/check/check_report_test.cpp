@@ -175,7 +175,7 @@ TEST(RunStatisticsText, SaysWhatWasPressedToNextToNothing) {
 TEST(RunStatisticsText, SaysHowItDiverged) {
   const std::string why = "ball: the volume is -1 m^3";
   const auto run = std::make_unique<RunStatistics>();
-  run->divergence = why;
+  run->divergence.emplace(why);
   EXPECT_EQ(after(run_statistics_text(*run, by_impulses(0.5)), "DIVERGED"), why);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "app/world/build_world.h"
 #include "app/world/find_scene.h"
@@ -42,7 +43,7 @@ World world_at_end(const std::string& name) {
   return run_scene(name, [](const World&, const sim::Stepper&) {});
 }
 
-const SoftBody& body(const World& world, const std::string& name) {
+const SoftBody& body(const World& world, std::string_view name) {
   return *std::ranges::find(world.soft, name, &SoftBody::name);
 }
 
