@@ -185,7 +185,8 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   advice.n = body.material.n;
   advice.temperature = body.material.temperature;
   predict_folding(body, advice);
-  if (advice.blown_up() || advice.leaves_shape()) advice.max_held = max_held(body);
+  const bool leaves_by_itself = advice.leaves_shape() && !advice.steady_k;
+  if (advice.blown_up() || leaves_by_itself) advice.max_held = max_held(body);
   predict_pressed(body, world.settings, advice);
   advice.limp &= !has_valve(world, at_start);
   return advice;
@@ -253,12 +254,11 @@ std::string shape_warning(const GasAdvice& advice) {
     const bool is_much = advice.max_held && *advice.max_held < advice.n;
     return fmt::format(
         "{}: with rest = \"equilibrium\" springs of {} leave a part of the pressure unbalanced: "
-        "{}; "
-        "{} keeps its shape better",
+        "{}; {} keeps its shape better",
         body, is_much ? fmt::format("k = {:g} N/m", advice.k) : "this mesh", volumes_text(advice),
         is_much ? fmt::format("n of at most {} mol, or a greater k,",
                               base::text_below(*advice.max_held))
-                : "a coarser mesh");
+                : "a greater k or a coarser mesh");
   }
   const std::string folds = fmt::format(
       "{}: with rest = \"equilibrium\" springs of k = {:g} N/m balance its gas, but the slightest "

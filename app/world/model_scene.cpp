@@ -33,9 +33,9 @@ constexpr double drop = 1.0;  // m
 /// Of the speed in 1/60 s: it falls nearly as in empty space, and what rocks comes to rest within
 /// the run.
 constexpr double drag = 0.02;
-/// Degrees/s: what would stand on a point until rounding tips it, late in the run, falls over at
-/// once.
-constexpr const char* slow_turn = "[3.0, 2.0, 0.0]";
+/// rad/s: what would stand on a point until rounding tips it, late in the run, falls over at once,
+/// and all else lands as it was modelled.
+constexpr const char* slow_turn = "[0.05, 0.03, 0.0]";
 
 /// Meshes up to this are held in shape by tensions, if these keep it: they take the factors of a
 /// matrix to find, and a few implicit steps to try.
@@ -245,7 +245,7 @@ model.file = {}
 {}model.scale = {}  # the longest side is {} m
 model.rotation = {}
 position = [0.0, 0.0, {}]
-angular_velocity = {}  # degrees/s: so that it does not stand on a point
+angular_velocity = {}  # rad/s: so that it does not stand on a point
 k = {}
 k_max = {}
 vertex_mass = {}  # {} kg in all, whatever the mesh

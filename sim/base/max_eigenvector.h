@@ -21,14 +21,16 @@ inline Eigen::VectorXd random_direction(Eigen::Index size) {
   return result.normalized();
 }
 
-/// Of size 1. `apply` takes a vector and returns the operator's product with it.
+/// Of size 1, as far as so many Lanczos vectors find it from `start`, a vector of size 1. `apply`
+/// takes a vector and returns the operator's product with it.
 template <class Operator>
-Eigen::VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
+Eigen::VectorXd max_eigenvector_from(const Eigen::VectorXd& start, Eigen::Index vectors,
+                                     const Operator& apply) {
   using Eigen::VectorXd;
-  const auto count = std::min<Eigen::Index>(size, max_subspace);
+  const Eigen::Index size = start.size(), count = std::min(size, vectors);
   Eigen::MatrixXd basis(size, count);
   VectorXd diagonal(count), off_diagonal(count);
-  VectorXd next = random_direction(size);
+  VectorXd next = start;
   Eigen::Index used = 0;
   while (used < count) {
     basis.col(used) = next;
@@ -52,6 +54,12 @@ Eigen::VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(diagonal.head(used), off_diagonal.head(used - 1));
   return basis.leftCols(used) * solver.eigenvectors().col(used - 1);
+}
+
+/// From a random start.
+template <class Operator>
+Eigen::VectorXd max_eigenvector(Eigen::Index size, const Operator& apply) {
+  return max_eigenvector_from(random_direction(size), max_subspace, apply);
 }
 
 }  // namespace pneuma::base

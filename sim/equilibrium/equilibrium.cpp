@@ -167,6 +167,7 @@ Balance find_balance(const MeshTopology& topology, const VertexArray& positions,
                            " N/m: without springs nothing balances the gas; k must be above zero");
   }
   const Eigen::VectorXd force = pressure_force(topology, positions, material);
+  if (force.isZero(0.0)) return {std::vector<double>(at(topology.edge_count())), 0.0};
   check_balance(positions, force);
   return solve(spring_directions(topology, positions), force, softening);
 }

@@ -15,9 +15,10 @@ namespace {
 /// Of the pressure force, left unbalanced: more changes the volume by more than a tenth; less is
 /// reached where more is left.
 constexpr double much_left = 0.1, little_left = 0.03;
-/// Each softening after the first over the one before, and the last that is tried.
+/// Each softening after the first over the one before; none below the last is tried.
 constexpr double less_softening = 0.3, last_softening = 1e-3;
-/// What is left over what the softening before left, from which on less changes nothing: flat faces.
+/// What is left over what the softening before left, from which on less changes nothing: flat
+/// faces.
 constexpr double no_less = 0.99;
 
 /// From the softening that asks least of the springs to the one that leaves little unbalanced.
@@ -34,9 +35,9 @@ std::vector<Balance> find_balances(const SoftMesh& mesh, const VertexArray& posi
     wanted = little_left;
     before = left;
   }
-  // Which says why not.
-  if (balances.empty()) find_equilibrium(mesh.topology, positions, material, options);
-  return balances;
+  if (!balances.empty()) return balances;
+  find_equilibrium(mesh.topology, positions, material, options);  // which throws, and says why
+  throw EquilibriumError("the springs do not balance the pressure");
 }
 
 std::shared_ptr<const SoftMesh> with_tensions(const SoftMesh& mesh, const VertexArray& positions,

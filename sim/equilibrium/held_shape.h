@@ -19,8 +19,9 @@ namespace pneuma::sim {
 std::shared_ptr<const SoftMesh> held_mesh(const SoftMesh& mesh, const VertexArray& positions,
                                           const SoftMaterial& material);
 
-/// The amount of gas in mol at the material's temperature, whatever its n, from which on springs
-/// cannot hold the shape, as well as they can with less; infinite when no spring is stretched.
+/// The amount of gas in mol at the material's temperature, whatever its n, up to which springs hold
+/// the shape as well as with less; held_mesh may take more and let the body leave its shape
+/// further. Infinite when no spring is stretched.
 /// Throws EquilibriumError for the other reasons of held_mesh. The temperature must be above 0.
 double max_held_gas(const SoftMesh& mesh, const VertexArray& positions,
                     const SoftMaterial& material);

@@ -25,11 +25,13 @@ void CarriedBoxes::find(const World& world, std::span<const BodyPair> pairs) {
   }
 }
 
+bool moves_by_new_velocity(Integrator integrator) {
+  return integrator == Integrator::martin || integrator == Integrator::symplectic_euler ||
+         integrator == Integrator::implicit_euler;
+}
+
 Vec3 fall_within(double step, Integrator integrator, const Vec3& gravity) {
-  const bool by_new_velocity = integrator == Integrator::martin ||
-                               integrator == Integrator::symplectic_euler ||
-                               integrator == Integrator::implicit_euler;
-  return (by_new_velocity ? 1.0 : 0.5) * step * step * gravity;
+  return (moves_by_new_velocity(integrator) ? 1.0 : 0.5) * step * step * gravity;
 }
 
 }  // namespace pneuma::sim

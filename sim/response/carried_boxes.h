@@ -26,6 +26,9 @@ class CarriedBoxes {
   std::vector<std::uint8_t> is_carried_;  // per box
 };
 
+/// Whether the velocity at the end of a step moves soft bodies in all of it.
+bool moves_by_new_velocity(Integrator integrator);
+
 /// m, by which gravity displaces a soft body within a step (s) by this integrator, besides what its
 /// velocity at the start does: half of g h^2, or all of it where the new velocity moves it.
 Vec3 fall_within(double step, Integrator integrator, const Vec3& gravity);

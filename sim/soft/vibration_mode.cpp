@@ -92,14 +92,22 @@ void VibrationMode::add_gas(const VectorXd& u, VectorXd& result) const {
   }
 }
 
+VectorXd VibrationMode::product(const VectorXd& u, double weight) const {
+  VectorXd result = weight * drag_ * u;
+  add_springs(u, weight, result);
+  add_hinges(u, weight, result);
+  add_gas(u, result);
+  return result;
+}
+
 VectorXd VibrationMode::fastest(double weight) const {
-  return base::max_eigenvector(3 * area_.size(), [&](const VectorXd& u) {
-    VectorXd result = weight * drag_ * u;
-    add_springs(u, weight, result);
-    add_hinges(u, weight, result);
-    add_gas(u, result);
-    return result;
-  });
+  return base::max_eigenvector(3 * area_.size(),
+                               [&](const VectorXd& u) { return product(u, weight); });
+}
+
+VectorXd VibrationMode::faster_than(const VectorXd& u) const {
+  constexpr Eigen::Index few = 6;
+  return base::max_eigenvector_from(u, few, [&](const VectorXd& v) { return product(v, 0.0); });
 }
 
 Oscillation VibrationMode::along(const VectorXd& u) const {

@@ -27,10 +27,15 @@ class VibrationMode {
 
   /// The motion u of the largest u.K u + weight u.D u, of size 1.
   Eigen::VectorXd fastest(double weight) const;
+  /// A motion near u, of size 1 as u is: the fastest that a few products with K find. For where u
+  /// is fast already, and `fastest` takes too long.
+  Eigen::VectorXd faster_than(const Eigen::VectorXd& u) const;
   /// Of the motion along u alone, a vector of size 1.
   Oscillation along(const Eigen::VectorXd& u) const;
 
  private:
+  /// (K + weight D) u.
+  Eigen::VectorXd product(const Eigen::VectorXd& u, double weight) const;
   void add_springs(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
   void add_hinges(const Eigen::VectorXd& u, double weight, Eigen::VectorXd& result) const;
   void add_gas(const Eigen::VectorXd& u, Eigen::VectorXd& result) const;

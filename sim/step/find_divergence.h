@@ -27,7 +27,8 @@ inline constexpr double max_gain = 100.0;
 inline constexpr double max_growth = 64.0;
 
 /// After integrate_soft. `start`: as the step found the body; `min_volume`: as the integrator
-/// reports it.
+/// reports it. Needs memory where the body has gained energy from nothing, as it may in steps near
+/// the longest stable one.
 std::optional<Divergence> find_divergence(const World& world, const SoftBody& body,
                                           const SoftState& start, double min_volume);
 

@@ -59,7 +59,7 @@ class Stepper {
 
   /// One step of the world this was made for. On divergence the world is left as the step found it:
   /// in its last valid state. Allocates nothing once the numbers of contacts, and
-  /// of cells of the exact search, have peaked (but see sim/soft/vertex_matrix.h).
+  /// of cells of the exact search, have peaked (but see vertex_matrix.h, find_divergence.h).
   [[nodiscard]] std::optional<Divergence> step(World& world);
 
   /// Brings obstacles to where they are and gives them their velocities, if any were left behind.

@@ -257,14 +257,15 @@ class SweptStep {
     }
   }
 
-  /// J. Euler-Cromer moves all of the step by the velocity v' at its end, so that of the change of
-  /// m v^2 / 2, (J + F h) (v + v') / 2, an impulse J at the start has its share: none at rest, where
-  /// its velocity is what the forces F take again.
+  /// J. Where the velocity v' at the end of a step moves soft bodies in all of it, the change of
+  /// m v^2 / 2 is (J + F h) (v + v') / 2, and an impulse J at the start has its share: none at
+  /// rest, where its velocity is what the forces F take again.
   double work_of_start(std::size_t i) const {
     const SweptContact& contact = m_.contacts[i];
     const Vec3 before = search_.start_velocity(contact);
-    const bool is_exact = world_.settings.integrator != Integrator::symplectic_euler;
-    if (is_exact || search_.is_rigid(contact)) return m_.impulses[i].work(before);
+    if (search_.is_rigid(contact) || !moves_by_new_velocity(world_.settings.integrator)) {
+      return m_.impulses[i].work(before);
+    }
     const Vec3 after = (search_.displacement(contact) - search_.shift(contact)) / step();
     return 0.5 * m_.impulses[i].given().dot(before + after);
   }

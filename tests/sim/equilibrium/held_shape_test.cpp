@@ -58,6 +58,17 @@ TEST(HeldShape, TheMostGasHeldIsThatBetweenAcceptedAndRefused) {
   EXPECT_THROW(held_mesh(*body.mesh, body.positions, material), EquilibriumError);
 }
 
+TEST(HeldShape, GasThatOnlyBalancesTheAirNeedsNoTension) {
+  SoftBody body = make_body(make_icosphere(1.0, 2));
+  body.material.ambient_pressure = 1000.0;
+  body.material.n = 1000.0 * volume_of(body) / (gas_constant * body.material.temperature);
+  // In proportion, what rounding leaves of the pressure.
+  const auto held = held_mesh(*body.mesh, body.positions, body.material);
+  for (std::size_t e = 0; e < held->rest_lengths.size(); ++e) {
+    EXPECT_NEAR(held->rest_lengths[e], body.mesh->rest_lengths[e], 1e-9);
+  }
+}
+
 /// Directions but rigid motions in which the energy falls, from differences of the simulation's own
 /// forces.
 int falling_directions(const SoftBody& body) {

@@ -166,8 +166,8 @@ SoftBody make_held_ball(const TriangleMesh& mesh, double k, double n) {
 
 /// Drag slows them until they hardly move, and springs push them apart from there.
 TEST(Swept, BallsThatPressEachOtherInTheAirPart) {
-  for (const Integrator integrator :
-       {Integrator::symplectic_euler, Integrator::velocity_verlet, Integrator::rk4}) {
+  for (const Integrator integrator : {Integrator::martin, Integrator::symplectic_euler,
+                                      Integrator::velocity_verlet, Integrator::rk4}) {
     World world = make_free_swept_world();
     world.settings.integrator = integrator;
     world.settings.steps_per_second = 1200;
@@ -182,6 +182,32 @@ TEST(Swept, BallsThatPressEachOtherInTheAirPart) {
     for (int i = 0; i < 2400; ++i) ASSERT_FALSE(stepper.step(world));
     EXPECT_TRUE(stepper.contacts().empty());
     EXPECT_NEAR(volume_of(world.soft[0]) / volume_of(soft), 1.0, 1e-3);
+  }
+}
+
+/// Of methods whose new velocity moves bodies: what holds the ball is taken again by its forces.
+TEST(Swept, ContactsAtRestDoNoWork) {
+  for (const Integrator integrator :
+       {Integrator::martin, Integrator::symplectic_euler, Integrator::implicit_euler}) {
+    World world = make_swept_world();
+    world.settings.integrator = integrator;
+    world.settings.steps_per_second = 600;
+    world.settings.sleep_speed = 0.0;
+    SoftBody ball = make_held_ball(make_icosphere(1.0, 2), 400.0, 0.2);
+    ball.material.rho_g = 0.3;
+    for (int v = 0; v < ball.positions.size(); ++v) ball.positions[v].z() += 2.05;
+    world.soft = {ball};
+    world.rigid = {make_rigid({4.0, 4.0, 1.0}, {0.0, 0.0, 0.5})};
+    world.rigid[0].is_kinematic = true;
+    Stepper stepper(world, {.measure_work = true, .plan = {}});
+    double work = 0.0;
+    for (int i = 0; i < 1800; ++i) {
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->what;
+      if (i >= 1500) work += std::abs(stepper.contact_work());
+    }
+    EXPECT_FALSE(stepper.contacts().empty());
+    EXPECT_LT(work, 1e-3) << "J, by method " << static_cast<int>(integrator);
   }
 }
 
