@@ -212,6 +212,7 @@ class Builder {
         text = fmt::format("; from k = {} N/m on it keeps its shape", k);
         stiff.k = std::stod(k);
       }
+      if (!scene_.names_step) return text;  // it gets the one that it needs
       Builder with_stiff(scene_);
       with_stiff.add_soft(body, {body.name, body.position, Quaternion::Identity()},
                           sim::held_mesh(mesh, mesh.rest_positions, stiff), stiff);

@@ -182,6 +182,7 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   advice.left_out = advice.vertices > max_vertices && sim::gas_strength(body.material) > 0.0;
   if (!advice.left_out) advice.settled = settled_volume(body);
   advice.k = body.material.k;
+  advice.bending = body.material.bending;
   advice.n = body.material.n;
   advice.temperature = body.material.temperature;
   predict_folding(body, advice);
@@ -288,11 +289,17 @@ std::string weight_warning(const GasAdvice& advice) {
     return fmt::format("{}{}give it gauge_pressure = {:.3g} Pa, and springs that hold that",
                        crushed, lighter, advice.carrying_pressure);
   }
-  const double k = *advice.strengthened * advice.k;
+  // Springs that leave their shape already must be stronger than the gas.
+  const bool is_much = advice.max_held && *advice.max_held < advice.n;
+  const double stronger = *advice.strengthened * (is_much ? advice.n / *advice.max_held : 1.0);
+  const double k = stronger * advice.k;
+  const std::string hinges =
+      advice.bending > 0.0 ? fmt::format(", bending = {:.3g}", stronger * advice.bending) : "";
   return fmt::format(
-      "{}{}give it springs and gas {:.3g} times as strong: k = {:.3g} N/m (stiffness = {:.3g} N/m) "
-      "with n = {:.4g} mol, or gauge_pressure = {:.3g} Pa, or the inflation that it has",
-      crushed, lighter, *advice.strengthened, k, k / k_per_stiffness,
+      "{}{}give it springs {:.3g} times as strong, k = {:.3g} N/m (stiffness = {:.3g} N/m){}, and "
+      "{:.3g} times the gas, n = {:.4g} mol, or gauge_pressure = {:.3g} Pa, or the inflation that "
+      "it has",
+      crushed, lighter, stronger, k, k / k_per_stiffness, hinges, *advice.strengthened,
       *advice.strengthened * advice.n, advice.carrying_pressure);
 }
 

@@ -26,6 +26,7 @@ struct GasAdvice {
   // s: when keys of supply give it the most gas, with which all of this is; none: at the start.
   std::optional<double> filled_at;
   double k = 0.0;            // N/m, of its springs
+  double bending = 0.0;      // N m, of its hinges
   double n = 0.0;            // mol, of its gas
   double temperature = 0.0;  // K
   double weight = 0.0;       // N, on the ground

@@ -116,12 +116,30 @@ TEST(GasAdvice, TooHeavyBodiesAreCarriedByTheSpringsAndGasThatItNames) {
     const std::string gas =
         how.find("inflation") != std::string::npos ? "inflation = 1.1\n"
         : how.find("\nn = ") != std::string::npos
-            ? "n = " + number_after(warning, "with n = ") + "\n"
+            ? "n = " + number_after(warning, "the gas, n = ") + "\n"
             : "gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n";
     const std::string carried = ball("k = " + k + "\n" + gas);
     EXPECT_FALSE(advices_on(carried).at(0).crushed()) << warning;
     EXPECT_GT(volume_after(carried, 4.0), 0.75 * heavy.volume) << warning;
   }
+}
+
+TEST(GasAdvice, WhatCarriesABodyKeepsItsShapeToo) {
+  const auto ball = [](const std::string& k, const std::string& n, const std::string& bending) {
+    return "[[body]]\nposition = [0, 0, 9]\nradius = 2\nstacks = 36\nslices = 36\nmass = 500\n"
+           "rest = \"equilibrium\"\nk = " +
+           k + "\nn = " + n + "\nbending = " + bending + "\n";
+  };
+  const GasAdvice heavy = advices_on(ball("50", "0.5", "2")).at(0);
+  ASSERT_TRUE(heavy.crushed() && heavy.leaves_shape());
+  const std::string warning = weight_warning(heavy);
+  const std::string bending = number_after(warning, "bending = ");
+  const GasAdvice carried =
+      advices_on(ball(number_after(warning, ", k = "), number_after(warning, "the gas, n = "),
+                      bending.substr(0, bending.find(','))))
+          .at(0);
+  EXPECT_FALSE(carried.crushed()) << warning;
+  EXPECT_FALSE(carried.leaves_shape()) << warning;
 }
 
 TEST(GasAdvice, BesideAnAmbientPressureTooHeavyBodiesAreCarriedByTheGasThatItNames) {
