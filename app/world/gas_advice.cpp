@@ -204,6 +204,8 @@ bool GasAdvice::leaves_shape() const {
   return steady_k || (settled && std::abs(*settled - volume) > held_change * volume);
 }
 
+double GasAdvice::gas_over_held() const { return max_held ? std::max(1.0, n / *max_held) : 1.0; }
+
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
   std::vector<GasAdvice> advices;
   for (const DistinctBody& body : distinct_bodies(world)) {
@@ -252,7 +254,7 @@ std::string gas_warning(const GasAdvice& advice) {
 std::string shape_warning(const GasAdvice& advice) {
   const std::string body = body_and_alike(advice.body, advice.count);
   if (!advice.steady_k) {
-    const bool is_much = advice.max_held && *advice.max_held < advice.n;
+    const bool is_much = advice.gas_over_held() > 1.0;
     return fmt::format(
         "{}: with rest = \"equilibrium\" springs of {} leave a part of the pressure unbalanced: "
         "{}; {} keeps its shape better",
@@ -290,8 +292,7 @@ std::string weight_warning(const GasAdvice& advice) {
                        crushed, lighter, advice.carrying_pressure);
   }
   // Springs that leave their shape already must be stronger than the gas.
-  const bool is_much = advice.max_held && *advice.max_held < advice.n;
-  const double stronger = *advice.strengthened * (is_much ? advice.n / *advice.max_held : 1.0);
+  const double stronger = *advice.strengthened * advice.gas_over_held();
   const double k = stronger * advice.k;
   const std::string hinges =
       advice.bending > 0.0 ? fmt::format(", bending = {:.3g}", stronger * advice.bending) : "";

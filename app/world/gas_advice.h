@@ -43,6 +43,9 @@ struct GasAdvice {
   bool blown_up() const;      // to more than twice its volume
   bool crushed() const;       // by its weight, to less than half its volume, or being limp
   bool leaves_shape() const;  // being held: it folds, or rests at another volume
+  /// Times the gas with which springs keep the shape, if it has more; 1: it does not, or no gas
+  /// would do.
+  double gas_over_held() const;
 };
 
 /// Vertices of all distinct bodies for which there is advice: before a run it is to take well below

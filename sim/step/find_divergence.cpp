@@ -267,9 +267,8 @@ std::optional<Divergence> find_outgrown_step(const World& world, const SoftBody&
   const int vertex = fastest_vertex(body);
   return failure(world, Stage::integrate_soft, body, vertex,
                  "it gained " + base::text(gained) +
-                     " J from nothing: the shape that it has by "
-                     "then bears steps of " +
-                     base::text(limit) + " s" + fastest_text(body, vertex));
+                     " J from nothing: its shape then bears steps of " + base::text(limit) + " s" +
+                     fastest_text(body, vertex));
 }
 
 class SqueezedBoxes {
