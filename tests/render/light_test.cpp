@@ -336,60 +336,6 @@ TEST(BetweenBodies, TheGroundsDarknessAroundACrowdHasNoEdge) {
   }
 }
 
-/// Ten texels to a metre, the origin in the middle.
-GroundPicture ten_to_a_metre(float reach) {
-  Mat4f to_picture = Mat4f::Identity();
-  to_picture(0, 0) = to_picture(1, 1) = 10.0f / 64.0f;
-  to_picture(0, 3) = to_picture(1, 3) = 0.5f;
-  return {to_picture, 64, reach};
-}
-
-TEST(Nearness, IsThatOfABallsUnderside) {
-  const float radius = 2.0f;
-  const float reach = 0.8f;
-  const Mesh ball = make_ball({0, 0, radius}, radius, {1, 1, 1}, 96);
-  std::vector<SurfaceVertex> vertices;
-  for (const Vec3f& position : ball.positions)
-    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
-  std::vector<float> nearness;
-  ASSERT_TRUE(measure_nearness(vertices, ball.shape->triangles, ten_to_a_metre(reach), nearness));
-  for (int row = 0; row < 64; ++row) {
-    for (int column = 0; column < 64; ++column) {
-      const float away =
-          std::hypot(static_cast<float>(column) - 31.5f, static_cast<float>(row) - 31.5f) / 10.0f;
-      const float height =
-          away < radius ? radius - std::sqrt(radius * radius - away * away) : radius;
-      const float left = std::max(0.0f, 1.0f - height / reach);
-      // A vertex counts for all of its texel, half a diagonal of which changes the height by up to
-      // 0.08 m at the reach's end.
-      EXPECT_NEAR(nearness[static_cast<std::size_t>(row * 64 + column)], left * left, 0.16)
-          << column << ' ' << row;
-    }
-  }
-}
-
-TEST(Nearness, IsNoneOfWhatFloats) {
-  const Mesh box = make_box({0, 0, 2}, {2, 2, 2}, {1, 1, 1});
-  std::vector<SurfaceVertex> vertices;
-  for (const Vec3f& position : box.positions)
-    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
-  std::vector<float> nearness;
-  EXPECT_FALSE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(0.8f), nearness));
-  EXPECT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(1.5f), nearness));
-}
-
-TEST(Nearness, OfWhatIsSunkIsWhereItGoesThroughTheGround) {
-  const Mesh box = make_box({0, 0, 0}, {2, 2, 2}, {1, 1, 1});
-  std::vector<SurfaceVertex> vertices;
-  for (const Vec3f& position : box.positions)
-    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
-  std::vector<float> nearness;
-  ASSERT_TRUE(measure_nearness(vertices, box.shape->triangles, ten_to_a_metre(0.8f), nearness));
-  const auto at = [&](int column) { return nearness[static_cast<std::size_t>(32 * 64 + column)]; };
-  EXPECT_EQ(at(32), 0.0f);  // a metre above the sunk side
-  EXPECT_EQ(std::max(at(41), at(42)), 1.0f);
-}
-
 /// A viewer believes that a box stands where its sides meet a dark line, which is gone when it
 /// floats.
 TEST(BetweenBodies, TheGroundIsDarkestWhereABoxStands) {
