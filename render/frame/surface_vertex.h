@@ -10,6 +10,7 @@ namespace pneuma::render {
 struct SurfaceVertex {
   Vec3f position;
   Vec3f normal;              // unit
+  float flatness;            // squared cosine between that and the facet at it that differs most
   Eigen::Vector4f material;  // linear colour, roughness
 };
 

@@ -65,9 +65,25 @@ float height_of(const SurfacePoint& point, std::span<const Vec3f> positions) {
   return height;
 }
 
-Vec3f mixed(const SurfacePoint& point, std::span<const Vec3f> of) {
+template <typename Value>
+Value mixed(const SurfacePoint& point, const std::vector<Value>& of) {
   return point.weights[0] * of[point.corners[0]] + point.weights[1] * of[point.corners[1]] +
          point.weights[2] * of[point.corners[2]];
+}
+
+/// Per vertex, as in SurfaceVertex.
+std::vector<float> flatness_of(const Mesh& mesh) {
+  std::vector<float> flatness(mesh.positions.size(), 1.0f);
+  for (const Triangle& t : mesh.shape->triangles) {
+    const Vec3f& a = mesh.positions[t[0]];
+    const Vec3f across = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+    const Vec3f facet = across.stableNormalized();
+    for (const std::uint32_t v : t) {
+      const float cosine = std::max(mesh.normals[v].dot(facet), 0.0f);
+      flatness[v] = std::min(flatness[v], cosine * cosine);
+    }
+  }
+  return flatness;
 }
 
 /// Linear colours of a mesh that has its own.
@@ -177,6 +193,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
     pixels = pixels_per_metre(mesh, view);
   }
   std::vector<SurfaceVertex> vertices;  // of the points so far
+  const std::vector<float> flatness = flatness_of(mesh);
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
   const auto add_vertices = [&](const std::vector<SurfacePoint>& points) {
@@ -186,6 +203,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
         position = kept_above_ground(position, height_of(points[i], mesh.positions));
       }
       vertices.push_back({position, mixed(points[i], mesh.normals).normalized(),
+                          mixed(points[i], flatness),
                           material(mixed(points[i], colours), mesh.roughness)});
     }
   };
@@ -234,7 +252,8 @@ void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
     if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
     places_.push_back(first_at[v]);
     vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
-                         normals_[positions_.size() - 1], material(colours[v], mesh.roughness)});
+                         normals_[positions_.size() - 1], 1.0f,
+                         material(colours[v], mesh.roughness)});
   }
   append(whole);
 }

@@ -11,14 +11,14 @@ namespace {
 
 constexpr const char* vertex_source = R"(
 layout(location = 0) in vec3 from;
-layout(location = 1) in vec3 from_normal;
+layout(location = 1) in vec4 from_normal;
 layout(location = 2) in vec4 from_material;
 layout(location = 3) in vec3 from_bounced;
 layout(location = 4) in vec2 from_open;
 layout(location = 5) in vec4 from_first_box;
 layout(location = 6) in vec4 from_second_box;
 layout(location = 7) in vec3 to;
-layout(location = 8) in vec3 to_normal;
+layout(location = 8) in vec4 to_normal;
 layout(location = 9) in vec4 to_material;
 layout(location = 10) in vec3 to_bounced;
 layout(location = 11) in vec2 to_open;
@@ -33,7 +33,7 @@ out vec3 indirect;
 out vec2 openness;
 out vec4 near_first;
 out vec4 near_second;
-out vec3 outward;
+out vec4 outward;
 flat out vec3 facet;
 noperspective out float covered;
 #ifdef SHADOWED
@@ -89,7 +89,7 @@ std::vector<InstanceAttribute> Outlines::attributes() {
   std::vector<InstanceAttribute> result;
   for (const std::size_t end : {offsetof(Instance, from), offsetof(Instance, to)}) {
     result.push_back({3, end + offsetof(SurfaceVertex, position)});
-    result.push_back({3, end + offsetof(SurfaceVertex, normal)});
+    result.push_back({4, end + offsetof(SurfaceVertex, normal)});  // and flatness
     result.push_back({4, end + offsetof(SurfaceVertex, material)});
     result.push_back({3, end + offsetof(End, light) + offsetof(IndirectLight, bounced)});
     result.push_back({2, end + offsetof(End, light) + offsetof(IndirectLight, open_to)});

@@ -18,7 +18,7 @@ SurfaceBuffers::SurfaceBuffers() {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   set_attribute(0, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, position));
-  set_attribute(1, 3, sizeof(SurfaceVertex), offsetof(SurfaceVertex, normal));
+  set_attribute(1, 4, sizeof(SurfaceVertex), offsetof(SurfaceVertex, normal));  // and flatness
   set_attribute(2, 4, sizeof(SurfaceVertex), offsetof(SurfaceVertex, material));
   glBindBuffer(GL_ARRAY_BUFFER, light_.name());
   set_attribute(3, 3, sizeof(IndirectLight), offsetof(IndirectLight, bounced));

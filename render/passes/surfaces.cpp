@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* vertex_source = R"(
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 normal;
+layout(location = 1) in vec4 normal;    // and flatness
 layout(location = 2) in vec4 material;  // linear colour, roughness
 layout(location = 3) in vec3 bounced;   // light from other bodies
 layout(location = 4) in vec2 open_to;   // how much is seen of the sky, and of the lit ground
@@ -27,7 +27,7 @@ out vec4 surface;
 out vec3 indirect;
 out vec2 openness;
 #ifdef SMOOTH
-out vec3 outward;
+out vec4 outward;
 #endif
 #ifdef SHADOWED
 uniform mat4 world_to_map;
@@ -62,7 +62,7 @@ uniform vec3 eye;
 uniform vec3 to_light;
 out vec4 colour;
 #ifdef SMOOTH
-in vec3 outward;
+in vec4 outward;  // and flatness
 #endif
 #ifdef OUTLINE
 flat in vec3 facet;
@@ -111,17 +111,20 @@ void main() {
   const float covered = 1.0;
 #endif
 #ifdef SMOOTH
-  vec3 n = normalize(outward);
+  vec3 n = normalize(outward.xyz);
+  float bend = 1.0 - outward.w;
 #else
   vec3 n = facet;
+  const float bend = 0.0;
 #endif
   vec3 to_eye = normalize(eye - world);
-  float nv = clamp(dot(n, to_eye), 0.0, 1.0);
+  float towards_eye = dot(n, to_eye);
+  float nv = clamp(towards_eye, 0.0, 1.0);
   float nl = max(dot(n, to_light), 0.0);
   // Of the half vector h: |to_eye + to_light|^2 = 2 + 2 to_eye . to_light.
   float el = dot(to_eye, to_light);
   float over_length = inversesqrt(max(2.0 + 2.0 * el, 1e-6));
-  float nh = max(dot(n, to_eye) + dot(n, to_light), 0.0) * over_length;
+  float nh = max(towards_eye + dot(n, to_light), 0.0) * over_length;
   float vh = (1.0 + el) * over_length;
   float lit = nl;
 #ifdef SHADOWED
@@ -144,9 +147,8 @@ void main() {
   float up = 2.0 * nv * n.z - to_eye.z;
   vec3 mirrored = mix(floor_light * open.y, sky_light(max(up, 0.0)) * open.x,
                       smoothstep(-roughness, roughness, up));
-  // Interpolated normals of a coarse surface turn away from the eye long before it does itself; by
-  // less than the tenth they differ on fine ones, whose facets would show.
-  float reflected = fresnel(max(nv, abs(dot(facet, to_eye)) - 0.1), roughness);
+  // Interpolated normals of a coarse surface turn away from the eye long before it does itself.
+  float reflected = fresnel(max((towards_eye + bend) / (1.0 + bend), 0.0), roughness);
   float shine = highlight(nl, nv, nh, vh, roughness);
   vec3 light = mix(entering * surface.rgb * diffuse, mirrored, reflected) + sun * (lit * shine);
   colour = vec4(shown(light), min(covered, 1.0));
@@ -181,11 +183,11 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
   // apart than this, the three reads would be seen one by one.
   set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
   set_uniform(texel, shadow->texel());
-  // A normal is scaled the other way than the axes. Light that comes along a facet more than ten to
-  // one hardly lights it.
+  // A normal is scaled the other way than the axes. Where light comes along a facet by more than
+  // three to one, it is compared as for three: more would let light in under a plate on a body.
   const float steepness = shadow->extent() / shadow->depth_range();
   set_uniform(lean_scale,
-              Vec3f(steepness * steepness, 0.1f / shadow->depth_range(), 0.5f * steepness));
+              Vec3f(steepness * steepness, 0.3f / shadow->depth_range(), 0.5f * steepness));
 }
 
 Surfaces::Variant::Variant(bool shadowed, bool near_boxes)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -45,6 +46,30 @@ TEST(DrawnSurface, GivesAFlatMeshThreeVerticesATriangleAndASmoothOneItsOwn) {
     // A unit box about the origin: a face's normal is where its vertices are furthest out.
     EXPECT_NEAR(surface.vertices()[i].normal.dot(surface.vertices()[i].position), 0.5f, 1e-6f);
   }
+}
+
+TEST(DrawnSurface, KnowsHowFarFacetsAreFromTheNormal) {
+  // At the corners of an octahedron along the axes each facet's normal is (1, 1, 1) / sqrt(3) but
+  // for signs.
+  Mesh octahedron;
+  for (const float side : {1.0f, -1.0f}) {
+    for (int axis = 0; axis < 3; ++axis) octahedron.positions.push_back(side * Vec3f::Unit(axis));
+  }
+  octahedron.normals = octahedron.positions;
+  MeshShape shape;
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t x = i & 1 ? 3 : 0, y = i & 2 ? 4 : 1, z = i & 4 ? 5 : 2;
+    const bool is_mirrored = std::popcount(i) % 2 == 1;
+    shape.triangles.push_back(is_mirrored ? Triangle{x, z, y} : Triangle{x, y, z});
+  }
+  shape.colours.assign(6, {1, 0, 0});
+  octahedron.shape = std::make_shared<MeshShape>(std::move(shape));
+  const DrawnSurface surface = built({}, {octahedron, make_box({3, 0, 0}, {1, 1, 1}, {1, 0, 0})});
+  ASSERT_EQ(surface.vertices().size(), 6u + 36u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(surface.vertices()[i].flatness, 1.0f / 3.0f, 1e-6f);
+  }
+  for (std::size_t i = 6; i < 42; ++i) EXPECT_EQ(surface.vertices()[i].flatness, 1.0f);
 }
 
 TEST(DrawnSurface, LightsOnceWhatCornersOfAFaceShare) {

@@ -23,7 +23,7 @@ GroundPicture ten_to_a_metre(float reach) {
 std::vector<float> nearness_of(const Mesh& mesh, float reach) {
   std::vector<SurfaceVertex> vertices;
   for (const Vec3f& position : mesh.positions)
-    vertices.push_back({position, Vec3f::Zero(), Eigen::Vector4f::Zero()});
+    vertices.push_back({position, Vec3f::Zero(), 1.0f, Eigen::Vector4f::Zero()});
   std::vector<float> nearness;
   const auto& triangles = mesh.shape->triangles;
   const bool any = measure_nearness(vertices, triangles, ten_to_a_metre(reach), nearness);

@@ -104,6 +104,26 @@ TEST(Shadow, LeavesLitSidesAsTheyAre) {
   }
 }
 
+TEST(Shadow, OfAPlateThatLiesOnACoarseBodyIsThatOfAPlateHighAbove) {
+  // Where facets lean away from the sun before the surface's normals do, light must not get in
+  // between the two: nothing that the sun would light is seen of either.
+  const Colour grey = {0.8f, 0.8f, 0.8f};
+  const auto under_plate = [&](float height, float width) {
+    Frame frame = from_above({make_ring({0, 0, 0.4f}, 2.0f, 0.4f, grey, grey, 24, 12),
+                              make_box({0, 0, height + 0.15f}, {width, width, 0.3f}, grey)});
+    frame.camera = {{0, -12, 0.6f}, {0, 0, 0.4f}, 30.0f};
+    frame.light.softness = 0.03f;
+    frame.light.between_bodies = false;
+    return draw_once(frame, small_picture());
+  };
+  const Image low = under_plate(0.8f, 7.0f), high = under_plate(6.0f, 30.0f);
+  for (int y = 108; y < 125; ++y) {
+    for (int x = 120; x < 200; ++x) {  // within the ring
+      EXPECT_LE(greatest_difference(pixel_at(low, x, y), pixel_at(high, x, y)), 1) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(Shadow, LeavesFlatTopsAsTheyAre) {
   Frame frame = from_above({make_box({0, 0, 1}, {4, 4, 2}, {0.8f, 0.8f, 0.8f})});
   const Pair pair = draw_pair(frame);

@@ -68,19 +68,17 @@ Mesh make_ball(const Vec3f& centre, float radius, const Colour& colour, int ring
 }
 
 Mesh make_ring(const Vec3f& centre, float radius, float thickness, const Colour& top,
-               const Colour& foot) {
-  constexpr int around_count = 48;
-  constexpr int tube_count = 20;
+               const Colour& foot, int around_count, int tube_count) {
   auto shape = std::make_shared<MeshShape>();
   Mesh mesh;
-  const auto index = [](int i, int j) {
+  const auto index = [&](int i, int j) {
     return static_cast<std::uint32_t>((i % around_count) * tube_count + j % tube_count);
   };
   for (int i = 0; i < around_count; ++i) {
-    const float around = 2.0f * pi * static_cast<float>(i) / around_count;
+    const float around = 2.0f * pi * static_cast<float>(i) / static_cast<float>(around_count);
     const Vec3f outward = {std::cos(around), std::sin(around), 0.0f};
     for (int j = 0; j < tube_count; ++j) {
-      const float tube = 2.0f * pi * static_cast<float>(j) / tube_count;
+      const float tube = 2.0f * pi * static_cast<float>(j) / static_cast<float>(tube_count);
       const Vec3f normal = outward * std::cos(tube) + Vec3f::UnitZ() * std::sin(tube);
       mesh.positions.push_back(centre + radius * outward + thickness * normal);
       mesh.normals.push_back(normal);
