@@ -231,10 +231,6 @@ integrator = "{}"
 steps_per_second = {}    # for the masses and springs below
 ambient_pressure = {}  # Pa: with it the gas resists a change of its volume
 
-[camera]
-eye = [{:g}, {:g}, {:g}]
-target = [0.0, 0.0, {:g}]
-
 [picture]
 frames_per_second = {}
 
@@ -256,11 +252,10 @@ rest = "{}"
       repairs_text(model.repaired), name,
       choice.body.positions.size() > long_run_vertices ? short_duration : duration,
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
-      ambient_pressure, 1.5 * extent, -2.8 * extent, 1.2 * extent, 0.5 * extent, frames_per_second,
-      name, scenes::value_text(&file), choice_text(given), options.scale, extent,
-      scenes::value_text(&options.rotation), 0.5 * height + drop, slow_turn, material.k,
-      material.k_max, material.vertex_mass, mass, material.rho_g, bending_text(material),
-      choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
+      ambient_pressure, frames_per_second, name, scenes::value_text(&file), choice_text(given),
+      options.scale, extent, scenes::value_text(&options.rotation), 0.5 * height + drop, slow_turn,
+      material.k, material.k_max, material.vertex_mass, mass, material.rho_g,
+      bending_text(material), choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

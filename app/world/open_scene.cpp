@@ -65,9 +65,16 @@ scenes::Scene model_scene(const std::filesystem::path& model, ModelChoice choice
   const auto parse = [&] {
     return scenes::parse_scene(model_scene_text(model, choice), model_scene_file(model), overrides);
   };
-  const scenes::Scene scene = parse();
+  scenes::Scene scene = parse();
   const sim::Vec3 rotation = scene.bodies.front().model.rotation;
-  if (rotation == model_rotation(model, choice)) return scene;
+  if (rotation == model_rotation(model, choice)) {
+    if (!choice.rotation && assets::up_axis(model) == "z") {
+      scene.warnings.push_back(fmt::format(
+          "note: {}: z is taken to point upwards; --up y if the model lies where it should stand",
+          model.filename().string()));
+    }
+    return scene;
+  }
   choice.rotation = rotation;
   return parse();
 }

@@ -125,6 +125,17 @@ TEST_F(OpenScene, ADaeStandsAsItSays) {
   }
 }
 
+TEST_F(OpenScene, AModelThatDoesNotSayItsUpwardAxisGetsANote) {
+  const sim::TriangleMesh slab = sim::make_box({3.0, 6.0, 1.0}, 2);
+  const scenes::Scene plain = open(slab);
+  ASSERT_EQ(plain.warnings.size(), 1u);
+  EXPECT_NE(plain.warnings[0].find("it.obj: z is taken to point upwards; --up y"),
+            std::string::npos)
+      << plain.warnings[0];
+  EXPECT_TRUE(open(slab, {"body.model.rotation=[90, 0, 0]"}).warnings.empty());
+  EXPECT_TRUE(open_scene(file().string(), {}, {.rotation = rotation_of_up("z")}).warnings.empty());
+}
+
 TEST_F(OpenScene, AModelThatIsTurnedStandsAboveTheGround) {
   const auto lowest = [&](const scenes::Scene& scene) {
     const auto size = sim::bounds(build_world(scene).soft.at(0).positions);
