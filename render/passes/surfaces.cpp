@@ -90,10 +90,13 @@ uniform vec3 lean_scale;  // see SurfaceUniforms
 
 // Three reads of two by two texels each, on a triangle turned so that no two share a row. The facet
 // has another depth there: where it meets the far side, which is in the map, that is no deeper.
-float lit_share(vec3 facet) {
+float lit_share(vec3 facet, float bend) {
   vec3 turned = mat3(world_to_map) * facet;
-  // How fast its depth changes over the map.
-  vec2 lean = turned.xy * (lean_scale.x / max(-turned.z, lean_scale.y));
+  // How fast its depth changes over the map, within a limit: light that comes along a facet hardly
+  // lights it. That of a coarse surface is lit as its normals say; with as much as a box's, light
+  // would get in under a plate on it.
+  float least = lean_scale.y * min(1.0 + 40.0 * bend, 3.0);
+  vec2 lean = turned.xy * (lean_scale.x / max(-turned.z, least));
   // A read mixes texels that lie up to one away. Both sides of a body that has collapsed lie in
   // each other: half a texel lets the sun through.
   vec3 at = in_map - vec3(0.0, 0.0, (abs(lean.x) + abs(lean.y) + lean_scale.z) * texel);
@@ -128,7 +131,7 @@ void main() {
   float vh = (1.0 + el) * over_length;
   float lit = nl;
 #ifdef SHADOWED
-  lit *= lit_share(facet);
+  lit *= lit_share(facet, bend);
 #endif
   float roughness = surface.a;
 #ifdef NEAR_BOXES
@@ -183,11 +186,10 @@ void SurfaceUniforms::set(const View& view, const ShadowMap* shadow) const {
   // apart than this, the three reads would be seen one by one.
   set_uniform(edge, std::min(0.5f * shadow->edge(), 2.2f * shadow->texel()));
   set_uniform(texel, shadow->texel());
-  // A normal is scaled the other way than the axes. Where light comes along a facet by more than
-  // three to one, it is compared as for three: more would let light in under a plate on a body.
+  // A normal is scaled the other way than the axes. Light comes along a facet by up to ten to one.
   const float steepness = shadow->extent() / shadow->depth_range();
   set_uniform(lean_scale,
-              Vec3f(steepness * steepness, 0.3f / shadow->depth_range(), 0.5f * steepness));
+              Vec3f(steepness * steepness, 0.1f / shadow->depth_range(), 0.5f * steepness));
 }
 
 Surfaces::Variant::Variant(bool shadowed, bool near_boxes)

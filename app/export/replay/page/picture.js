@@ -175,7 +175,7 @@ class Picture {
       bindTexture(gl, 0, map.depth, map.comparing);
       Object.assign(values, {
         map: 0, world_to_map: map.worldToMap, edge: Math.min(0.5 * map.edge, 2.2 / shadowSize), texel: 1 / shadowSize,
-        lean_scale: [(map.extent / map.range) ** 2, 0.3 / map.range, 0.5 * map.extent / map.range] });
+        lean_scale: [(map.extent / map.range) ** 2, 0.1 / map.range, 0.5 * map.extent / map.range] });
     }
     gl.enable(gl.CULL_FACE);
     gl.cullFace(gl.BACK);
