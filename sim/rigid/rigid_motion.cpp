@@ -60,6 +60,10 @@ void move_freely(RigidBox& box, const Vec3& gravity, double step) {
   add_gravity_and_drag(box, gravity, step);
 }
 
+Vec3 missing_fall(const RigidBox& box, const RigidState& start, double step) {
+  return 0.5 * step * (box.velocity - start.velocity);
+}
+
 void add_gravity_and_drag(RigidBox& box, const Vec3& gravity, double step) {
   const double kept = std::pow(1.0 - box.rho_g, 60.0 * step);
   box.velocity = kept * (box.velocity + step * gravity);

@@ -1,6 +1,7 @@
 // Free motion of a rigid box over one step (paper 4.1).
 #pragma once
 
+#include "sim/rigid/rigid_state.h"
 #include "sim/world/rigid_box.h"
 
 namespace pneuma::sim {
@@ -32,6 +33,10 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
 /// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the
 /// fraction rho_g of both velocities per 1/60 s (ERRATA row 35).
 void move_freely(RigidBox& box, const Vec3& gravity, double step);
+/// m. What such a step leaves out of the way of a box that nothing touches, of which `start` is the
+/// start: half of what the velocity has changed by. With it a flight without drag is a parabola; in
+/// contact the box would sink.
+Vec3 missing_fall(const RigidBox& box, const RigidState& start, double step);
 /// The end of such a step.
 void add_gravity_and_drag(RigidBox& box, const Vec3& gravity, double step);
 

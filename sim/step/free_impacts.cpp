@@ -82,7 +82,7 @@ class FreeImpacts {
     if (!moves_freely(bodies[0])) std::swap(bodies[0], bodies[1]);
     const std::array sides = {side(bodies[0]), side(bodies[1])};
     FreeImpact impact(sides, contact.wanted, hit_together * m_.bodies.skin(bodies[0]),
-                      time_step(world_.settings));
+                      time_step(world_.settings), world_.settings.gravity);
     switch (impact.find_time()) {
       case FreeImpact::Result::none:
         return;
@@ -93,7 +93,7 @@ class FreeImpacts {
         m_.impact_points.clear();
         break;
     }
-    impact.finish(world_.settings.gravity, m_.impact_points);
+    impact.finish(m_.impact_points);
     if (!leaves_all_apart(impact, bodies)) return;
     book(impact, bodies);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -104,8 +104,7 @@ class FreeImpacts {
   /// Solves for the impulses. False if the sides do not bounce in all points. Without friction each
   /// of several points bounces by itself.
   bool bounce(FreeImpact& impact, const ContactMaterial& material) {
-    const Vec3& gravity = world_.settings.gravity;
-    if (!impact.find_points(gravity, material, m_.of_impact, m_.impact_points)) return false;
+    if (!impact.find_points(material, m_.of_impact, m_.impact_points)) return false;
     if (material.friction == 0.0 && m_.impact_points.size() > 1) return false;
     m_.impact_path.follow(m_.impact_points, material.restitution, tolerance_);
     return true;
@@ -143,14 +142,16 @@ class FreeImpacts {
     return !impact.meets_again(search_.near_distance(bodies[0], bodies[1]));
   }
 
-  /// In the whole step, with the skin and what corners on arcs leave.
+  /// In the whole step, with the skin, what corners on arcs leave and how far a parabola bulges.
   Bounds way(const std::array<int, 2>& bodies, const FreeImpact& impact, std::size_t side) const {
     const ImpactSide& of = impact.sides()[side];
     Bounds result = of.bounds(of.after(0.0));
     result.include(of.bounds(impact.at_impact(side)));
     result.include(of.bounds(impact.at_end(side)));
     const double arc = 0.5 * of.box().size.norm() * allowed_turn * allowed_turn / 8.0;
-    const Vec3 margin = Vec3::Constant(m_.bodies.skin(bodies[side]) + arc);
+    const double step = time_step(world_.settings);
+    const double bulge = 0.125 * world_.settings.gravity.norm() * step * step;
+    const Vec3 margin = Vec3::Constant(m_.bodies.skin(bodies[side]) + arc + bulge);
     return {result.low - margin, result.high + margin};
   }
 
@@ -166,7 +167,8 @@ class FreeImpacts {
   ImpactSide side(int body) const {
     if (body == swept_ground) return {};
     const int box = m_.bodies.box(body);
-    return {world_.rigid[at(box)], start_.rigid[at(box)], moves_freely(body)};
+    return {world_.rigid[at(box)], start_.rigid[at(box)], moves_freely(body),
+            world_.settings.gravity};
   }
 
   World& world_;

@@ -7,6 +7,7 @@
 #include "sim/inspect/inspect.h"
 #include "sim/joints/body_springs.h"
 #include "sim/rigid/given_motion.h"
+#include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
@@ -32,6 +33,18 @@ bool may_touch_more_than_ground(const Plan& plan) {
   return plan.runs(Stage::resolve_contacts) &&
          (plan.runs(ContactKind::rigid_ground) || plan.runs(ContactKind::soft_soft) ||
           plan.runs(ContactKind::soft_rigid) || plan.runs(ContactKind::rigid_rigid));
+}
+
+/// Where contacts are swept: what touches nothing moves as swept_step would move it.
+bool touches_nothing(const World& world, const Plan& plan) {
+  return world.settings.contact == ContactMethod::swept && !plan.runs(Stage::resolve_contacts);
+}
+
+void let_fall(World& world, const std::vector<RigidState>& start) {
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    RigidBox& box = world.rigid[i];
+    if (!box.is_kinematic) box.position += missing_fall(box, start[i], time_step(world.settings));
+  }
 }
 
 /// Per body: whether it is an obstacle whose vertices nothing in a step needs to find in the world,
@@ -182,7 +195,10 @@ std::optional<Divergence> Stepper::step_bodies(World& world) {
     divergence = integrate_soft(world, w.motion_start.soft, w.integrate_soft, w.workers);
   });
   if (!divergence) {
-    run(Stage::integrate_rigid, [&] { divergence = integrate_rigid(world, w.motion_start.rigid); });
+    run(Stage::integrate_rigid, [&] {
+      divergence = integrate_rigid(world, w.motion_start.rigid);
+      if (!divergence && touches_nothing(world, w.plan)) let_fall(world, w.motion_start.rigid);
+    });
   }
   const double before_contacts = energy_if(w.options.measure_work, world);
   if (!divergence) {

@@ -147,8 +147,10 @@ class SweptBodies {
   void shift_boxes(World& world) const;
 
   /// Moves the boxes that soft bodies carry, at the end of their free motion, by `way` (m) as part
-  /// of it; in this step, also where they are moved again. Whether there is any.
-  bool let_carried_fall(World& world, const CarriedBoxes& carried, const Vec3& way);
+  /// of it, and others that do not touch anything (`touches`: per box) by their missing_fall; in
+  /// this step, also where they are moved again. Whether there is any.
+  bool let_fall(World& world, const MotionStart& start, const CarriedBoxes& carried,
+                std::span<const std::uint8_t> touches, const Vec3& way);
 
   /// Moves the bodies that impulses have changed once more, from their start with other velocities.
   std::optional<Divergence> move_again(World& world, const MotionStart& start,

@@ -127,6 +127,29 @@ void SweptSearch::mark_candidates() {
   }
 }
 
+/// What parts faster than gravity brings it back within the step is on its way.
+bool SweptSearch::touches(const SweptCandidate& candidate) const {
+  const SweptContact contact = candidate.bodies.second == swept_ground
+                                   ? place_on_ground(candidate, Moment::start)
+                                   : place(candidate, candidate.start, Moment::start);
+  const double returns = time_step(world_.settings) * world_.settings.gravity.norm();
+  return contact.is_near && contact.normal.dot(start_velocity(contact)) <= returns;
+}
+
+void SweptSearch::find_touching_boxes() {
+  m_.touches.assign(world_.rigid.size(), 0);
+  const auto known = [&](int body) {
+    return !bodies_.is_box(body) || m_.touches[at(bodies_.box(body))] != 0;
+  };
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const auto [first, second] = candidate.bodies;
+    if ((known(first) && known(second)) || !touches(candidate)) continue;
+    for (const int body : {first, second}) {
+      if (bodies_.is_box(body)) m_.touches[at(bodies_.box(body))] = 1;
+    }
+  }
+}
+
 /// Impulses keep from the ground what other impulses may move, and what would come so far below it
 /// that it might not be put back onto it by itself.
 void SweptSearch::find_near_ground() {

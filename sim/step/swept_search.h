@@ -140,6 +140,7 @@ struct SweptMemory {
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
+  std::vector<std::uint8_t> touches;          // per box: something, at the start
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
@@ -166,6 +167,8 @@ class SweptSearch {
   }
   /// Of the candidates as they are now.
   void mark_candidates();
+  /// Which boxes touch something at the start of the step, and do not leave it.
+  void find_touching_boxes();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
   /// The contacts that the free motion would use up.
@@ -219,6 +222,7 @@ class SweptSearch {
   bool obstacle_is_nearest(const BodyPair& bodies, const NearFeatures& features,
                            const ClosestPoints& closest) const;
   void wake_if_touched(const BodyPair& bodies);
+  bool touches(const SweptCandidate& candidate) const;
   void search_ways();
   bool keep_earlier(const BodyPair& bodies);
   bool is_kept(const BodyPair& bodies) const;

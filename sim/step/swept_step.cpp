@@ -108,7 +108,7 @@ class SweptStep {
       search_.find_candidates();
       if (!m_.touched_asleep.empty()) return;
       bodies_.begin_at_start(world_, start());
-      const bool fell = let_carried_boxes_fall();
+      const bool fell = let_boxes_fall();
       const bool shifted = shift_near_boxes(world_, m_, search_, fraction_);
       if (fell || shifted) search_.follow_ends();
       search_.start();
@@ -145,12 +145,13 @@ class SweptStep {
   }
 
   /// Soft bodies press within the step: what they carry must weigh on them within it too.
-  bool let_carried_boxes_fall() {
-    if (world_.soft.empty() || world_.rigid.empty()) return false;
+  bool let_boxes_fall() {
+    if (world_.rigid.empty()) return false;
     list_paired_bodies(m_);
     m_.carried_boxes.find(world_, m_.paired);
-    return bodies_.let_carried_fall(
-        world_, m_.carried_boxes,
+    search_.find_touching_boxes();
+    return bodies_.let_fall(
+        world_, start(), m_.carried_boxes, m_.touches,
         fall_within(step(), world_.settings.integrator, world_.settings.gravity));
   }
 

@@ -22,25 +22,27 @@ constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-ImpactSide::ImpactSide(const RigidBox& box, const RigidState& start, bool moves)
-    : box_(&box), start_(start), moves_(moves), spin_(spin(box, start)) {}
+ImpactSide::ImpactSide(const RigidBox& box, const RigidState& start, bool moves,
+                       const Vec3& gravity)
+    : box_(&box), gravity_(gravity), start_(start), moves_(moves), spin_(spin(box, start)) {}
 
 RigidState ImpactSide::after(double duration) const {
-  return moves_ ? moved(start_, spin_, duration) : start_;
+  return moves_ ? moved(start_, spin_, 0.0, duration) : start_;
 }
 
-RigidState ImpactSide::after(const RigidState& from, const BoxChange& change,
-                             double duration) const {
+RigidState ImpactSide::after(const RigidState& from, const BoxChange& change, double since,
+                             double time) const {
   RigidState state = from;
   state.velocity += to_vec3(change.velocity);
   state.angular_velocity += to_vec3(change.angular_velocity);
-  return moved(state, spin(*box_, state), duration);
+  return moved(state, spin(*box_, state), since, time);
 }
 
-RigidState ImpactSide::moved(const RigidState& from, const Vec3& angular_momentum,
-                             double duration) const {
+RigidState ImpactSide::moved(const RigidState& from, const Vec3& angular_momentum, double since,
+                             double time) const {
+  const double duration = time - since;
   RigidState state = from;
-  state.position += duration * from.velocity;
+  state.position += duration * (from.velocity + 0.5 * (since + time) * gravity_);
   state.orientation = turned_freely(*box_, from.orientation, angular_momentum, duration);
   const Mat3 axes = state.orientation.toRotationMatrix();
   const Vec3 inverse = body_inertia(*box_).cwiseInverse();
@@ -69,12 +71,14 @@ double FreeImpact::fastest() const {
   const auto& [first, second] = sides_;
   Vec3 velocity = first.start().velocity;
   double turn = first.fastest_turn(), arm = first.half_diagonal();
-  if (second.is_ground()) return std::abs(velocity.z()) + turn * arm;
+  const double gained = step_ * gravity_.norm();
+  if (second.is_ground()) return std::abs(velocity.z()) + gained + turn * arm;
   if (second.moves()) velocity -= second.start().velocity;
+  const double speed = velocity.norm() + gained;
   turn += second.fastest_turn();
-  arm += second.half_diagonal() + step_ * velocity.norm() +
+  arm += second.half_diagonal() + step_ * speed +
          (first.start().position - second.start().position).norm();
-  return velocity.norm() + turn * arm;
+  return speed + turn * arm;
 }
 
 /// By conservative advancement: to where the sides cannot meet before (Mirtich 1996).
@@ -113,8 +117,7 @@ void FreeImpact::for_each_near(const std::array<RigidState, 2>& states, double r
   }
 }
 
-bool FreeImpact::find_points(const Vec3& gravity, const ContactMaterial& material,
-                             std::vector<SweptImpulse>& impulses,
+bool FreeImpact::find_points(const ContactMaterial& material, std::vector<SweptImpulse>& impulses,
                              std::vector<ImpactPoint>& points) {
   impulses.clear();
   points.clear();
@@ -122,11 +125,9 @@ bool FreeImpact::find_points(const Vec3& gravity, const ContactMaterial& materia
     if (!sides_[i].moves()) continue;
     changes_[i] = make_box_change(sides_[i].box(), states_[i].position, states_[i].orientation);
   }
-  // The velocities of a step are those of its middle. Gravity draws both sides that move.
-  const double since_middle = sides_[1].moves() ? 0.0 : time_ - 0.5 * step_;
   bool all_bounce = true;
   for_each_near(states_, wanted_ + together_, [&](const Vec3& at, const Vec3& normal) {
-    const Vec3 velocity = velocity_at(at, states_) + since_middle * gravity;
+    const Vec3 velocity = velocity_at(at, states_) + time_ * gravity_;
     const double approach = -normal.dot(velocity);
     all_bounce = all_bounce && material.restitution * approach >= min_bounce_speed;
     impulses.emplace_back(side(0, at), side(1, at), normal, material.friction);
@@ -150,17 +151,11 @@ Vec3 FreeImpact::velocity_at(const Vec3& point, const std::array<RigidState, 2>&
   return of(0) - of(1);
 }
 
-/// The impulses change the motion from the impact on, where a step's would from its start: its
-/// velocities are those of its middle, and of half a step gravity does no work on the difference.
-void FreeImpact::finish(const Vec3& gravity, std::span<const ImpactPoint> points) {
-  const double without_gravity = sides_[1].moves() ? 0.0 : 0.5 * step_;
-  for (const ImpactPoint& point : points) {
-    const Vec3 given = point.impulse->given();
-    work_ += point.impulse->work(point.velocity) + without_gravity * gravity.dot(given);
-  }
+void FreeImpact::finish(std::span<const ImpactPoint> points) {
+  for (const ImpactPoint& point : points) work_ += point.impulse->work(point.velocity);
   for (std::size_t i = 0; i < 2; ++i) {
     ends_[i] =
-        sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], time_left()) : states_[i];
+        sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], time_, step_) : states_[i];
   }
 }
 
@@ -171,14 +166,15 @@ double FreeImpact::motion_left() const {
   if (second.moves()) velocity -= ends_[1].velocity;
   double turned = first.half_diagonal() * ends_[0].angular_velocity.norm();
   if (second.moves()) turned += second.half_diagonal() * ends_[1].angular_velocity.norm();
-  return time_left() * (velocity.norm() + turned);
+  return time_left() * (velocity.norm() + step_ * gravity_.norm() + turned);
 }
 
 /// `duration`: s, since the impact.
 bool FreeImpact::overlap_after(double duration) const {
   const auto placed = [&](std::size_t i) {
-    return sides_[i].placed(sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], duration)
-                                              : states_[i]);
+    return sides_[i].placed(sides_[i].moves()
+                                ? sides_[i].after(states_[i], changes_[i], time_, time_ + duration)
+                                : states_[i]);
   };
   return find_box_contact(placed(0), placed(1)).has_value();
 }
@@ -197,7 +193,7 @@ bool FreeImpact::meets_again(double near) const {
   }
   bool approaches = false;
   for_each_near(ends_, near, [&](const Vec3& at, const Vec3& normal) {
-    approaches = approaches || normal.dot(velocity_at(at, ends_)) < 0.0;
+    approaches = approaches || normal.dot(velocity_at(at, ends_) + step_ * gravity_) < 0.0;
   });
   return approaches;
 }

@@ -16,7 +16,7 @@ namespace pneuma::sim {
 class ImpactSide {
  public:
   /// Refers to the box; `start`: its state at the start of the step.
-  ImpactSide(const RigidBox& box, const RigidState& start, bool moves);
+  ImpactSide(const RigidBox& box, const RigidState& start, bool moves, const Vec3& gravity);
   /// The ground.
   ImpactSide() = default;
 
@@ -24,11 +24,13 @@ class ImpactSide {
   bool moves() const { return moves_; }
   const RigidBox& box() const { return *box_; }
 
-  /// The state after `duration` s of free motion without gravity and drag, from the start of the
-  /// step.
+  /// The state after `duration` s of free motion from the start of the step. Gravity moves it, and
+  /// its velocity stays what it is without gravity and drag.
   RigidState after(double duration) const;
-  /// The state so long after impulses have changed `from`.
-  RigidState after(const RigidState& from, const BoxChange& change, double duration) const;
+  /// The state at `time` s since the start of the step, of one that was `from` at `since` when
+  /// impulses changed it.
+  RigidState after(const RigidState& from, const BoxChange& change, double since,
+                   double time) const;
 
   OrientedBox placed(const RigidState& state) const;
   Bounds bounds(const RigidState& state) const { return sim::bounds(placed(state)); }
@@ -38,9 +40,11 @@ class ImpactSide {
   double fastest_turn() const;
 
  private:
-  RigidState moved(const RigidState& from, const Vec3& angular_momentum, double duration) const;
+  RigidState moved(const RigidState& from, const Vec3& angular_momentum, double since,
+                   double time) const;
 
   const RigidBox* box_ = nullptr;
+  Vec3 gravity_ = Vec3::Zero();
   RigidState start_;
   bool moves_ = false;
   Vec3 spin_ = Vec3::Zero();
@@ -51,22 +55,27 @@ class FreeImpact {
  public:
   /// In a step of `step` s, of sides that keep the distance `wanted` (m). Points no further from
   /// being hit than `together` (m) are hit as well.
-  FreeImpact(const std::array<ImpactSide, 2>& sides, double wanted, double together, double step)
-      : sides_(sides), wanted_(wanted), together_(together), step_(step) {}
+  FreeImpact(const std::array<ImpactSide, 2>& sides, double wanted, double together, double step,
+             const Vec3& gravity)
+      : sides_(sides),
+        wanted_(wanted),
+        together_(together),
+        step_(step),
+        gravity_(sides[1].moves() ? Vec3::Zero() : gravity) {}
 
   /// Finds the time of impact, or that the sides pass each other; neither, if they begin too near
   /// or it takes too long.
   enum class Result { none, hit, pass };
   Result find_time();
   /// Fills the points of the impact and their impulses. False unless all of them bounce.
-  bool find_points(const Vec3& gravity, const ContactMaterial& material,
-                   std::vector<SweptImpulse>& impulses, std::vector<ImpactPoint>& points);
+  bool find_points(const ContactMaterial& material, std::vector<SweptImpulse>& impulses,
+                   std::vector<ImpactPoint>& points);
   /// Finds how the step ends, and the work, from impulses that are solved for.
-  void finish(const Vec3& gravity, std::span<const ImpactPoint> points);
+  void finish(std::span<const ImpactPoint> points);
 
   const std::array<ImpactSide, 2>& sides() const { return sides_; }
   const RigidState& at_impact(std::size_t side) const { return states_[side]; }
-  /// Without gravity and drag.
+  /// With the velocity that it has without gravity and drag.
   const RigidState& at_end(std::size_t side) const { return ends_[side]; }
   double time_left() const { return step_ - time_; }  // s
   double work() const { return work_; }               // J
@@ -89,6 +98,7 @@ class FreeImpact {
   double wanted_;
   double together_;
   double step_;
+  Vec3 gravity_;                      // m/s^2, of the first side against the second
   double time_ = 0.0;                 // of the impact, s since the start of the step
   std::array<RigidState, 2> states_;  // then
   std::array<RigidState, 2> ends_;

@@ -134,6 +134,7 @@ TEST(RigidMotion, NoRotationIsNoNaN) {
 TEST(RigidMotion, FallsByTheRecurrenceOfEulerCromer) {
   // By turns p += v h and v = (1 - rho)(v + g h), beginning with p.
   World world = make_free_boxes({make_rigid({1.0, 2.0, 3.0}, {0.0, 0.0, 50.0})}, 0.0);
+  world.settings.contact = ContactMethod::impulses;
   world.settings.gravity = {0.0, 0.0, -g};
   world.rigid[0].rho_g = 0.01;
   world.rigid[0].velocity = {3.0, 0.0, 10.0};
@@ -149,6 +150,31 @@ TEST(RigidMotion, FallsByTheRecurrenceOfEulerCromer) {
     const Vec3 position(3.0 * h * sum, 0.0, 50.0 + h * (n * limit + (10.0 - limit) * sum));
     ASSERT_LT((world.rigid[0].velocity - velocity).norm(), 1e-12);  // roundings of 240 steps
     ASSERT_LT((world.rigid[0].position - position).norm(), 1e-11);
+  }
+}
+
+/// Of two boxes: in flight beside each other, or one alone in empty space.
+World boxes_in_flight(bool alone) {
+  std::vector<RigidBox> boxes = {make_rigid({1.0, 2.0, 3.0}, {0.0, 0.0, 50.0})};
+  if (!alone) boxes.push_back(make_rigid({1.0, 1.0, 1.0}, {9.0, 0.0, 50.0}));
+  World world = make_free_boxes(std::move(boxes), 0.0);
+  if (!alone) world.settings.ground.emplace();
+  world.settings.gravity = {0.0, 0.0, -g};
+  for (RigidBox& box : world.rigid) {
+    box.velocity = {3.0, 0.0, 10.0};
+    box.angular_velocity = {0.0, 0.0, 1.0};
+  }
+  return world;
+}
+
+TEST(RigidMotion, WithoutDragAFlightIsAParabolaAndKeepsItsEnergy) {
+  for (const bool alone : {true, false}) {
+    World world = boxes_in_flight(alone);
+    const double before = energy(world).total();
+    ASSERT_FALSE(run(world, 2.0));
+    const Vec3 way(3.0 * 2.0, 0.0, 10.0 * 2.0 - 0.5 * g * 2.0 * 2.0);
+    EXPECT_LT((world.rigid[0].position - Vec3(0.0, 0.0, 50.0) - way).norm(), 1e-12);
+    EXPECT_NEAR(energy(world).total(), before, 1e-12 * before);  // a rounding per step
   }
 }
 
