@@ -156,10 +156,11 @@ std::string energy_text(const RunStatistics& run) {
     text += named_line(
         "", fmt::format("of gas that came, went or was heated: {:+.4g} J", *run.gas_work));
   }
-  return text + named_line("",
-                           "gas without ambient pressure counts as 0 J at 1 m^3 and less in any "
-                           "greater volume, weight as 0 J at the origin: only differences mean "
-                           "anything");
+  const std::string of_gas =
+      "gas without ambient pressure counts as 0 J at 1 m^3 and less in any greater volume, ";
+  return text + named_line("", (run.gas.empty() ? "" : of_gas) +
+                                   "weight counts as 0 J at the origin: only differences mean "
+                                   "anything");
 }
 
 std::string contacts_text(const ContactTally& contacts) {

@@ -17,6 +17,7 @@
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/gas_law.h"
+#include "sim/soft/pins.h"
 
 namespace pneuma::app {
 namespace {
@@ -25,13 +26,23 @@ double volume(const sim::SoftBody& body) {
   return sim::volume(body.mesh->topology, body.positions);
 }
 
-double fastest_point(const sim::World& world) {
-  double speed = 0.0;
-  for (const sim::SoftBody& body : world.soft) {
-    for (int v = 0; v < body.velocities.size(); ++v) {
-      speed = std::max(speed, sim::Vec3(body.velocities[v]).norm());
-    }
+/// Of the soft bodies; none of those that never move.
+void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& positions) {
+  positions.resize(world.soft.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!sim::is_still(world.soft[i])) positions[i] = world.soft[i].positions;
   }
+}
+
+/// m/s, over the last step, at whose start the soft bodies were `before`. The velocity of a vertex
+/// that is pressed holds, at the end of a step, what its forces did since the last impulses.
+double fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before) {
+  double way = 0.0;  // m
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].size() == 0) continue;
+    way = std::max(way, sim::max_distance(before[i], world.soft[i].positions));
+  }
+  double speed = way / sim::time_step(world.settings);
   for (const sim::RigidBox& box : world.rigid) {
     // No point of a box is farther from its axis of rotation than half the diagonal.
     const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
@@ -90,6 +101,7 @@ class Observer {
         last_energy_(sim::energy(start).total()),
         least_energy_(last_energy_),
         greatest_energy_(last_energy_) {
+    keep_positions(start, before_);
     result_.energy_start = sim::energy(start);
     result_.momentum_start = sim::momentum(start);
     result_.start_penetration = sim::max_penetration(start);
@@ -110,12 +122,15 @@ class Observer {
   }
 
   void after_step(const Simulation& simulation) {
+    const sim::World& world = simulation.world();
+    speed_ = fastest_point(world, before_);
+    keep_positions(world, before_);
     const auto contacts = simulation.contacts();
-    const std::int64_t with_obstacles = count_with_obstacles(contacts, simulation.world());
+    const std::int64_t with_obstacles = count_with_obstacles(contacts, world);
     result_.contacts.add(contacts, with_obstacles);
     if (result_.driven_work) *result_.driven_work += simulation.driven_work();
     if (result_.gas_work) *result_.gas_work += simulation.gas_work();
-    if (2 * simulation.world().steps > all_steps_) {
+    if (2 * world.steps > all_steps_) {
       result_.settled_contacts.add(contacts, with_obstacles);
     }
     for (const int parts : simulation.step_parts()) {
@@ -145,7 +160,7 @@ class Observer {
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
       add_gas(world.soft[b], result_.gas[b]);
     }
-    if (fastest_point(world) >= rest_speed) {
+    if (speed_ >= rest_speed) {
       result_.rests_from.reset();
     } else if (!result_.rests_from) {
       result_.rests_from = sim::time(world);
@@ -158,7 +173,7 @@ class Observer {
     result_.energy_end = sim::energy(world);
     result_.energy_span = greatest_energy_ - least_energy_;
     result_.momentum_end = sim::momentum(world);
-    result_.end_speed = fastest_point(world);
+    result_.end_speed = speed_;
     result_.state_hash = sim::state_hash(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       result_.volumes[b].end = volume(world.soft[b]);
@@ -230,6 +245,8 @@ class Observer {
   std::set<Pair> start_overlaps_;  // that did not come apart yet
   RunStatistics result_;
   std::int64_t all_steps_;
+  std::vector<sim::VertexArray> before_;  // where the soft bodies were after the last step
+  double speed_ = 0.0;                    // m/s, of the fastest point, over that step
   double last_energy_;
   double least_energy_;
   double greatest_energy_;

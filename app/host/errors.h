@@ -18,8 +18,9 @@ struct UsageError : std::runtime_error {
 
 struct DivergenceError : std::runtime_error {
   using std::runtime_error::runtime_error;
-  bool tried_parts = false;  // of the step, which diverged too
-  bool is_crushed = false;   // the body, between others: no step helps
+  bool tried_parts = false;    // of the step, which diverged too
+  bool is_crushed = false;     // the body, between others: no step helps
+  bool is_of_contact = false;  // what failed
 };
 
 struct Interrupted : std::runtime_error {

@@ -149,7 +149,8 @@ double greatest(const std::vector<std::vector<double>>& values) {
 }
 
 double round_end(double value) {
-  if (!(value > 0.0)) return 1.0;
+  constexpr double rounding = 1e-9;  // % (strain), m/s, Pa, at most
+  if (!(value > rounding)) return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double factor : {1.0, 2.0, 5.0}) {
     if (factor * power >= value * (1.0 - 1e-12)) return factor * power;

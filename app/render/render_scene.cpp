@@ -98,19 +98,30 @@ std::string other_steps(const scenes::Scene& scene, bool tried_parts) {
                      tried_parts ? "" : " or --on-divergence substep");
 }
 
-/// The motion of a run that goes on stays as it is: where that leaves no room, it has to begin
-/// again.
+/// What may help where a run that goes on stays as it is: to begin again.
+std::string other_beginning(const scenes::Scene& scene, const DivergenceError& error) {
+  if (error.is_crushed || has_moved_bodies(scene)) {
+    return fmt::format("{} motion.path end where there is room, and begin again with --overwrite",
+                       error.is_crushed ? "Let" : "Shorter steps do not help: let");
+  }
+  return fmt::format(
+      "Shorter steps do not help from here: begin again with --overwrite and --set "
+      "simulation.steps_per_second={}, or with --set simulation.contact=potential --set "
+      "simulation.integrator=sdirk2, which takes several times as long",
+      4 * scene.settings.steps_per_second);
+}
+
 DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request,
                             const scenes::Scene& scene) {
-  const bool has_no_room = error.is_crushed || (error.tried_parts && has_moved_bodies(scene));
-  const std::string advice =
-      has_no_room ? fmt::format(
-                        "{} motion.path end where there is room, and begin again with "
-                        "--overwrite",
-                        error.is_crushed ? "Let" : "Shorter steps do not help: let")
-                  : fmt::format("To go on from the last of them, add {} to: {}",
-                                other_steps(scene, error.tried_parts),
-                                resume_command(request.command_line));
+  const bool is_stuck =
+      error.tried_parts &&
+      (has_moved_bodies(scene) ||
+       (error.is_of_contact && scene.settings.contact == sim::ContactMethod::swept));
+  const std::string advice = error.is_crushed || is_stuck
+                                 ? other_beginning(scene, error)
+                                 : fmt::format("To go on from the last of them, add {} to: {}",
+                                               other_steps(scene, error.tried_parts),
+                                               resume_command(request.command_line));
   return DivergenceError(fmt::format("{}\nThe frames so far are whole. {}", error.what(), advice));
 }
 

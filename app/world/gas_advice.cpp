@@ -26,6 +26,9 @@ constexpr double most_growth = 2.0;
 constexpr double least_share = 0.5;
 /// Times its volume: what is advised for.
 constexpr double carried_share = 0.8;
+/// Times the gas that there is: if a body needs more, it has next to none, as where flat faces have
+/// given way before the springs were stretched.
+constexpr double far_too_little_gas = 10.0;
 
 /// Of the volume at the start: what is left unbalanced moves a held body by less.
 constexpr double held_change = 0.1;
@@ -296,12 +299,14 @@ std::string weight_warning(const GasAdvice& advice) {
   const double k = stronger * advice.k;
   const std::string hinges =
       advice.bending > 0.0 ? fmt::format(", bending = {:.3g}", stronger * advice.bending) : "";
+  const std::string more_gas =
+      *advice.strengthened > far_too_little_gas ? "; a greater inflation may do as well" : "";
   return fmt::format(
       "{}{}give it springs {:.3g} times as strong, k = {:.3g} N/m (stiffness = {:.3g} N/m){}, and "
       "{:.3g} times the gas, n = {:.4g} mol, or gauge_pressure = {:.3g} Pa, or the inflation that "
-      "it has",
+      "it has{}",
       crushed, lighter, stronger, k, k / k_per_stiffness, hinges, *advice.strengthened,
-      *advice.strengthened * advice.n, advice.carrying_pressure);
+      *advice.strengthened * advice.n, advice.carrying_pressure, more_gas);
 }
 
 }  // namespace pneuma::app

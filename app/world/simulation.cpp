@@ -99,6 +99,7 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
       sim::to_string(divergence.stage), divergence.body, divergence.what,
       what_is_near(world, divergence.body), what_to_do(world, divergence, crushed, tried_parts)));
   error.is_crushed = !crushed.empty();
+  error.is_of_contact = divergence.stage == sim::Stage::resolve_contacts;
   return error;
 }
 
@@ -145,6 +146,7 @@ void Simulation::step() {
       fmt::format("{}. Not even {} parts of the step do", error.what(), greatest_step_parts));
   of_parts.tried_parts = true;
   of_parts.is_crushed = error.is_crushed;
+  of_parts.is_of_contact = error.is_of_contact;
   throw of_parts;
 }
 

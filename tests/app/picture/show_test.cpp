@@ -182,6 +182,7 @@ TEST(Caption, SaysWhatMarksMean) {
 
 TEST(RoundEnd, IsTheNextOfOneTwoFive) {
   for (const auto& [value, end] : {std::pair(0.0, 1.0),
+                                   {2e-13, 1.0},  // rounding, which is no field
                                    {1.0, 1.0},
                                    {1.1, 2.0},
                                    {3.0, 5.0},
