@@ -336,7 +336,7 @@ class SweptStep {
       contact.approach = before.approach;
       contact.drift = before.drift;
       contact.restitution = restitution;
-      contact.parting = bounce - before.drift;  // Euler-Cromer's velocities are half a step old
+      contact.parting = bounce - before.drift;  // of what touches: its velocity lags its motion
       contact.returns_energy = true;
     } else if (search_.is_rigid(contact)) {
       contact.parting = std::min(0.0, closing_rate * missing_distance(contact));  // to stand flat
