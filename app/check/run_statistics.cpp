@@ -78,6 +78,12 @@ bool has_moved_obstacles(const sim::World& world) {
          });
 }
 
+bool has_moved_pins(const sim::World& world) {
+  return std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
+    return body.pins && body.pins->are_moved && !body.pins->are_all;
+  });
+}
+
 void add_value(double value, ValueRange& range) {
   if (std::isnan(range.start)) range.start = value;
   range.least = std::min(range.least, value);
@@ -108,6 +114,7 @@ class Observer {
     result_.penetration = {result_.start_penetration, sim::time(start)};
     result_.pushed_by = what_pushes(start);
     if (has_moved_obstacles(start)) result_.driven_work = 0.0;
+    result_.pins_move = has_moved_pins(start);
     if (sim::has_gas_flow(start)) result_.gas_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);

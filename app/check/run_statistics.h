@@ -90,6 +90,7 @@ struct RunStatistics {
   double energy_rises = 0.0;  // J, all of them together
   // J, of the bodies that are moved on what they pushed; none: there is no such body.
   std::optional<double> driven_work;
+  bool pins_move = false;  // of bodies that are not moved whole: they do work that is not known
   // J, by which gas that came, went or was heated changed the energy of gas; none: none does.
   std::optional<double> gas_work;
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by

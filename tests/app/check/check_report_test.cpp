@@ -149,6 +149,16 @@ TEST(RunStatistics, HaveTheHashOfTheStateInOneForm) {
   EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "state hash"), "0x0123456789abcdef");
 }
 
+TEST(RunStatisticsText, SaysWhatTheEnergyLeavesOut) {
+  RunStatistics run;
+  const std::string plain = run_statistics_text(run, by_impulses(0.5));
+  EXPECT_EQ(plain.find("pins that move"), std::string::npos);
+  EXPECT_EQ(plain.find("gas without ambient pressure"), std::string::npos);
+  run.pins_move = true;
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find("pins that move do work"),
+            std::string::npos);
+}
+
 TEST(RunStatisticsText, SaysAtRestOrNot) {
   RunStatistics run;
   run.end_speed = 0.9 * rest_speed;

@@ -50,6 +50,21 @@ TEST(RunStatistics, OfAFreeSoftBodyKeepsMomentumAndLosesEnergy) {
   EXPECT_EQ(run.end_overlap, 0.0);
 }
 
+TEST(RunStatistics, HaveSpeedsOverAStep) {
+  // A ball that nothing blows up falls for half a second: over the last step by its mean velocity.
+  const RunStatistics run = statistics_of(
+      free_sphere, {"body.n=0", "body.velocity=[0, 0, 0]", "simulation.gravity=[0, 0, -9.81]"});
+  EXPECT_NEAR(run.end_speed, 9.81 * (0.5 - 0.5 / 60.0), 1e-9);
+}
+
+TEST(RunStatistics, SayThatThePinsMove) {
+  const std::string pulled =
+      std::string(free_sphere) +
+      "pinned = [[-9, -9, 0.5, 9, 9, 9]]\nmotion.path = [[0, 0, 0, 0], [1, 0, 0, 1]]\n";
+  EXPECT_TRUE(statistics_of(pulled.c_str()).pins_move);
+  EXPECT_FALSE(statistics_of(free_sphere).pins_move);
+}
+
 TEST(RunStatistics, TellPressureAndGasThatComes) {
   const std::string text = std::string(free_sphere) + "supply.n = [[0.1, 0], [0.4, 0.5]]\n" +
                            "[[body]]\nname = \"shut\"\nposition = [9, 0, 0]\nn = 1.5\n" +
