@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/closed_surface.h"
@@ -12,12 +13,22 @@
 
 namespace pneuma::app {
 
-scenes::Place place_of(const scenes::Scene& scene, const std::string& name) {
+namespace {
+
+/// Null if there is none.
+const scenes::BodyScene* find_body(const scenes::Scene& scene, const std::string& name) {
   const auto body = std::ranges::find_if(scene.bodies, [&](const scenes::BodyScene& candidate) {
     return name == candidate.name ||
            (scenes::copy_count(candidate) > 1 && name.starts_with(candidate.name + '.'));
   });
-  return body == scene.bodies.end() ? scenes::Place{} : body->place;
+  return body == scene.bodies.end() ? nullptr : &*body;
+}
+
+}  // namespace
+
+scenes::Place place_of(const scenes::Scene& scene, const std::string& name) {
+  const scenes::BodyScene* body = find_body(scene, name);
+  return body ? body->place : scenes::Place{};
 }
 
 namespace {
@@ -25,6 +36,23 @@ namespace {
 std::string warning_at(const scenes::Scene& scene, const std::string& name,
                        const std::string& what) {
   return to_string(scenes::diagnostic_at(place_of(scene, name), "warning: " + what));
+}
+
+/// Of the inflation that is asked for: what is closer is met.
+constexpr double met_inflation = 0.02;
+
+/// Empty if it is met, or not known.
+std::string inflation_warning(const scenes::Scene& scene, const GasAdvice& advice) {
+  const scenes::BodyScene* body = find_body(scene, advice.body);
+  if (!body || !body->inflation || !advice.settled || advice.filled_at) return "";
+  const double found = *advice.settled / advice.volume;
+  if (std::abs(found / *body->inflation - 1.0) <= met_inflation) return "";
+  const char* why = body->pinned.empty()
+                        ? "its faces give way to next to no gas before its springs stretch; "
+                          "bending makes them stiff, and greater values are met"
+                        : "that is of the body without its pins";
+  return fmt::format("body '{}': inflation = {:g} comes to {:.3g} times its volume: {}",
+                     advice.body, *body->inflation, found, why);
 }
 
 /// What the potential of contact may hold at the start, of what bodies have to fall by their size
@@ -74,6 +102,8 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
     if (advice.too_long()) warnings.push_back(warning_at(scene, advice.body, step_warning(advice)));
   }
   for (const GasAdvice& advice : gas) {
+    const std::string inflation = inflation_warning(scene, advice);
+    if (!inflation.empty()) warnings.push_back(warning_at(scene, advice.body, inflation));
     if (advice.blown_up()) warnings.push_back(warning_at(scene, advice.body, gas_warning(advice)));
     if (advice.leaves_shape())
       warnings.push_back(warning_at(scene, advice.body, shape_warning(advice)));

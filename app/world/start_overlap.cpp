@@ -47,22 +47,58 @@ std::string moved(double distance, std::string_view direction) {
   return fmt::format("move it {} m along {}", base::text_above(distance), direction);
 }
 
-/// The shortest way along an axis, and not into the ground, by which boxes along the axes about
-/// both bodies come apart: the bodies themselves then are.
+/// Two bodies of a world without others, of which the second may stand elsewhere.
+class TwoBodies {
+ public:
+  TwoBodies(const sim::World& world, int first, int second) {
+    pair_.settings = world.settings;
+    pair_.settings.ground.reset();
+    for (const int body : {first, second}) {
+      const std::size_t i = sim::at(body);
+      if (i < world.soft.size()) {
+        pair_.soft.push_back(world.soft[i]);
+      } else {
+        pair_.rigid.push_back(world.rigid[i - world.soft.size()]);
+      }
+    }
+  }
+
+  bool are_apart(const sim::Vec3& way) const {
+    sim::World moved = pair_;
+    if (moved.rigid.empty()) {
+      sim::VertexArray& positions = moved.soft.back().positions;
+      for (int v = 0; v < positions.size(); ++v) positions[v] = positions[v] + way;
+    } else {
+      moved.rigid.back().position += way;
+    }
+    const auto crosses = [](const sim::CrossingPair& pair) { return pair.first != pair.second; };
+    return sim::overlaps(moved).empty() &&
+           std::ranges::none_of(sim::crossings(moved).pairs, crosses);
+  }
+
+ private:
+  sim::World pair_;
+};
+
+/// The shortest way along an axis, and not into the ground, by which bodies come apart: all of that
+/// by which boxes along the axes about both do, or half of it, a quarter, ...
 std::string way_apart(const sim::World& world, int first, int second) {
-  const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
+  constexpr double least_part = 1.0 / 32.0;
+  const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
+  const TwoBodies both(world, first, second);
   double shortest = std::numeric_limits<double>::infinity();
   std::string_view direction;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::array<double, 2> ways = {other.high[axis] - own.low[axis],
-                                        own.high[axis] - other.low[axis]};
-    for (std::size_t down = 0; down < 2; ++down) {
-      const bool into_ground =
-          axis == 2 && down == 1 && world.settings.ground && own.low.z() - ways[down] < 0.0;
-      if (into_ground || ways[down] >= shortest) continue;
-      shortest = ways[down];
-      direction = directions[2 * sim::at(axis) + down];
+    for (const bool down : {false, true}) {
+      const double all = down ? own.high[axis] - other.low[axis] : other.high[axis] - own.low[axis];
+      for (double part = least_part; part <= 1.0 && part * all < shortest; part *= 2.0) {
+        const sim::Vec3 way = (down ? -part * all : part * all) * sim::Vec3::Unit(axis);
+        if (down && axis == 2 && world.settings.ground && own.low.z() + way.z() < 0.0) break;
+        if (part < 1.0 && !both.are_apart(way)) continue;
+        shortest = part * all;
+        direction = directions[2 * sim::at(axis) + (down ? 1 : 0)];
+      }
     }
   }
   return moved(shortest, direction);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/world/build_world.h"
+#include "app/world/scene_warnings.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/mesh/measure.h"
 #include "sim/step/stepper.h"
@@ -201,6 +202,24 @@ TEST(GasAdvice, WhatHangsIsNotPressed) {
   EXPECT_TRUE(crushed(""));
   EXPECT_TRUE(crushed("pinned = [[-9, -9, 4, 9, 9, 4.8]]\n"));
   EXPECT_FALSE(crushed("pinned = [[-9, -9, 7.2, 9, 9, 8]]\n"));
+}
+
+TEST(SceneWarnings, SayWhereAnInflationIsNotMet) {
+  // A polyhedron grows without stretching (Bleecker 1996, "Volume increasing isometric deformations
+  // of convex polyhedra").
+  const auto warning = [](const std::string& inflation) -> std::string {
+    const scenes::Scene scene = scenes::parse_scene(
+        "simulation.gravity = [0, 0, 0]\n[[body]]\nname = \"bar\"\nshape = \"box\"\n"
+        "size = [4, 1.5, 1.5]\ndivisions = 6\nmass = 2\nk = 100\ninflation = " +
+            inflation + "\n",
+        "test.toml");
+    const sim::World world = build_world(scene);
+    const auto warnings = scene_warnings(scene, world, {}, gas_advices(world));
+    return warnings.empty() ? "" : warnings.at(0);
+  };
+  EXPECT_NE(warning("1.05").find("'bar': inflation = 1.05 comes to 1.0"), std::string::npos)
+      << warning("1.05");
+  EXPECT_EQ(warning("1.5"), "");
 }
 
 TEST(GasAdvice, IsOfTheMostGasThatKeysGive) {

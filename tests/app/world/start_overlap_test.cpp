@@ -117,6 +117,13 @@ TEST(StartOverlap, NamesAWayThatParts) {
   const std::string message = refusal_of(ball + "[5, 0, 4]\n");
   EXPECT_NE(message.find("move it 1.01 m along +x"), std::string::npos) << message;
   EXPECT_EQ(refusal_of(ball + "[6.01, 0, 4]\n"), "");
+  // Back into the hole of a ring, whose tube it has got into, and not all the way around.
+  const std::string ring =
+      "[[body]]\nshape = \"torus\"\ntube_radius = 1\nposition = [0, 0, 4]\n"
+      "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = ";
+  const std::string back = refusal_of(ring + "[1.8, 0, 4]\n");
+  EXPECT_NE(back.find("move it 0.788 m along -x"), std::string::npos) << back;
+  EXPECT_EQ(refusal_of(ring + "[1.012, 0, 4]\n"), "");
 }
 
 TEST(StartOverlap, TellsATouchByWeightFromAnOverlap) {
