@@ -146,11 +146,11 @@ class SweptBodies {
   /// Gives the boxes their shifts.
   void shift_boxes(World& world) const;
 
-  /// Moves the boxes that soft bodies carry, at the end of their free motion, by `way` (m) as part
-  /// of it, and others that do not touch anything (`touches`: per box) by their missing_fall; in
-  /// this step, also where they are moved again. Whether there is any.
+  /// Moves the boxes that soft bodies carry, at the end of their free motion, by `way_of_carried`
+  /// (m) as part of it, and others that nothing bears (`is_borne`: per box) by their missing_fall;
+  /// in this step, also where they are moved again. Whether there is any.
   bool let_fall(World& world, const MotionStart& start, const CarriedBoxes& carried,
-                std::span<const std::uint8_t> touches, const Vec3& way);
+                const Vec3& way_of_carried, std::span<const std::uint8_t> is_borne);
 
   /// Moves the bodies that impulses have changed once more, from their start with other velocities.
   std::optional<Divergence> move_again(World& world, const MotionStart& start,

@@ -127,27 +127,30 @@ void SweptSearch::mark_candidates() {
   }
 }
 
-/// What parts faster than gravity brings it back within the step is on its way.
+/// What parts so fast that gravity does not bring it back within the step is on its way.
 bool SweptSearch::touches(const SweptCandidate& candidate) const {
   const SweptContact contact = candidate.bodies.second == swept_ground
                                    ? place_on_ground(candidate, Moment::start)
                                    : place(candidate, candidate.start, Moment::start);
-  const double returns = time_step(world_.settings) * world_.settings.gravity.norm();
+  const double returns = 0.5 * time_step(world_.settings) * world_.settings.gravity.norm();
   return contact.is_near && contact.normal.dot(start_velocity(contact)) <= returns;
 }
 
-void SweptSearch::find_touching_boxes() {
-  m_.touches.assign(world_.rigid.size(), 0);
-  const auto known = [&](int body) {
-    return !bodies_.is_box(body) || m_.touches[at(bodies_.box(body))] != 0;
+/// Boxes that touch each other alone fall together: none must fall by another way than the next.
+void SweptSearch::find_borne_boxes() {
+  base::DisjointSets& sets = m_.near_groups.sets;
+  sets.reset();
+  const int boxes = static_cast<int>(world_.rigid.size()), bearer = boxes;
+  const auto number = [&](int body) {
+    return bodies_.is_box(body) && !is_fixed(world_, body) ? bodies_.box(body) : bearer;
   };
   for (const SweptCandidate& candidate : m_.candidates) {
-    const auto [first, second] = candidate.bodies;
-    if ((known(first) && known(second)) || !touches(candidate)) continue;
-    for (const int body : {first, second}) {
-      if (bodies_.is_box(body)) m_.touches[at(bodies_.box(body))] = 1;
-    }
+    const int first = number(candidate.bodies.first), second = number(candidate.bodies.second);
+    if (sets.find(first) == sets.find(second) || !touches(candidate)) continue;
+    sets.unite(first, second);
   }
+  m_.is_borne.resize(world_.rigid.size());
+  for (int i = 0; i < boxes; ++i) m_.is_borne[at(i)] = sets.find(i) == sets.find(bearer) ? 1 : 0;
 }
 
 /// Impulses keep from the ground what other impulses may move, and what would come so far below it

@@ -140,7 +140,7 @@ struct SweptMemory {
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
-  std::vector<std::uint8_t> touches;          // per box: something, at the start
+  std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
@@ -167,8 +167,9 @@ class SweptSearch {
   }
   /// Of the candidates as they are now.
   void mark_candidates();
-  /// Which boxes touch something at the start of the step, and do not leave it.
-  void find_touching_boxes();
+  /// Which boxes touch, at the start of the step, what does not fall: the ground, soft bodies or
+  /// what stands still or is moved, directly or through other boxes.
+  void find_borne_boxes();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
   /// The contacts that the free motion would use up.

@@ -146,14 +146,14 @@ void SweptBodies::shift_boxes(World& world) const {
 }
 
 bool SweptBodies::let_fall(World& world, const MotionStart& start, const CarriedBoxes& carried,
-                           std::span<const std::uint8_t> touches, const Vec3& way) {
+                           const Vec3& way_of_carried, std::span<const std::uint8_t> is_borne) {
   bool any = false;
   for (std::size_t i = 0; i < falls_.size(); ++i) {
     const int box = static_cast<int>(i);
     falls_[i].setZero();
     if (carried.is_carried(box)) {
-      falls_[i] = way;
-    } else if (touches[i] == 0 && !is_fixed(world, soft_count_ + box)) {
+      falls_[i] = way_of_carried;
+    } else if (is_borne[i] == 0 && !is_fixed(world, soft_count_ + box)) {
       falls_[i] = missing_fall(world.rigid[i], start.rigid[i], time_step(world.settings));
     }
     any = any || !falls_[i].isZero(0.0);

@@ -144,15 +144,16 @@ class SweptStep {
     return blocked();
   }
 
-  /// Soft bodies press within the step: what they carry must weigh on them within it too.
+  /// Soft bodies press within the step: what they carry must weigh on them within it too. And what
+  /// nothing bears flies.
   bool let_boxes_fall() {
     if (world_.rigid.empty()) return false;
     list_paired_bodies(m_);
     m_.carried_boxes.find(world_, m_.paired);
-    search_.find_touching_boxes();
+    search_.find_borne_boxes();
     return bodies_.let_fall(
-        world_, start(), m_.carried_boxes, m_.touches,
-        fall_within(step(), world_.settings.integrator, world_.settings.gravity));
+        world_, start(), m_.carried_boxes,
+        fall_within(step(), world_.settings.integrator, world_.settings.gravity), m_.is_borne);
   }
 
   /// What sleeps must wake before the step can be done.
@@ -327,16 +328,23 @@ class SweptStep {
     m_.given_at_start.push_back(before.impulse);
   }
 
+  /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
+  /// ways as it leaves and as it comes back, and bounce for ever.
+  double least_bounce(const SweptContact& contact) const {
+    if (!search_.is_rigid(contact)) return min_bounce_speed;
+    return std::max(min_bounce_speed, 0.5 * step() * world_.settings.gravity.norm());
+  }
+
   void set_parting(const Given& before, double restitution, SweptContact& contact) const {
     const double bounce = restitution * before.approach;
     if (!contact.is_near) {
       contact.parting = -before.approach;
       contact.returns_energy = true;
-    } else if (before.is_known && !before.is_near && bounce >= min_bounce_speed) {
+    } else if (before.is_known && !before.is_near && bounce >= least_bounce(contact)) {
       contact.approach = before.approach;
       contact.drift = before.drift;
       contact.restitution = restitution;
-      contact.parting = bounce - before.drift;  // of what touches: its velocity lags its motion
+      contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
     } else if (search_.is_rigid(contact)) {
       contact.parting = std::min(0.0, closing_rate * missing_distance(contact));  // to stand flat

@@ -9,6 +9,7 @@
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/rotation.h"
+#include "sim/world/sleep.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -89,6 +90,36 @@ TEST(FreeImpact, BooksItsWork) {
     }
   }
   EXPECT_EQ(hits, 40);
+}
+
+/// What lands in one step and bounces in the next would do so for ever.
+TEST(FreeImpact, BouncesEnd) {
+  for (const double restitution : {0.2, 0.5}) {
+    World world = make_free_boxes({make_rigid(Vec3::Ones(), {0.0, 0.0, 2.0}, 1.0)}, restitution);
+    world.settings.contact = ContactMethod::swept;
+    world.settings.steps_per_second = 30;
+    world.settings.gravity = {0.0, 0.0, -9.81};
+    world.settings.ground = ContactMaterial{restitution, 0.5};
+    ASSERT_FALSE(run(world, 8.0));
+    EXPECT_TRUE(is_asleep(world, 0)) << restitution;
+  }
+}
+
+/// Two boxes that touch and one beside them fly as one, on a parabola.
+TEST(FreeFlight, OfBoxesThatTouchIsThatOfTheOthers) {
+  World world = make_free_boxes({make_rigid(Vec3::Ones(), {0.0, 0.0, 0.0}, 1.0),
+                                 make_rigid(Vec3::Ones(), {0.0, 0.0, 1.01}, 1.0),
+                                 make_rigid(Vec3::Ones(), {0.0, 0.0, 2.12}, 1.0)},
+                                0.0);
+  world.settings.contact = ContactMethod::swept;
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  const double before = energy(world).total();
+  ASSERT_FALSE(run(world, 2.0));
+  for (int i = 0; i < 3; ++i) {
+    const double start = i == 0 ? 0.0 : i == 1 ? 1.01 : 2.12;
+    EXPECT_NEAR(world.rigid[at(i)].position.z(), start - 0.5 * 9.81 * 4.0, 1e-9) << i;
+  }
+  EXPECT_NEAR(energy(world).total(), before, 1e-9);
 }
 
 TEST(FreeImpact, LeavesWhatAirTakes) {
