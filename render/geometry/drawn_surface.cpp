@@ -78,6 +78,7 @@ std::vector<float> flatness_of(const Mesh& mesh) {
     const Vec3f& a = mesh.positions[t[0]];
     const Vec3f across = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
     const Vec3f facet = across.stableNormalized();
+    if (facet.isZero(0.0f)) continue;  // it has no area
     for (const std::uint32_t v : t) {
       const float cosine = std::max(mesh.normals[v].dot(facet), 0.0f);
       flatness[v] = std::min(flatness[v], cosine * cosine);

@@ -16,7 +16,7 @@ class Outlines {
   // Of each outline both ends, but for their light, and the normal of the triangle on its left.
   makeBuffers() {
     const { gl, ends, boxContacts } = this;
-    const ofEnd = [[0, 3], [1, 3], [2, 4], ...(boxContacts ? [[5, 4], [6, 4]] : [])];  // locations and sizes
+    const ofEnd = [[0, 3], [1, 4], [2, 4], ...(boxContacts ? [[5, 4], [6, 4]] : [])];  // locations and sizes
     const to = 7, facet = 14;  // locations
     const ofOutline = [...ofEnd, ...ofEnd.map(([location, size]) => [to + location, size]), [facet, 3]];
     this.vertices = gl.createVertexArray();
@@ -88,7 +88,7 @@ class Outlines {
     for (const side of found) {
       for (const point of surface.sides.subarray(side, side + 2)) {
         put(surface.positions, 3, point);
-        put(surface.normals, 3, point);
+        put(surface.outward, 4, point);
         put(surface.materials, 4, point);
         if (boxContacts) put(boxContacts.near, 4 * mostNear, point);
       }

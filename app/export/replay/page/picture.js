@@ -64,7 +64,7 @@ class Picture {
       return buffer;
     };
     this.positionBuffer = attribute(0, 3, gl.createBuffer());
-    this.normalBuffer = attribute(1, 3, gl.createBuffer());
+    this.normalBuffer = attribute(1, 4, gl.createBuffer());
     attribute(2, 4, gl.createBuffer());
     gl.bufferData(gl.ARRAY_BUFFER, this.surface.materials, gl.STATIC_DRAW);
     if (this.between) {
@@ -91,7 +91,7 @@ class Picture {
     gl.bindBuffer(gl.ARRAY_BUFFER, this.positionBuffer);
     gl.bufferData(gl.ARRAY_BUFFER, surface.positions, gl.STREAM_DRAW);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.normalBuffer);
-    gl.bufferData(gl.ARRAY_BUFFER, surface.normals, gl.STREAM_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, surface.outward, gl.STREAM_DRAW);
     if (!map) return;
     map.draw(() => this.drawTriangles(), this.casters);
     between?.takeBodies(positions, map, Boolean(groundShadow));

@@ -82,6 +82,7 @@ class Surface {
   constructor(recording) {
     this.smoothTriangles = recording.smooth;
     this.vertexNormals = new Float32Array(3 * recording.vertexCount);
+    this.vertexFlatness = new Float32Array(recording.vertexCount);
     const sources = [], cornerNormals = [], flat = [], sharing = [], corners = [], weights = [], triangles = [];
     const sides = [];
     this.flatMeshes = [];
@@ -125,9 +126,11 @@ class Surface {
     this.triangles = Uint32Array.from(triangles);
     this.sides = Uint32Array.from(sides);  // both of each edge: first and second point, triangle
     const rows = Math.ceil(sources.length / receiversPerRow);
-    this.lit = new Float32Array(8 * receiversPerRow * rows);  // position, share of the bulge; normal, 0
-    this.positions = new Float32Array(corners.length);        // of the points
+    // Position, share of the bulge; normal, its squared cosine with the facet at it that differs most.
+    this.lit = new Float32Array(8 * receiversPerRow * rows);
+    this.positions = new Float32Array(corners.length);  // of the points
     this.normals = new Float32Array(corners.length);
+    this.outward = new Float32Array(corners.length / 3 * 4);  // the same, and that cosine
     this.materials = this.mixMaterials(recording.materials);
   }
 
@@ -145,6 +148,7 @@ class Surface {
   // `positions`: of the vertices. `shares`: of the bulge; null where nothing is rounded. `ground`: whether there is any.
   place(positions, shares, ground) {
     this.findVertexNormals(positions);
+    this.findFlatness(positions);
     this.placeLit(positions, shares);
     this.placePoints(ground);
   }
@@ -166,8 +170,24 @@ class Surface {
     setLengthsToOne(normals);
   }
 
+  // As render/geometry/drawn_surface.cpp.
+  findFlatness(positions) {
+    const { vertexNormals: normals, vertexFlatness: flatness, smoothTriangles } = this;
+    flatness.fill(1);
+    const place = (v) => positions.subarray(3 * v, 3 * v + 3);
+    for (let t = 0; t < smoothTriangles.length; t += 3) {
+      const vertices = smoothTriangles.subarray(t, t + 3), [a, b, c] = vertices;
+      const across = cross([...subtract(place(b), place(a))], [...subtract(place(c), place(a))]);
+      const length = norm(across);
+      for (const v of vertices) {
+        const cosine = Math.max(dot(across, normals.subarray(3 * v, 3 * v + 3)) / length, 0);
+        if (length > 0) flatness[v] = Math.min(flatness[v], cosine * cosine);
+      }
+    }
+  }
+
   placeLit(positions, shares) {
-    const { lit, sources, vertexNormals } = this;
+    const { lit, sources, vertexNormals, vertexFlatness } = this;
     for (let i = 0; i < sources.length; ++i) {
       const at = 8 * i, v = 3 * sources[i];
       for (let k = 0; k < 3; ++k) {
@@ -175,6 +195,7 @@ class Surface {
         lit[at + 4 + k] = vertexNormals[v + k];
       }
       lit[at + 3] = 0;
+      lit[at + 7] = vertexFlatness[sources[i]];
     }
     if (shares) this.sharing.forEach((i, number) => { lit[8 * i + 3] = shares[number]; });
     this.placeFlatNormals();
@@ -224,6 +245,17 @@ class Surface {
       normals[i] = nx; normals[i + 1] = ny; normals[i + 2] = nz;
     }
     setLengthsToOne(normals);
+    this.placeOutward();
+  }
+
+  placeOutward() {
+    const { lit, corners, weights, normals, outward } = this;
+    for (let i = 0; i < corners.length; i += 3) {
+      const to = 4 * i / 3;
+      outward.set(normals.subarray(i, i + 3), to);
+      outward[to + 3] = 0;
+      for (let k = i; k < i + 3; ++k) outward[to + 3] += weights[k] * lit[8 * corners[k] + 7];
+    }
   }
 }
 
