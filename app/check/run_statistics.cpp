@@ -34,15 +34,16 @@ void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& posi
   }
 }
 
-/// m/s, over the last step, at whose start the soft bodies were `before`. The velocity of a vertex
-/// that is pressed holds, at the end of a step, what its forces did since the last impulses.
-double fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before) {
+/// m/s, in the last `duration` (s), at whose start the soft bodies were `before`. The velocity of a
+/// vertex that is pressed holds, at the end of a step, what its forces did since the last impulses.
+double fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before,
+                     double duration) {
   double way = 0.0;  // m
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].size() == 0) continue;
     way = std::max(way, sim::max_distance(before[i], world.soft[i].positions));
   }
-  double speed = way / sim::time_step(world.settings);
+  double speed = way / duration;
   for (const sim::RigidBox& box : world.rigid) {
     // No point of a box is farther from its axis of rotation than half the diagonal.
     const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
@@ -104,6 +105,7 @@ class Observer {
  public:
   Observer(const sim::World& start, std::int64_t all_steps)
       : all_steps_(all_steps),
+        frame_time_(sim::time(start)),
         last_energy_(sim::energy(start).total()),
         least_energy_(last_energy_),
         greatest_energy_(last_energy_) {
@@ -130,8 +132,6 @@ class Observer {
 
   void after_step(const Simulation& simulation) {
     const sim::World& world = simulation.world();
-    speed_ = fastest_point(world, before_);
-    keep_positions(world, before_);
     const auto contacts = simulation.contacts();
     const std::int64_t with_obstacles = count_with_obstacles(contacts, world);
     result_.contacts.add(contacts, with_obstacles);
@@ -167,6 +167,9 @@ class Observer {
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
       add_gas(world.soft[b], result_.gas[b]);
     }
+    speed_ = fastest_point(world, before_, sim::time(world) - frame_time_);
+    keep_positions(world, before_);
+    frame_time_ = sim::time(world);
     if (speed_ >= rest_speed) {
       result_.rests_from.reset();
     } else if (!result_.rests_from) {
@@ -252,8 +255,9 @@ class Observer {
   std::set<Pair> start_overlaps_;  // that did not come apart yet
   RunStatistics result_;
   std::int64_t all_steps_;
-  std::vector<sim::VertexArray> before_;  // where the soft bodies were after the last step
-  double speed_ = 0.0;                    // m/s, of the fastest point, over that step
+  std::vector<sim::VertexArray> before_;  // where the soft bodies were in the last frame
+  double frame_time_;                     // s, its
+  double speed_ = 0.0;                    // m/s, of the fastest point, up to it
   double last_energy_;
   double least_energy_;
   double greatest_energy_;

@@ -104,7 +104,7 @@ struct RunStatistics {
   sim::Momentum momentum_start;
   sim::Momentum momentum_end;
 
-  double end_speed = 0.0;  // m/s, of the fastest point of any body; of soft ones over a step
+  double end_speed = 0.0;  // m/s, of the fastest point of any body; of soft ones over a frame
   // s, of the first frame from which on nothing is faster than rest_speed; none: it is at the end.
   std::optional<double> rests_from;
   std::uint64_t state_hash = 0;

@@ -50,11 +50,12 @@ TEST(RunStatistics, OfAFreeSoftBodyKeepsMomentumAndLosesEnergy) {
   EXPECT_EQ(run.end_overlap, 0.0);
 }
 
-TEST(RunStatistics, HaveSpeedsOverAStep) {
-  // A ball that nothing blows up falls for half a second: over the last step by its mean velocity.
+TEST(RunStatistics, HaveSpeedsOverAFrame) {
+  // A ball that nothing blows up falls for half a second: in the last frame, of two steps, by its
+  // mean velocity.
   const RunStatistics run = statistics_of(
       free_sphere, {"body.n=0", "body.velocity=[0, 0, 0]", "simulation.gravity=[0, 0, -9.81]"});
-  EXPECT_NEAR(run.end_speed, 9.81 * (0.5 - 0.5 / 60.0), 1e-9);
+  EXPECT_NEAR(run.end_speed, 9.81 * (0.5 - 1.0 / 60.0), 1e-9);
 }
 
 TEST(RunStatistics, SayThatThePinsMove) {
