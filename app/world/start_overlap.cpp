@@ -26,6 +26,10 @@ namespace {
 
 /// Of a body's size: what places written with a few digits, and rounding, leave of a touch.
 constexpr double start_touch = 1e-6;
+/// So many of the overlaps are told of.
+constexpr std::size_t most_shown = 10;
+/// Of two bodies together: of finer ones no shorter way apart is looked for.
+constexpr int most_vertices = 5'000;
 
 struct StartOverlap {
   int body = 0;        // that is to be moved: soft bodies first, then boxes
@@ -63,6 +67,11 @@ class TwoBodies {
     }
   }
 
+  bool are_fine() const {
+    int vertices = 0;
+    for (const sim::SoftBody& body : pair_.soft) vertices += body.positions.size();
+    return vertices > most_vertices;
+  }
   bool are_apart(const sim::Vec3& way) const {
     sim::World moved = pair_;
     if (moved.rigid.empty()) {
@@ -87,12 +96,13 @@ std::string way_apart(const sim::World& world, int first, int second) {
   constexpr double least_part = 1.0 / 32.0;
   const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   const TwoBodies both(world, first, second);
+  const double first_part = both.are_fine() ? 1.0 : least_part;
   double shortest = std::numeric_limits<double>::infinity();
   std::string_view direction;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool down : {false, true}) {
       const double all = down ? own.high[axis] - other.low[axis] : other.high[axis] - own.low[axis];
-      for (double part = least_part; part <= 1.0 && part * all < shortest; part *= 2.0) {
+      for (double part = first_part; part <= 1.0 && part * all < shortest; part *= 2.0) {
         const sim::Vec3 way = (down ? -part * all : part * all) * sim::Vec3::Unit(axis);
         if (down && axis == 2 && world.settings.ground && own.low.z() + way.z() < 0.0) break;
         if (part < 1.0 && !both.are_apart(way)) continue;
@@ -137,15 +147,20 @@ std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
   std::vector<std::pair<int, int>> pairs;
   for (const sim::Overlap& overlap : sim::overlaps(world)) {
     if (!is_deep(world, overlap)) continue;
-    const bool on_ground = overlap.second == sim::ground_body;
-    found.push_back(on_ground ? in_the_ground(world, overlap) : in_another(world, overlap));
+    if (found.size() >= most_shown) {
+      found.push_back({.body = overlap.first, .reason = ""});
+    } else {
+      const bool on_ground = overlap.second == sim::ground_body;
+      found.push_back(on_ground ? in_the_ground(world, overlap) : in_another(world, overlap));
+    }
     pairs.emplace_back(overlap.first, overlap.second);
   }
   for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
     // Boxes that only touch may cross by a rounding; how deep they lie in each other is exact.
     if (pair.first == pair.second || sim::at(pair.first) >= world.soft.size()) continue;
     if (std::ranges::find(pairs, std::pair(pair.first, pair.second)) != pairs.end()) continue;
-    found.push_back(through_another(world, pair));
+    found.push_back(found.size() < most_shown ? through_another(world, pair)
+                                              : StartOverlap{.body = pair.first, .reason = ""});
   }
   return found;
 }
@@ -204,7 +219,6 @@ void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
     if (auto overlap = find_potential_start(start)) found.push_back(*overlap);
   }
   if (found.empty()) return;
-  constexpr std::size_t most_shown = 10;
   const std::size_t shown = std::min(found.size(), most_shown);
   if (shown < found.size()) {
     found[shown - 1].reason += fmt::format(" (and {} more such pairs)", found.size() - shown);
