@@ -34,13 +34,16 @@ Lattice lattice_over(const render::Vec3f& low, const render::Vec3f& high) {
   return lattice;
 }
 
-std::vector<std::uint8_t> differences(std::span<const std::uint16_t> values, std::size_t columns) {
+std::vector<std::uint8_t> differences(std::span<const std::uint16_t> values, std::size_t columns,
+                                      Foretold foretold) {
   std::vector<std::uint8_t> planes(2 * values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    int foretold = 0;
-    if (i >= columns) foretold = values[i - columns];
-    if (i >= 2 * columns) foretold = 2 * foretold - values[i - 2 * columns];
-    const std::uint16_t value = zigzag(values[i] - foretold);
+    int expected = 0;
+    if (i >= columns) expected = values[i - columns];
+    if (foretold == Foretold::by_line && i >= 2 * columns) {
+      expected = 2 * expected - values[i - 2 * columns];
+    }
+    const std::uint16_t value = zigzag(values[i] - expected);
     planes[i] = static_cast<std::uint8_t>(value & 0xFF);
     planes[values.size() + i] = static_cast<std::uint8_t>(value >> 8);
   }

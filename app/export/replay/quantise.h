@@ -22,11 +22,16 @@ struct Lattice {
 /// `low`, `high`: the box's corners.
 Lattice lattice_over(const render::Vec3f& low, const render::Vec3f& high);
 
-/// The rows of a table that change little from one to the next: each value minus what a straight
-/// line through the same column of the two rows before foretells (minus the row before in the
-/// second row), modulo 65536; of that n, 2 |n|, minus 1 where n < 0 (zigzag); first all low bytes,
-/// then all high ones.
-std::vector<std::uint8_t> differences(std::span<const std::uint16_t> values, std::size_t columns);
+/// What foretells a value: the same column of the row before, which suits points in no order, or a
+/// straight line through that of the two rows before (the row before in the second row), which
+/// suits what moves.
+enum class Foretold { by_row, by_line };
+
+/// The rows of a table that change little from one to the next: each value minus what is foretold,
+/// modulo 65536; of that n, 2 |n|, minus 1 where n < 0 (zigzag); first all low bytes, then all high
+/// ones.
+std::vector<std::uint8_t> differences(std::span<const std::uint16_t> values, std::size_t columns,
+                                      Foretold foretold);
 
 /// zlib's format, as small as libdeflate can make it.
 std::vector<std::uint8_t> deflate(std::span<const std::uint8_t> bytes);

@@ -51,8 +51,9 @@ class Streams {
     add<float>(name, "f32", values, values.size());
   }
   void add_differences(const std::string& name, const std::vector<std::uint16_t>& values,
-                       std::size_t columns) {
-    add<std::uint8_t>(name, "differences", differences(values, columns), values.size());
+                       std::size_t columns, Foretold foretold) {
+    const char* kind = foretold == Foretold::by_line ? "differences_by_line" : "differences_by_row";
+    add<std::uint8_t>(name, kind, differences(values, columns, foretold), values.size());
     directory_[name]["columns"] = columns;
   }
 
@@ -84,7 +85,8 @@ void add_positions(const Recording& recording, const Lattice& lattice, Streams& 
   for (const RecordedFrame& frame : recording.frames) {
     for (const Vec3f& position : frame.positions) add_quantised(lattice, position, values);
   }
-  streams.add_differences("positions", values, 3 * recording.frames.front().positions.size());
+  streams.add_differences("positions", values, 3 * recording.frames.front().positions.size(),
+                          Foretold::by_line);
 }
 
 /// Finer steps would not be seen, and make the page of many bodies that touch larger.
@@ -132,7 +134,7 @@ void add_points(const std::string& name, const Recording& recording,
     }
   }
   streams.add(name + "_counts", counts);
-  streams.add_differences(name + "_places", places, 3);
+  streams.add_differences(name + "_places", places, 3, Foretold::by_row);
   streams.add(name + "_looks", point_looks);
 }
 

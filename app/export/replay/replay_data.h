@@ -10,8 +10,9 @@
 namespace pneuma::app {
 
 /// `header["streams"][NAME]` has the place and the kind of each series in `bytes`, which the page
-/// holds deflated: u8, u16, u32, f32 (little-endian) or `differences` (quantise.h) of u16 rows.
-/// `header["lattice"]` says how far from the simulation's a position may be.
+/// holds deflated: u8, u16, u32, f32 (little-endian), or differences_by_row or _by_line
+/// (quantise.h) of u16 rows. `header["lattice"]` says how far from the simulation's a position may
+/// be.
 struct ReplayData {
   Json header;
   std::vector<std::uint8_t> bytes;

@@ -67,6 +67,7 @@ class ReadReplay {
   std::vector<double> coordinates(const std::string& name) const {
     const nlohmann::json& stream = header.at("streams").at(name);
     const auto count = stream.at("count").get<std::size_t>();
+    const bool by_line = stream.at("kind") == "differences_by_line";
     const auto columns = stream.at("columns").get<std::size_t>();
     const std::uint8_t* low = bytes_.data() + stream.at("offset").get<std::size_t>();
     const nlohmann::json& lattice = header.at("lattice");
@@ -76,7 +77,7 @@ class ReadReplay {
       const long folded = low[i] + 256L * low[count + i];
       const long residual = folded % 2 == 0 ? folded / 2 : -(folded + 1) / 2;
       const long last = i < columns ? 0 : integers[i - columns];
-      const long slope = i < 2 * columns ? 0 : last - integers[i - 2 * columns];
+      const long slope = !by_line || i < 2 * columns ? 0 : last - integers[i - 2 * columns];
       integers.push_back(((last + slope + residual) % 65536 + 65536) % 65536);
       metres.push_back(lattice["origin"][i % 3].get<double>() +
                        lattice["step"].get<double>() * static_cast<double>(integers.back()));

@@ -244,14 +244,24 @@ TEST_F(ReplayTest, DoesNotReplaceAPageUnasked) {
   EXPECT_EQ(ReadReplay(page()).header["frames"], 3);
 }
 
-TEST(Quantise, DifferencesAreOfAStraightLine) {
+TEST(Quantise, DifferencesAreFromAStraightLine) {
   // 10; 13 - 10 = 3; 17 - (2 * 13 - 10) = 1; each doubled. 65535 is -1 modulo 65536, and 0 is 1
   // more.
   const std::vector<std::uint16_t> rising = {10, 65535, 13, 0, 17, 1};
-  EXPECT_EQ(differences(rising, 2), (std::vector<std::uint8_t>{20, 1, 6, 2, 2, 0,  //
-                                                               0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(differences(rising, 2, Foretold::by_line),
+            (std::vector<std::uint8_t>{20, 1, 6, 2, 2, 0,  //
+                                       0, 0, 0, 0, 0, 0}));
   const std::vector<std::uint16_t> far = {300, 0};
-  EXPECT_EQ(differences(far, 1), (std::vector<std::uint8_t>{600 % 256, 599 % 256, 2, 2}));
+  EXPECT_EQ(differences(far, 1, Foretold::by_line),
+            (std::vector<std::uint8_t>{600 % 256, 599 % 256, 2, 2}));
+}
+
+TEST(Quantise, DifferencesAreFromTheRowBefore) {
+  // 10; 13 - 10 = 3; 17 - 13 = 4; each doubled. 65535 is -1 modulo 65536, and 0 and 1 are 1 more.
+  const std::vector<std::uint16_t> rising = {10, 65535, 13, 0, 17, 1};
+  EXPECT_EQ(differences(rising, 2, Foretold::by_row),
+            (std::vector<std::uint8_t>{20, 1, 6, 2, 8, 2,  //
+                                       0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Quantise, Base64IsThatOfRfc4648) {

@@ -7,14 +7,14 @@ async function unpack(text) {
 }
 
 // The inverse of differences() in quantise.cpp.
-function sumDifferences(planes, count, columns) {
+function sumDifferences(planes, count, columns, byLine) {
   const values = new Uint16Array(count);
   for (let i = 0; i < count; ++i) {
     const folded = planes[i] | planes[count + i] << 8;
     const difference = folded & 1 ? -(folded + 1) / 2 : folded / 2;
     let foretold = 0;
     if (i >= columns) foretold = values[i - columns];
-    if (i >= 2 * columns) foretold = 2 * foretold - values[i - 2 * columns];
+    if (byLine && i >= 2 * columns) foretold = 2 * foretold - values[i - 2 * columns];
     values[i] = foretold + difference;
   }
   return values;
@@ -43,7 +43,10 @@ class Recording {
       case "u16": return new Uint16Array(this.buffer, offset, count);
       case "u32": return new Uint32Array(this.buffer, offset, count);
       case "f32": return new Float32Array(this.buffer, offset, count);
-      default: return sumDifferences(new Uint8Array(this.buffer, offset, 2 * count), count, columns);
+      default: {
+        const planes = new Uint8Array(this.buffer, offset, 2 * count);
+        return sumDifferences(planes, count, columns, kind === "differences_by_line");
+      }
     }
   }
 
