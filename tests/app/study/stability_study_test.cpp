@@ -201,7 +201,7 @@ TEST(StiffChoice, IsTheCheapestOfThoseThatAreGoodEnough) {
   EXPECT_NE(stiffness_text({choice}).find("cheaper from k = 1e+04 on"), std::string::npos);
 }
 
-TEST(StabilityCommand, LeavesItsFiles) {
+TEST(LongStabilityCommand, LeavesItsFiles) {
   const TemporaryFolder folder;
   const ProgramResult result =
       run_pneuma("study stability --short --quiet 2>&1 --out '" + folder.path().string() + "'");
