@@ -58,24 +58,22 @@ class PairSearch {
   void meet(int one, int other) {
     const MeshTopology& a = first_.tree->topology();
     const MeshTopology& b = second_.tree->topology();
-    for (const int v : a.triangles()[at(one)]) {
-      if (first_.tree->owner_of_vertex(v) != one) continue;
+    const SurfaceTree::Owned& of_one = first_.tree->owned_by(one);
+    const SurfaceTree::Owned& of_other = second_.tree->owned_by(other);
+    for (const int v : of_one.vertices()) {
       if (!overlap(first_.vertices[at(v)], second_.triangles[at(other)])) continue;
       if (is_within_ && has(b.triangles()[at(other)], v)) continue;
       pairs_.push_back({{FeatureKind::vertex, v}, {FeatureKind::triangle, other}});
     }
-    for (const int v : b.triangles()[at(other)]) {
-      if (second_.tree->owner_of_vertex(v) != other) continue;
+    for (const int v : of_other.vertices()) {
       if (!overlap(first_.triangles[at(one)], second_.vertices[at(v)])) continue;
       if (is_within_ && has(a.triangles()[at(one)], v)) continue;
       pairs_.push_back({{FeatureKind::triangle, one}, {FeatureKind::vertex, v}});
     }
-    for (const int e : a.triangle_edges()[at(one)]) {
-      if (first_.tree->owner_of_edge(e) != one || first_.tree->is_flat(e)) continue;
+    for (const int e : of_one.edges()) {
       const WayBox around = edge_box(*first_.tree, first_, e);
       if (!overlap(around, second_.triangles[at(other)])) continue;
-      for (const int f : b.triangle_edges()[at(other)]) {
-        if (second_.tree->owner_of_edge(f) != other || second_.tree->is_flat(f)) continue;
+      for (const int f : of_other.edges()) {
         if (!overlap(around, edge_box(*second_.tree, second_, f))) continue;
         if (is_within_ && share_a_vertex(a.edges()[at(e)], a.edges()[at(f)])) continue;
         pairs_.push_back({{FeatureKind::edge, e}, {FeatureKind::edge, f}});

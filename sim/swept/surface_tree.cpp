@@ -36,6 +36,7 @@ SurfaceTree::SurfaceTree(const MeshTopology& topology, const VertexArray& rest_p
     for (const int v : topology.triangles()[at(t)]) vertex_owner_[at(v)] = t;
     for (const int e : topology.triangle_edges()[at(t)]) edge_owner_[at(e)] = t;
   }
+  list_owned();
   std::vector<Vec3> middles;
   for (const auto& [a, b, c] : topology.triangles()) {
     middles.push_back((rest_positions[a] + rest_positions[b] + rest_positions[c]) / 3.0);
@@ -75,6 +76,18 @@ void SurfaceTree::measure_edges(const VertexArray& rest_positions) {
     ++count;
   }
   mean_edge_ = sum / std::max(count, 1);
+}
+
+void SurfaceTree::list_owned() {
+  for (int t = 0; t < topology_.triangle_count(); ++t) {
+    Owned& owned = owned_.emplace_back();
+    for (const int v : topology_.triangles()[at(t)]) {
+      if (owner_of_vertex(v) == t) owned.vertices_[owned.vertex_count_++] = v;
+    }
+    for (const int e : topology_.triangle_edges()[at(t)]) {
+      if (owner_of_edge(e) == t && !is_flat(e)) owned.edges_[owned.edge_count_++] = e;
+    }
+  }
 }
 
 void SurfaceTree::build(const std::vector<Vec3>& middles, int first, int end) {

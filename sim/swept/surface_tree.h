@@ -2,7 +2,9 @@
 // into a bounding hierarchy.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/mesh/topology.h"
@@ -28,6 +30,18 @@ class SurfaceTree {
 
     bool is_leaf() const { return first != end; }
   };
+  /// The features that belong to a triangle, in its own order; of edges those that are none to
+  /// others left out.
+  class Owned {
+   public:
+    std::span<const int> vertices() const { return std::span(vertices_).first(vertex_count_); }
+    std::span<const int> edges() const { return std::span(edges_).first(edge_count_); }
+
+   private:
+    friend class SurfaceTree;
+    std::array<int, 3> vertices_{}, edges_{};
+    std::size_t vertex_count_ = 0, edge_count_ = 0;
+  };
 
   /// Refers to the topology. Of a rigid surface the edges that only divide flat faces, such as the
   /// diagonals of a box, are no edges to others.
@@ -36,6 +50,7 @@ class SurfaceTree {
   const MeshTopology& topology() const { return topology_; }
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<int>& order() const { return order_; }
+  const Owned& owned_by(int triangle) const { return owned_[at(triangle)]; }
   int owner_of_vertex(int vertex) const { return vertex_owner_[at(vertex)]; }
   int owner_of_edge(int edge) const { return edge_owner_[at(edge)]; }
   /// Of eight corners and twelve triangles.
@@ -51,6 +66,7 @@ class SurfaceTree {
   void find_flat_edges(const VertexArray& rest_positions);
   void find_face_directions(const VertexArray& rest_positions);
   void measure_edges(const VertexArray& rest_positions);
+  void list_owned();
   void build(const std::vector<Vec3>& middles, int first, int end);
 
   const MeshTopology& topology_;
@@ -58,6 +74,7 @@ class SurfaceTree {
   std::vector<int> order_;  // triangles, leaf by leaf
   std::vector<int> vertex_owner_;
   std::vector<int> edge_owner_;
+  std::vector<Owned> owned_;        // per triangle
   std::vector<std::uint8_t> flat_;  // per edge
   std::vector<int> face_directions_;
   double mean_edge_ = 0.0;
