@@ -9,10 +9,8 @@ namespace {
 /// whose loads are carried through the bodies and not from contact to contact.
 constexpr int few_iterations = 20;
 constexpr int many_iterations = 50;
-/// What is left makes a stack tremble.
+/// What is left makes a stack tremble, and a heap creep.
 constexpr double tolerance_of_boxes = 0.01;
-/// Times the tolerance: what is changed by more does not rest yet.
-constexpr double impact_change = 1000.0;
 /// Each call to Newton's method with so many times the penalty of the one before.
 constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
@@ -20,11 +18,6 @@ constexpr double penalty_growth = 30.0;
 
 /// In place of a node: of contacts with what sleeps, which will be woken and the step done again.
 constexpr int nothing_moves = -1;
-
-/// What is left on soft bodies shakes what they carry.
-bool are_all_of_boxes(std::span<SweptImpulse* const> impulses) {
-  return std::ranges::all_of(impulses, &SweptImpulse::is_of_boxes);
-}
 
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
   return impulse.first().moves() ? contact.first.body : contact.second.body;
@@ -111,45 +104,39 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
 }
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-                        double tolerance, std::size_t first_new, double residual) {
+                        double tolerance, std::size_t first_new) {
   divide(contacts, impulses, first_new);
   for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
-    if (patches_[i].is_new) solve_patch(i, tolerance, residual);
+    if (patches_[i].is_new) solve_patch(i, tolerance);
   }
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {
   for (std::size_t i = island_begin_[at(island)]; i < island_begin_[at(island) + 1]; ++i) {
-    solve_patch(i, tolerance, 0.0);
+    solve_patch(i, tolerance);
   }
 }
 
-void SweptSolver::solve_patch(std::size_t patch, double tolerance, double residual) {
+void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
   const auto& [begin, is_new, has_boxes] = patches_[patch];
   const std::size_t size = patches_[patch + 1].begin - begin;
   const std::span<SweptImpulse* const> impulses = std::span(ordered_).subspan(begin, size);
   if (has_boxes) {
-    solve_with_boxes(impulses, tolerance, residual);
+    solve_with_boxes(impulses, tolerance);
   } else {
     const std::span<const ImpulseNodes> nodes = std::span(nodes_).subspan(begin, size);
     gauss_seidel_.correct(impulses, nodes, tolerance, many_iterations);
   }
 }
 
-void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance,
-                                   double residual) {
+void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);
-  const double change = iterations_.correct(of_boxes, few_iterations);
-  if (change <= of_boxes) return;
-  const double first_change = iterations_.first_change();
-  const bool may_leave = residual > 0.0 && are_all_of_boxes(impulses);
-  const double enough = may_leave ? std::max(tolerance, residual * first_change) : tolerance;
-  if (may_leave && first_change > impact_change * tolerance && change <= enough) return;
+  if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {
-      iterations_.correct(enough, many_iterations - few_iterations);
+      iterations_.correct(of_boxes, many_iterations - few_iterations);
       return;
     }
     if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;

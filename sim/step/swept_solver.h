@@ -34,11 +34,8 @@ class SweptSolver {
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
   /// if that can help. Patches without a contact from `first_new` on stay as they are: what springs
   /// bring to them from other patches of their bodies, when the step is done once more, is left.
-  /// `residual`, of patches without soft bodies: iterations may end at this fraction of the
-  /// greatest change of the first of them, where Newton's method does not help; and where that
-  /// change was more than 1000 times the tolerance, as after an impact, it is not tried.
   void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-             double tolerance, std::size_t first_new = 0, double residual = 0.0);
+             double tolerance, std::size_t first_new = 0);
   /// The same for one of the islands that the last call has found.
   void solve_island(int island, double tolerance);
   int island_count() const { return static_cast<int>(island_begin_.size()) - 1; }
@@ -76,8 +73,8 @@ class SweptSolver {
                      std::span<const SweptImpulse> impulses);
   bool is_of_boxes(const SweptContact& contact) const;
   ImpulseNodes nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const;
-  void solve_patch(std::size_t patch, double tolerance, double residual);
-  void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance, double residual);
+  void solve_patch(std::size_t patch, double tolerance);
+  void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
 
   const SweptBodies& bodies_;
   base::DisjointSets linked_bodies_;

@@ -23,14 +23,9 @@ namespace {
 constexpr int max_rounds = 4;
 /// Of the thinnest skin, per step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
-/// Of what the first iteration changes: what boxes may be left with at the end of the step,
-/// whatever that tolerance, since it is the start of the next step that keeps them apart.
-constexpr double residual_at_end = 0.02;
 /// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
 /// than it is solved for, so that they do not cross.
 constexpr double least_of_wanted = 0.02;
-/// 1/s: boxes in contact close what they are further apart than they should be at this rate.
-constexpr double closing_rate = 0.3;
 
 /// Those that have candidates.
 void list_paired_bodies(SweptMemory& memory) {
@@ -123,7 +118,7 @@ class SweptStep {
         run_(Stage::resolve_contacts, [&] {
           aim_at_distances();
           if (round == 0) warm_start_.apply(Moment::start, fraction_);
-          solve(first_new, 0.0);
+          solve(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);
         });
         if (failed) {
@@ -167,9 +162,9 @@ class SweptStep {
     return of_soft ? of_soft : of_rigid;  // both have kept what they started from
   }
 
-  void solve(std::size_t first_new, double residual) {
+  void solve(std::size_t first_new) {
     if (m_.contacts.empty()) return;
-    m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new, residual);
+    m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new);
   }
 
   /// m/s.
@@ -233,7 +228,7 @@ class SweptStep {
       if (!has_met(candidate)) touch(candidate);
     }
     warm_start_.apply(Moment::end, fraction_);
-    solve(0, residual_at_end);
+    solve(0);
     follow_impacts(m_, tolerance());
     limit_returned_energy(m_, tolerance());
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
@@ -346,8 +341,6 @@ class SweptStep {
       contact.restitution = restitution;
       contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
-    } else if (search_.is_rigid(contact)) {
-      contact.parting = std::min(0.0, closing_rate * missing_distance(contact));  // to stand flat
     }
   }
 

@@ -116,7 +116,6 @@ double ConjugateIterations::correct(double tolerance, int max_iterations) {
   double greatest = 0.0;
   for (int i = 0; i < max_iterations; ++i) {
     greatest = iterate();
-    if (i == 0) first_change_ = greatest;
     if (greatest <= tolerance || i + 1 == max_iterations) break;
     go_on();
   }

@@ -25,8 +25,6 @@ class ConjugateIterations {
   /// on by the conjugate direction: the limits of impulses hold again after the next. Returns the
   /// greatest change of the last.
   double correct(double tolerance, int max_iterations);
-  /// The greatest change of the last call's first iteration, in the same unit.
-  double first_change() const { return first_change_; }
 
  private:
   /// Of an impulse on a soft body, N s.
@@ -73,7 +71,6 @@ class ConjugateIterations {
   double squared_ = 0.0;         // J, of the corrections, each by its mobility
   double squared_before_ = 0.0;  // of the iteration before; 0: there is none
   double ratio_ = 0.0;           // by which the next iteration goes on
-  double first_change_ = 0.0;
 };
 
 }  // namespace pneuma::sim

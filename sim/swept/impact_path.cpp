@@ -30,6 +30,9 @@ void ImpactPath::follow(std::span<const ImpactPoint> points, double restitution,
   const double tolerance =
       std::min(max_tolerance, tolerance_of_part * max_approach(points) / parts);
   begin(points);
+  // What the sides gained in the step after they met is stopped, and nothing of it returned.
+  add_part(points, -1.0, tolerance);
+  keep_part(points);
   double taken = 0.0;
   for (int part = parts - 1; part >= 0; --part) {
     taken -= add_part(points, -static_cast<double>(part) / parts, tolerance);

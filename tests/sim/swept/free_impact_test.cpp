@@ -92,6 +92,29 @@ TEST(FreeImpact, BooksItsWork) {
   EXPECT_EQ(hits, 40);
 }
 
+/// A box that falls close beside another, which stands still, is stopped on the ground until the
+/// end of the step. What gravity adds until then does not bounce.
+TEST(FreeImpact, BesideAnotherBodyReturnsNoMore) {
+  constexpr double restitution = 0.9, gravity = 9.81;
+  for (int i = 0; i < 20; ++i) {
+    const double height = 1.0 + 0.05 * i;
+    RigidBox post = make_rigid({0.2, 2.0, 8.0}, {0.63, 0.0, 4.1}, 1.0);
+    post.is_kinematic = true;
+    World world =
+        make_free_boxes({make_rigid(Vec3::Ones(), {0.0, 0.0, 0.5 + height}, 1.0), post}, 0.9);
+    world.settings.contact = ContactMethod::swept;
+    world.settings.steps_per_second = 60;
+    world.settings.gravity = {0.0, 0.0, -gravity};
+    world.settings.ground = ContactMaterial{restitution, 0.5};
+    for (RigidBox& box : world.rigid) box.surface.friction = 0.5;
+    Stepper stepper(world);
+    while (world.rigid[0].velocity.z() <= 0.0) ASSERT_FALSE(stepper.step(world));
+    const RigidBox& box = world.rigid[0];
+    const double returned = gravity * (box.position.z() - 0.5) + 0.5 * box.velocity.squaredNorm();
+    EXPECT_NEAR(returned, restitution * restitution * gravity * height, 0.02 * gravity * height);
+  }
+}
+
 /// What lands in one step and bounces in the next would do so for ever.
 TEST(FreeImpact, BouncesEnd) {
   for (const double restitution : {0.2, 0.5}) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "sim/equilibrium/equilibrium.h"
@@ -48,6 +49,40 @@ Pile run_pile(World& world, double seconds) {
   }
   for (const RigidBox& box : world.rigid) pile.speed = std::max(pile.speed, box.velocity.norm());
   return pile;
+}
+
+/// A blow that all solve for together leaves nothing on what it does not reach: a slab that hardly
+/// moves carries a stack, on a slope that friction holds, and cubes that bounce.
+TEST(Piles, AStackDoesNotCreepWhileOthersAreHit) {
+  World world = make_tower({});
+  world.settings.ground = ContactMaterial{0.0, 0.5};
+  const double slope = 12.0 / 180.0 * std::numbers::pi;
+  world.settings.gravity = 9.81 * Vec3(0.0, std::sin(slope), -std::cos(slope));
+  const auto add = [&](const Vec3& size, const Vec3& position, double mass, double restitution) {
+    world.rigid.push_back(make_rigid(size, position, mass));
+    world.rigid.back().surface = {restitution, 0.5};
+    world.rigid.back().rho_g = 0.0;
+  };
+  add({20.0, 4.0, 1.0}, {0.0, 0.0, 0.5}, 1e4, 0.9);
+  for (int i = 0; i < 3; ++i) add(Vec3::Ones(), {-8.0, 0.0, 1.5 + i}, 1.0, 0.0);
+  for (int i = 0; i < 12; ++i) {
+    add(Vec3::Constant(0.5), {-5.0 + i, -1.5, 1.55 + 0.35 * i}, 1.0, 0.9);
+  }
+  run_pile(world, 3.0);
+  // What the tolerance leaves, and the distance of the skins that boxes are shifted to.
+  for (int i = 1; i <= 3; ++i) EXPECT_LT(std::abs(world.rigid[at(i)].position.y()), 1e-5) << i;
+}
+
+/// Within the distance at which boxes touch, all that they keep between them stays as it is.
+TEST(Piles, BoxesThatTouchDoNotCreep) {
+  World world = make_tower({1.0, 1.0});
+  world.settings.ground = ContactMaterial{0.0, 0.5};
+  world.settings.gravity = Vec3(2.0, 0.0, -9.6);
+  world.rigid[1].position.z() += 0.008;
+  world.rigid[1].orientation = rotation_of_degrees({0.0, 0.1, 0.0});
+  const Vec3 start = world.rigid[1].position;
+  run_pile(world, 2.0);
+  EXPECT_LT((world.rigid[1].position - start).norm(), 1e-5);
 }
 
 TEST(Piles, ATowerOfFortyStands) {
