@@ -1,5 +1,6 @@
 #include "sim/rigid/rigid_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/rigid/inertia.h"
@@ -11,6 +12,12 @@ bool is_cube(const RigidBox& box) {
 }
 
 namespace {
+
+/// rad, by which a box turns in one of the steps of turned_freely, about: in longer ones the energy
+/// does not keep to its mean.
+constexpr double max_turn = 0.2;
+/// Of these in one step, however fast the box turns.
+constexpr double max_turns = 1000.0;
 
 /// The angular momentum stays, and the angular velocity follows the orientation.
 void rotate_freely(RigidBox& box, double step) {
@@ -36,17 +43,23 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
                                  const Vec3& angular_momentum, double duration) {
   const Vec3 inertia = body_inertia(box);
   if (is_cube(box)) return turned(orientation, duration / inertia.x() * angular_momentum);
+  const Vec3 along = orientation.conjugate() * angular_momentum;
+  const double angle = duration * along.cwiseQuotient(inertia).norm();
+  const double parts = std::clamp(std::ceil(angle / max_turn), 1.0, max_turns);
   Eigen::Quaterniond result = orientation;
-  const auto turn = [&](int axis, double part) {
+  const auto turn = [&](int axis, double time) {
     const Vec3 direction = result * Vec3::Unit(axis);
     const double rate = angular_momentum.dot(direction) / inertia[axis];
-    result = turned(result, part * rate * direction);
+    result = turned(result, time * rate * direction);
   };
-  turn(0, 0.5 * duration);
-  turn(1, 0.5 * duration);
-  turn(2, duration);
-  turn(1, 0.5 * duration);
-  turn(0, 0.5 * duration);
+  const double part = duration / parts;
+  for (double done = 0.0; done < parts; ++done) {
+    turn(0, 0.5 * part);
+    turn(1, 0.5 * part);
+    turn(2, part);
+    turn(1, 0.5 * part);
+    turn(0, 0.5 * part);
+  }
   return result;
 }
 

@@ -75,6 +75,23 @@ TEST(RigidMotion, TheEnergyErrorIsOfSecondOrderAndDoesNotAddUp) {
   }
 }
 
+/// By more than a radian in each step.
+TEST(RigidMotion, AFastSpinKeepsItsEnergy) {
+  RigidBox box = make_rigid({3.0, 0.1, 0.1}, Vec3::Zero(), 1.0);
+  box.rho_g = 0.0;
+  for (const double speed : {15.0, 100.0, 1000.0}) {
+    box.orientation.setIdentity();
+    box.angular_velocity = {0.5 * speed, 3.0, speed};
+    const double start = spin_energy(box);
+    double worst = 0.0;
+    for (int i = 0; i < 180; ++i) {
+      move_freely(box, Vec3::Zero(), 1.0 / 60.0);
+      worst = std::max(worst, std::abs(spin_energy(box) / start - 1.0));
+    }
+    EXPECT_LT(worst, 2e-3) << speed;  // of second order in what it turns by in a part of a step
+  }
+}
+
 TEST(RigidMotion, ACubeTurnsEvenly) {
   RigidBox cube = make_rigid({2.0, 2.0, 2.0}, Vec3::Zero());
   cube.rho_g = 0.0;
