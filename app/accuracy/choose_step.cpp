@@ -15,7 +15,8 @@
 #include "app/world/open_scene.h"
 #include "scenes/loader/integrator_names.h"
 #include "scenes/loader/overrides.h"
-#include "sim/soft/stability_limit.h"
+#include "sim/joints/body_springs.h"
+#include "sim/joints/spring_limit.h"
 #include "sim/step/plan.h"
 
 namespace pneuma::app {
@@ -33,11 +34,16 @@ Situation situation_of(const sim::World& world) {
   return alone ? Situation::free_flight : Situation::one_body;
 }
 
-/// s, of the body that is the first to fail; infinite for implicit integrators.
+/// s, of the body that is the first to fail; infinite for implicit integrators, but for springs
+/// between bodies.
 double stable_step(const sim::World& world, sim::Integrator integrator) {
   double least = std::numeric_limits<double>::infinity();
   for (const DistinctBody& body : distinct_bodies(world)) {
     least = std::min(least, sim::settled_stability_limit(integrator, *body.first).step);
+  }
+  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
+    if (sim::is_kinematic(world.soft[sim::at(i)]) || !sim::has_springs(world, i)) continue;
+    least = std::min(least, sim::joined_stability_limit(integrator, world, i).step);
   }
   return least;
 }

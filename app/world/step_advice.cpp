@@ -10,8 +10,9 @@
 
 #include "app/world/distinct_bodies.h"
 #include "scenes/loader/integrator_names.h"
+#include "sim/joints/body_springs.h"
+#include "sim/joints/spring_limit.h"
 #include "sim/potential/world_vibration.h"
-#include "sim/soft/stability_limit.h"
 
 namespace pneuma::app {
 namespace {
@@ -21,6 +22,32 @@ constexpr double safe_share = 0.9;
 /// By how much shorter steps are to be where the limit does not say.
 constexpr int blind_factor = 4;
 constexpr int most_steps_per_second = 1'000'000;  // what a scene may ask for
+
+/// Of a body of the world.
+int index_of(const sim::World& world, const sim::SoftBody& body) {
+  return static_cast<int>(&body - world.soft.data());
+}
+
+/// Whether most of the motion is that of springs between bodies.
+bool is_of_springs(const sim::World& world, int soft_body, const sim::Oscillation& motion) {
+  const sim::Oscillation springs = sim::spring_oscillation(world, soft_body);
+  return 2.0 * springs.squared_frequency > motion.squared_frequency ||
+         2.0 * springs.decay > motion.decay;
+}
+
+/// The stiffest spring on a body.
+std::string spring_reason(const sim::World& world, int soft_body) {
+  const sim::BodySpring* stiffest = nullptr;
+  for (const sim::BodySpring& spring : world.springs) {
+    if (spring.first.body != soft_body && spring.second.body != soft_body) continue;
+    if (!stiffest || spring.k > stiffest->k) stiffest = &spring;
+  }
+  return fmt::format(
+      "the [[spring]] from '{}' to '{}', k = {:g} N/m, damping = {:g} N s/m, with {}",
+      world.soft[sim::at(stiffest->first.body)].name,
+      world.soft[sim::at(stiffest->second.body)].name, stiffest->k, stiffest->damping,
+      scenes::integrator_name(world.settings.integrator));
+}
 
 /// What makes the motion that fails first so fast.
 std::string reason(const sim::World& world, const sim::SoftBody& body,
@@ -57,13 +84,16 @@ void choose_steps(const sim::World& world, StepAdvice& advice) {
 }  // namespace
 
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
-  const sim::StabilityLimit limit = sim::settled_stability_limit(world.settings.integrator, body);
+  const int index = index_of(world, body);
+  const sim::StabilityLimit limit =
+      sim::joined_stability_limit(world.settings.integrator, world, index);
   StepAdvice advice;
   advice.body = body.name;
   advice.step = sim::time_step(world.settings);
   advice.limit = limit.step;
-  advice.why = reason(world, body, limit.motion);
-  advice.implicit_can = !sim::is_implicit(world.settings.integrator) &&
+  advice.of_springs = sim::has_springs(world, index) && is_of_springs(world, index, limit.motion);
+  advice.why = advice.of_springs ? spring_reason(world, index) : reason(world, body, limit.motion);
+  advice.implicit_can = !advice.of_springs && !sim::is_implicit(world.settings.integrator) &&
                         sim::can_integrate(sim::Integrator::implicit_euler, body.material);
   choose_steps(world, advice);
   return advice;
@@ -92,6 +122,8 @@ std::string remedy(const StepAdvice& advice) {
   }
   if (advice.implicit_can) {
     ways.emplace_back("--set simulation.integrator=implicit_euler");
+  } else if (advice.of_springs && ways.empty()) {
+    ways.emplace_back("a smaller k or damping of " + advice.why);
   } else if (ways.empty()) {
     ways.emplace_back(
         "--set body.pressure_weighting=uniform --set simulation.integrator=implicit_euler");
@@ -101,9 +133,16 @@ std::string remedy(const StepAdvice& advice) {
 
 std::vector<StepAdvice> step_advices(const sim::World& world) {
   std::vector<StepAdvice> advices;
+  std::vector<bool> is_known(world.soft.size(), false);
   for (const DistinctBody& body : distinct_bodies(world)) {
     advices.push_back(step_advice(world, *body.first));
     advices.back().count = body.count;
+    is_known[sim::at(index_of(world, *body.first))] = true;
+  }
+  for (int i = 0; i < static_cast<int>(world.soft.size()); ++i) {
+    const sim::SoftBody& body = world.soft[sim::at(i)];
+    if (is_known[sim::at(i)] || sim::is_kinematic(body) || !sim::has_springs(world, i)) continue;
+    advices.push_back(step_advice(world, body));
   }
   return advices;
 }

@@ -17,13 +17,14 @@ struct StepAdvice {
   std::string why;            // "k = 1e+06 N/m, n = 1 mol, vertex_mass = 0.35 kg with rk4"
   bool implicit_can = false;  // take over
   bool of_contact = false;    // the limit
+  bool of_springs = false;    // between bodies: the limit, which implicit integrators have too
 
   bool too_long() const { return step > limit; }
 };
 
-/// Of a soft body as it is, and as it will be when its gas has blown it up (stability_limit.h). To
-/// try again with: steps within nine tenths of the limit; where they already are, a quarter as
-/// long.
+/// Of a soft body of the world as it is, and as it will be when its gas has blown it up
+/// (stability_limit.h), with the springs on it. To try again with: steps within nine tenths of the
+/// limit; where they already are, a quarter as long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 
 /// The same of a world in which something diverged: where contact is a potential and bodies touch,
@@ -34,7 +35,7 @@ StepAdvice step_advice_in_contact(const sim::World& world, const sim::SoftBody& 
 /// simulation.steps_per_second=540), or --set simulation.integrator=implicit_euler".
 std::string remedy(const StepAdvice& advice);
 
-/// Of one body for each mesh and material.
+/// Of one body for each mesh and material, and of all others with springs to other bodies.
 std::vector<StepAdvice> step_advices(const sim::World& world);
 
 /// A line about steps that are too long.

@@ -49,5 +49,28 @@ TEST(StepAdviceInContact, IsThatOfTheBodyForOtherContacts) {
             step_advice(world, world.soft[0]).limit);
 }
 
+/// Springs between bodies are stepped explicitly by implicit integrators too.
+TEST(StepAdvice, NamesTheSpringThatIsTooStiff) {
+  sim::World world = lying_ball();
+  world.soft.push_back(sim::make_body(sim::make_icosphere(1.0, 1), {4.0, 0.0, 1.02}));
+  world.soft[1].mesh = world.soft[0].mesh;
+  world.soft[1].material = world.soft[0].material;
+  world.soft[1].name = "other";
+  world.soft.push_back(world.soft[1]);
+  world.springs = {{{1, {3}}, {2, {5}}, 1e6, 0.0, 1.0}};
+  for (const sim::Integrator integrator : {sim::Integrator::rk4, sim::Integrator::sdirk2}) {
+    world.settings.integrator = integrator;
+    const std::vector<StepAdvice> advices = step_advices(world);
+    ASSERT_EQ(advices.size(), 3u);  // all alike, and the two that the spring joins
+    EXPECT_FALSE(advices[0].too_long());
+    EXPECT_TRUE(advices[1].of_springs);
+    EXPECT_TRUE(advices[2].too_long());
+    const std::string warning = step_warning(advices[2]);
+    EXPECT_NE(warning.find("[[spring]] from 'other' to"), std::string::npos) << warning;
+    EXPECT_NE(warning.find("k = 1e+06 N/m"), std::string::npos) << warning;
+    EXPECT_EQ(warning.find("implicit_euler"), std::string::npos) << warning;
+  }
+}
+
 }  // namespace
 }  // namespace pneuma::app
