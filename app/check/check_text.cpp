@@ -292,11 +292,12 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
   }
   text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) +
           gas_ranges_text(run) + shapes_text(run) + momentum_text(run);
-  const bool rests = run.end_speed < rest_speed && !run.divergence;
+  const bool rests = run.at_end.speed < rest_speed && !run.divergence;
   text += named_line(
       "speed at the end",
       fmt::format(
-          "{:.3g} m/s at most: {} (that is below {:g} m/s){}", run.end_speed,
+          "{:.3g} m/s at most{}: {} (that is below {:g} m/s){}", run.at_end.speed,
+          run.at_end.body.empty() ? "" : ", of " + run.at_end.body,
           rests ? "at rest" : "not at rest", rest_speed,
           rests && run.rests_from ? fmt::format(" from {:.2f} s on", *run.rests_from) : ""));
   return text + named_line("state hash", hex(run.state_hash));

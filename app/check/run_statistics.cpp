@@ -26,30 +26,34 @@ double volume(const sim::SoftBody& body) {
   return sim::volume(body.mesh->topology, body.positions);
 }
 
-/// Of the soft bodies; none of those that never move.
+/// Of the soft bodies; none of those that never move, or only as they are told to.
 void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& positions) {
   positions.resize(world.soft.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!sim::is_still(world.soft[i])) positions[i] = world.soft[i].positions;
+    if (!sim::is_kinematic(world.soft[i])) positions[i] = world.soft[i].positions;
   }
 }
 
-/// m/s, in the last `duration` (s), at whose start the soft bodies were `before`. The velocity of a
+/// In the last `duration` (s), at whose start the soft bodies were `before`. The velocity of a
 /// vertex that is pressed holds, at the end of a step, what its forces did since the last impulses.
-double fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before,
-                     double duration) {
-  double way = 0.0;  // m
+FastestPoint fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before,
+                           double duration) {
+  FastestPoint fastest;
+  const auto meet = [&](double speed, const std::string& body) {
+    if (speed > fastest.speed) fastest = {speed, body};
+  };
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].size() == 0) continue;
-    way = std::max(way, sim::max_distance(before[i], world.soft[i].positions));
+    const sim::SoftBody& body = world.soft[i];
+    meet(sim::max_distance(before[i], body.positions) / duration, body.name);
   }
-  double speed = way / duration;
   for (const sim::RigidBox& box : world.rigid) {
+    if (box.is_kinematic) continue;
     // No point of a box is farther from its axis of rotation than half the diagonal.
     const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
-    speed = std::max(speed, box.velocity.norm() + rim);
+    meet(box.velocity.norm() + rim, box.name);
   }
-  return speed;
+  return fastest;
 }
 
 std::vector<std::string> what_pushes(const sim::World& world) {
@@ -167,10 +171,10 @@ class Observer {
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
       add_gas(world.soft[b], result_.gas[b]);
     }
-    speed_ = fastest_point(world, before_, sim::time(world) - frame_time_);
+    fastest_ = fastest_point(world, before_, sim::time(world) - frame_time_);
     keep_positions(world, before_);
     frame_time_ = sim::time(world);
-    if (speed_ >= rest_speed) {
+    if (fastest_.speed >= rest_speed) {
       result_.rests_from.reset();
     } else if (!result_.rests_from) {
       result_.rests_from = sim::time(world);
@@ -183,7 +187,7 @@ class Observer {
     result_.energy_end = sim::energy(world);
     result_.energy_span = greatest_energy_ - least_energy_;
     result_.momentum_end = sim::momentum(world);
-    result_.end_speed = speed_;
+    result_.at_end = fastest_;
     result_.state_hash = sim::state_hash(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       result_.volumes[b].end = volume(world.soft[b]);
@@ -257,7 +261,7 @@ class Observer {
   std::int64_t all_steps_;
   std::vector<sim::VertexArray> before_;  // where the soft bodies were in the last frame
   double frame_time_;                     // s, its
-  double speed_ = 0.0;                    // m/s, of the fastest point, up to it
+  FastestPoint fastest_;                  // up to it
   double last_energy_;
   double least_energy_;
   double greatest_energy_;

@@ -46,6 +46,12 @@ struct GasRange {
   ValueRange n;         // mol
 };
 
+/// Of all bodies but those that move as they are told to; of a soft one over a frame.
+struct FastestPoint {
+  double speed = 0.0;  // m/s
+  std::string body;    // empty: nothing moves
+};
+
 /// How often and how much surfaces passed through each other, in the frames of a run.
 struct CrossingStatistics {
   int frames = 0;            // in which some did
@@ -104,7 +110,7 @@ struct RunStatistics {
   sim::Momentum momentum_start;
   sim::Momentum momentum_end;
 
-  double end_speed = 0.0;  // m/s, of the fastest point of any body; of soft ones over a frame
+  FastestPoint at_end;
   // s, of the first frame from which on nothing is faster than rest_speed; none: it is at the end.
   std::optional<double> rests_from;
   std::uint64_t state_hash = 0;

@@ -133,9 +133,18 @@ void throw_complaint(const CLI::App& command, std::initializer_list<std::string>
   throw UsageError(fmt::format("{}\n`{} --help` says more", *complaint, full_name(command)));
 }
 
+/// "pneuma help render" is "pneuma render --help".
+std::vector<std::string> with_help_as_option(std::vector<std::string> command_line) {
+  if (command_line.size() < 2 || command_line[1] != "help") return command_line;
+  command_line.erase(command_line.begin() + 1);
+  command_line.emplace_back("--help");
+  return command_line;
+}
+
 }  // namespace
 
-bool read_command_line(CLI::App& cli, const std::vector<std::string>& command_line) {
+bool read_command_line(CLI::App& cli, const std::vector<std::string>& typed) {
+  const std::vector<std::string> command_line = with_help_as_option(typed);
   const NamedCommand named = named_command(cli, command_line);
   try {
     // CLI11 takes its words from the end of a vector.

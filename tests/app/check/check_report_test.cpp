@@ -161,10 +161,11 @@ TEST(RunStatisticsText, SaysWhatTheEnergyLeavesOut) {
 
 TEST(RunStatisticsText, SaysAtRestOrNot) {
   RunStatistics run;
-  run.end_speed = 0.9 * rest_speed;
+  run.at_end = {0.9 * rest_speed, "ball"};
   EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": at rest"), std::string::npos);
-  run.end_speed = 1.1 * rest_speed;
-  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": not at rest"), std::string::npos);
+  run.at_end.speed = 1.1 * rest_speed;
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find("m/s at most, of ball: not at rest"),
+            std::string::npos);
 }
 
 TEST(RunStatisticsText, SaysWhatWasPressedToNextToNothing) {

@@ -55,7 +55,18 @@ TEST(RunStatistics, HaveSpeedsOverAFrame) {
   // mean velocity.
   const RunStatistics run = statistics_of(
       free_sphere, {"body.n=0", "body.velocity=[0, 0, 0]", "simulation.gravity=[0, 0, -9.81]"});
-  EXPECT_NEAR(run.end_speed, 9.81 * (0.5 - 1.0 / 60.0), 1e-9);
+  EXPECT_NEAR(run.at_end.speed, 9.81 * (0.5 - 1.0 / 60.0), 1e-9);
+  EXPECT_EQ(run.at_end.body, "balloon");
+}
+
+TEST(RunStatistics, LeaveOutTheSpeedOfWhatMovesAsItIsTold) {
+  constexpr const char* belts =
+      "duration = 0.5\n[[body]]\nname = \"belt\"\nkind = \"moved\"\nshape = \"box\"\n"
+      "velocity = [3, 0, 0]\n[[body]]\nname = \"wheel\"\nkind = \"moved\"\nshape = \"sphere\"\n"
+      "position = [0, 9, 0]\nvelocity = [4, 0, 0]\n";
+  const RunStatistics run = statistics_of(belts);
+  EXPECT_EQ(run.at_end.speed, 0.0);
+  EXPECT_EQ(run.at_end.body, "");
 }
 
 TEST(RunStatistics, SayThatThePinsMove) {

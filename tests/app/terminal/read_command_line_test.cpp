@@ -45,6 +45,12 @@ TEST(Help, ListsTheExitCodes) {
   EXPECT_SAYS(run_pneuma("--help").output, "Exit codes: 0 done; 1 ");
 }
 
+TEST(Help, IsAskedForByAWordToo) {
+  EXPECT_EQ(run_pneuma("help").output, run_pneuma("--help").output);
+  EXPECT_EQ(run_pneuma("help study error").output, run_pneuma("study error --help").output);
+  EXPECT_EQ(run_pneuma("help").exit_code, 0);
+}
+
 TEST(EmptyValue, IsNoValue) {
   for (const char* typed : {"render one_sphere --out ''", "export one_sphere --out ''",
                             "render one_sphere --video ''", "check ''"}) {

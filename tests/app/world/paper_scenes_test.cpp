@@ -173,7 +173,7 @@ TEST_P(PaperSceneTest, SettlesWithinItsBoundsOfPenetrationEnergyAndSpeed) {
   EXPECT_LT(GetParam().settled_penetration, scene_.settings.skin_thickness);
   EXPECT_EQ(statistics.start_penetration, 0.0);
   EXPECT_LE(statistics.energy_rises, GetParam().energy_rises * statistics.energy_span);
-  EXPECT_LE(statistics.end_speed, GetParam().end_speed);
+  EXPECT_LE(statistics.at_end.speed, GetParam().end_speed);
   EXPECT_GT(statistics.contacts.all.sum, 0);
   if (GetParam().touch) {
     EXPECT_EQ(statistics.settled_contacts.touching_share(), 1.0);
