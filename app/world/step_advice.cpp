@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
@@ -28,11 +29,13 @@ int index_of(const sim::World& world, const sim::SoftBody& body) {
   return static_cast<int>(&body - world.soft.data());
 }
 
-/// Whether most of the motion is that of springs between bodies.
-bool is_of_springs(const sim::World& world, int soft_body, const sim::Oscillation& motion) {
-  const sim::Oscillation springs = sim::spring_oscillation(world, soft_body);
-  return 2.0 * springs.squared_frequency > motion.squared_frequency ||
-         2.0 * springs.decay > motion.decay;
+/// Whether most of the fastest motion of a body, which bears steps up to the `limit` (s), is that
+/// of the springs on it.
+bool is_of_springs(const sim::World& world, int soft_body, double limit) {
+  if (!sim::has_springs(world, soft_body)) return false;
+  const sim::SoftBody& body = world.soft[sim::at(soft_body)];
+  const double own = sim::settled_stability_limit(world.settings.integrator, body).step;
+  return limit < std::numbers::sqrt2 / 2.0 * own;
 }
 
 /// The stiffest spring on a body.
@@ -91,7 +94,7 @@ StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
   advice.body = body.name;
   advice.step = sim::time_step(world.settings);
   advice.limit = limit.step;
-  advice.of_springs = sim::has_springs(world, index) && is_of_springs(world, index, limit.motion);
+  advice.of_springs = is_of_springs(world, index, limit.step);
   advice.why = advice.of_springs ? spring_reason(world, index) : reason(world, body, limit.motion);
   advice.implicit_can = !advice.of_springs && !sim::is_implicit(world.settings.integrator) &&
                         sim::can_integrate(sim::Integrator::implicit_euler, body.material);

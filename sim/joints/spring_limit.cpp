@@ -1,7 +1,6 @@
 #include "sim/joints/spring_limit.h"
 
 #include <algorithm>
-#include <array>
 
 #include "sim/soft/damping.h"
 #include "sim/soft/pins.h"
