@@ -19,8 +19,8 @@ bool is_cube(const RigidBox& box);
 /// L_x^2 / (2 I_x) and so on, and under one term alone the body turns evenly about that axis, by
 /// t L_x / I_x. These turns, made one after the other and back, are a step of second order that is
 /// symplectic and the same backwards: the error of the energy does not add up (Touma and Wisdom
-/// 1994, "Lie-Poisson integrators for rigid body dynamics in the solar system"), as long as the body
-/// turns by little in each: several are made of a long one. Of a cube exact.
+/// 1994, "Lie-Poisson integrators for rigid body dynamics in the solar system"), as long as the
+/// body turns by little in each: several are made of a long one. Of a cube exact.
 Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& orientation,
                                  const Vec3& angular_momentum, double duration);
 
