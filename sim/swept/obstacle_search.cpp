@@ -247,8 +247,8 @@ class ObstacleSearch::FeatureSearch {
     const Vec4d heights = heights_above(soft, face.corners);
     const double lowest = smallest_lane(heights);
     if (lowest >= pair_.near) return;
-    for (const int v : soft_.topology().triangles()[at(triangle)]) {
-      if (soft_.owner_of_vertex(v) != triangle || !overlap(vertex_box(v), box)) continue;
+    for (const int v : soft_.owned_by(triangle).vertices()) {
+      if (!overlap(vertex_box(v), box)) continue;
       add({FeatureKind::vertex, v}, {FeatureKind::triangle, other});
     }
     if (std::max(lowest, beyond) >= reach_) return;
@@ -268,13 +268,12 @@ class ObstacleSearch::FeatureSearch {
   using EdgeSides = ObstacleShape::EdgeSides;
 
   void meet_edges(int triangle, const WayBox& box, int other) {
-    for (const int f : obstacle_.topology().triangle_edges()[at(other)]) {
-      if (obstacle_.owner_of_edge(f) != other || !pair_.shape.is_touchable_edge(f)) continue;
+    for (const int f : obstacle_.owned_by(other).edges()) {
+      if (!pair_.shape.is_touchable_edge(f)) continue;
       const WayBox around = edge_box(obstacle_, pair_.obstacle, f);
       if (!overlap(box, around)) continue;
       const EdgeSides& sides = pair_.shape.edge_sides()[at(f)];
-      for (const int e : soft_.topology().triangle_edges()[at(triangle)]) {
-        if (soft_.owner_of_edge(e) != triangle) continue;
+      for (const int e : soft_.owned_by(triangle).edges()) {
         const SoftEdge& soft = soft_edge(e);
         if (!overlap(soft.box, around)) continue;
         if (!may_pass_ && !may_be_nearest(soft.sides, sides)) continue;
