@@ -9,7 +9,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x36414d55454e50ULL;  // "PNEUMA6" as little-endian bytes
+constexpr std::uint64_t magic = 0x37414d55454e50ULL;  // "PNEUMA7" as little-endian bytes
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   base::Hash hash;
@@ -169,6 +169,38 @@ void get(Reader& reader, const World& world, WarmStartImpulse& impulse) {
   }
 }
 
+void put(Writer& writer, const Feature& feature) {
+  writer.put(static_cast<int>(feature.kind));
+  writer.put(feature.index);
+}
+
+void get(Reader& reader, Feature& feature) {
+  int kind = 0;
+  reader.get(kind);
+  reader.get(feature.index);
+  feature.kind = static_cast<FeatureKind>(kind);
+}
+
+void put(Writer& writer, const FrictionSlip& slip) {
+  writer.put(slip.first);
+  writer.put(slip.second);
+  put(writer, slip.first_feature);
+  put(writer, slip.second_feature);
+  writer.put(slip.slip);
+}
+
+void get(Reader& reader, const World& world, FrictionSlip& slip) {
+  reader.get(slip.first);
+  reader.get(slip.second);
+  get(reader, slip.first_feature);
+  get(reader, slip.second_feature);
+  reader.get(slip.slip);
+  if (slip.first < 0 || slip.first >= body_count(world) || slip.second < -1 ||
+      slip.second >= body_count(world)) {
+    throw CheckpointError("the saved state has friction of bodies that do not exist");
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> save_state(const World& world) {
@@ -209,6 +241,8 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(impulse.impulse);
     put(writer, impulse.is_of_start);
   }
+  writer.put(world.friction_slips.size());
+  for (const FrictionSlip& slip : world.friction_slips) put(writer, slip);
   writer.put(world.depenetrating.size());
   for (const DepenetratingPair& pair : world.depenetrating) {
     writer.put(pair.first);
@@ -251,6 +285,8 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
   loaded.warm_start_impulses.assign(reader.count(), {});
   for (WarmStartImpulse& impulse : loaded.warm_start_impulses) get(reader, loaded, impulse);
+  loaded.friction_slips.assign(reader.count(), {});
+  for (FrictionSlip& slip : loaded.friction_slips) get(reader, loaded, slip);
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
   get_lost_energy(reader, loaded);

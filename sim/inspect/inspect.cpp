@@ -141,6 +141,12 @@ std::uint64_t state_hash(const World& world) {
     add(hash, impulse.impulse);
     if (impulse.is_of_start) hash.add(std::uint64_t{1});
   }
+  for (const FrictionSlip& slip : world.friction_slips) {
+    add_list(hash,
+             {slip.first, static_cast<int>(slip.first_feature.kind), slip.first_feature.index,
+              slip.second, static_cast<int>(slip.second_feature.kind), slip.second_feature.index});
+    add(hash, slip.slip);
+  }
   for (const DepenetratingPair& pair : world.depenetrating)
     add_list(hash, {pair.first, pair.second});
   for (std::size_t i = 0; i < world.lost_energy.size(); ++i) {

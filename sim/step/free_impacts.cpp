@@ -10,8 +10,6 @@
 namespace pneuma::sim {
 namespace {
 
-/// Of a skin: points that are no further from being hit are hit as well.
-constexpr double hit_together = 0.5;
 /// rad, after an impact: a box that turns further could hit the ground and leave it again. Its
 /// corners' arcs are off their chords by that squared over 8.
 constexpr double allowed_turn = 0.5;

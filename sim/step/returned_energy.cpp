@@ -49,8 +49,6 @@ std::size_t contact_of(const SweptMemory& memory, const SweptImpulse* impulse) {
   return static_cast<std::size_t>(impulse - memory.impulses.data());
 }
 
-bool is_hit(const SweptContact& contact) { return contact.returns_energy && contact.is_near; }
-
 /// The contacts of an island, as one impact.
 class LoneImpact {
  public:

@@ -52,6 +52,9 @@ class SweptBodies {
   int box(int body) const { return body - soft_count_; }
   /// The body that a box is, or -1 the ground.
   int of_box(int box) const { return box < 0 ? swept_ground : box + soft_count_; }
+  /// For those who ask for contacts and for messages. `feature`: of a soft body.
+  ContactSide contact_side(int body, const Feature& feature) const;
+  std::string name(const World& world, int body) const;
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
   /// Whether it is a soft body that is an obstacle and keeps its shape.
   bool is_obstacle(int body) const { return obstacles_[at(body)] || is_in_own_axes(body); }

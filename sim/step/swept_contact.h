@@ -27,6 +27,11 @@ struct SweptContact {
   int previous = -1;     // the contact that the same features made before this one
 };
 
+/// Whether it bounces at the end of the step.
+inline bool is_hit(const SweptContact& contact) {
+  return contact.returns_energy && contact.is_near;
+}
+
 /// Features of two bodies, or of one and the ground, that may meet in the step; or a point of the
 /// contact of two boxes that are near each other when it starts, and may overlap.
 struct SweptCandidate {

@@ -353,17 +353,27 @@ SweptContact SweptSearch::place_at(const SweptCandidate& candidate, double fract
 
 std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& candidate, bool acted) {
   const auto [first, second] = candidate.bodies;
-  if (second == swept_ground) {
-    const SweptContact contact = place_on_ground(candidate, Moment::end);
-    if (contact.is_near || acted) return contact;
-    return std::nullopt;
+  return place_at_end(candidate, acted, acted ? any_distance : near_distance(first, second));
+}
+
+std::optional<SweptContact> SweptSearch::place_beside_hit(const SweptCandidate& candidate) {
+  const auto [first, second] = candidate.bodies;
+  const double near = near_distance(first, second);
+  auto contact = place_at_end(candidate, false, near + hit_together * bodies_.skin(first));
+  if (!contact || contact->distance < near) return std::nullopt;
+  contact->is_near = true;
+  return contact;
+}
+
+/// Within the `reach`, m.
+std::optional<SweptContact> SweptSearch::place_at_end(const SweptCandidate& candidate, bool acted,
+                                                      double reach) {
+  const auto [first, second] = candidate.bodies;
+  if (second == swept_ground || candidate.is_of_near_boxes) {
+    const SweptContact contact =
+        second == swept_ground ? place_on_ground(candidate, Moment::end) : move_to_end(candidate);
+    return contact.distance < reach ? std::optional(contact) : std::nullopt;
   }
-  if (candidate.is_of_near_boxes) {
-    const SweptContact contact = move_to_end(candidate);
-    if (contact.is_near || acted) return contact;
-    return std::nullopt;
-  }
-  const double reach = acted ? any_distance : near_distance(first, second);
   const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
                                       candidate.features, Moment::end, reach);
   if (!closest || !(acted || stands(candidate, *closest, Moment::end))) return std::nullopt;
@@ -404,9 +414,17 @@ Vec3 SweptSearch::end_velocity(const SweptContact& contact) const {
   return bodies_.end_velocity(world_, first) - bodies_.end_velocity(world_, second);
 }
 
+bool SweptSearch::is_driven(const SurfacePoint& side) const {
+  return side.body != swept_ground && is_kinematic(world_, side.body);
+}
+
+bool SweptSearch::is_driven(const SweptContact& contact) const {
+  return is_driven(contact.first) || is_driven(contact.second);
+}
+
 Vec3 SweptSearch::driven_velocity(const SweptContact& contact, Moment moment) const {
   const auto of = [&](const SurfacePoint& side) -> Vec3 {
-    if (side.body == swept_ground || !is_kinematic(world_, side.body)) return Vec3::Zero();
+    if (!is_driven(side)) return Vec3::Zero();
     return moment == Moment::start ? bodies_.start_velocity(world_, start_, side)
                                    : bodies_.end_velocity(world_, side);
   };

@@ -16,10 +16,14 @@
 
 namespace pneuma::sim {
 
+/// Of a skin: points of boxes that are no further from being hit than others are hit as well.
+inline constexpr double hit_together = 0.5;
+
 /// What a step or a part of it began with, that has failed and is to be halved.
 struct SweptStart {
   MotionStart motion;
   std::vector<WarmStartImpulse> warm_start_impulses;
+  std::vector<FrictionSlip> friction_slips;
   std::vector<double> lost_energy;  // J
 };
 
@@ -130,6 +134,7 @@ struct SweptMemory {
   ReturnedEnergyMemory returned_energy;
   ImpactPath impact_path;
   std::vector<ImpactPoint> impact_points;
+  std::vector<FrictionSlip> friction_slips;
   std::vector<double> lost_energy;      // World's, before the step
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
@@ -149,6 +154,9 @@ struct SweptMemory {
   double work = 0.0;          // J, of all contacts of the last step
   double driven_work = 0.0;   // J, of the bodies that are moved
 };
+
+/// Appends the contacts that pressed, for those who ask the stepper.
+void list_pressing(const SweptMemory& memory, std::vector<Contact>& contacts);
 
 /// Finds the contacts of one step of a world: fills the memory's contacts and impulses.
 class SweptSearch {
@@ -191,6 +199,9 @@ class SweptSearch {
   /// `acted` on each other at the start. None if another pair stands for it, or if nothing says
   /// where they would part.
   std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted);
+  /// Of two boxes, or of one and the ground: where the features are nearest at the end, if they
+  /// are not in contact but so little further apart that they are hit together with others.
+  std::optional<SweptContact> place_beside_hit(const SweptCandidate& candidate);
   SweptImpulse impulse(const SweptContact& contact, double friction);
 
   /// Of the first side against the second, m.
@@ -207,12 +218,15 @@ class SweptSearch {
   ContactMaterial material(const SweptContact& contact) const;
   /// Boxes, and boxes and the ground: what rests on each other stays there.
   bool is_rigid(const SweptContact& contact) const;
+  /// Whether one of its sides is moved as its keys say.
+  bool is_driven(const SweptContact& contact) const;
   /// m, up to which features of two bodies are in contact.
   double near_distance(int first, int second) const;
 
  private:
   double distance_wanted(int first, int second) const;
   const ContactMaterial& material(int body) const;
+  bool is_driven(const SurfacePoint& side) const;
   void find_approach(SweptContact& contact, const Vec3& kicked) const;
   std::pair<SurfacePoint, SurfacePoint> where_impulses_act(const SweptContact& contact) const;
   void search_beside_obstacles();
@@ -254,6 +268,8 @@ class SweptSearch {
                      Moment moment) const;
   SweptContact place_along_line(const SweptCandidate& candidate, double fraction) const;
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
+  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted,
+                                           double reach);
   SweptContact move_to_end(const SweptCandidate& candidate) const;
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;

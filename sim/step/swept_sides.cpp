@@ -1,11 +1,12 @@
-// What impulses see of the bodies of a step and do to them; how these are found: swept_bodies.cpp.
+// What impulses see of the bodies of a step, do to them and have done; how these are found:
+// swept_bodies.cpp.
 #include <array>
 
 #include "sim/rigid/inertia.h"
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stages.h"
-#include "sim/step/swept_bodies.h"
+#include "sim/step/swept_search.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
@@ -15,6 +16,17 @@ namespace {
 constexpr double least_mobility = 1e-3;
 
 }  // namespace
+
+ContactSide SweptBodies::contact_side(int body, const Feature& feature) const {
+  if (body == swept_ground) return {};
+  if (is_rigid(body)) return {SideKind::rigid, box(body), {}};
+  return {SideKind::soft, body, feature};
+}
+
+std::string SweptBodies::name(const World& world, int body) const {
+  if (body == swept_ground) return "the ground";
+  return is_rigid(body) ? world.rigid[at(box(body))].name : world.soft[at(body)].name;
+}
 
 template <class Value>
 Vec3 SweptBodies::interpolate(const SurfacePoint& point, const Value& value) const {
@@ -226,6 +238,29 @@ void SweptBodies::add_changes(World& world) const {
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     world.rigid[i].velocity += to_vec3(box_changes_[i].velocity);
     world.rigid[i].angular_velocity += to_vec3(box_changes_[i].angular_velocity);
+  }
+}
+
+void list_pressing(const SweptMemory& memory, std::vector<Contact>& contacts) {
+  const auto side = [&](const SurfacePoint& point) {
+    return memory.bodies.contact_side(point.body, point.feature);
+  };
+  for (const MetFreely& met : memory.met_freely) {
+    contacts.push_back({.first = memory.bodies.contact_side(met.first, {}),
+                        .second = memory.bodies.contact_side(met.second, {}),
+                        .point = met.point,
+                        .normal = met.normal,
+                        .impulse = met.impulse});
+  }
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    const SweptContact& contact = memory.contacts[i];
+    const Vec3 impulse = memory.given_at_start[i] + memory.impulses[i].given();
+    if (impulse.isZero(0.0)) continue;
+    contacts.push_back({.first = side(contact.first),
+                        .second = side(contact.second),
+                        .point = contact.first.point,
+                        .normal = contact.normal,
+                        .impulse = impulse});
   }
 }
 

@@ -52,6 +52,7 @@ class SweptStep {
   std::optional<Divergence> advance(int halvings) {
     SweptStart& start = m_.starts[at(halvings)];
     start.warm_start_impulses = world_.warm_start_impulses;
+    start.friction_slips = world_.friction_slips;
     start.lost_energy = world_.lost_energy;
     const double work = m_.work, driven_work = m_.driven_work;
     const std::size_t contacts = w_.contacts.size();
@@ -92,6 +93,7 @@ class SweptStep {
     restore_soft(world_, start.motion.soft);
     restore_rigid(world_, start.motion.rigid);
     world_.warm_start_impulses = start.warm_start_impulses;
+    world_.friction_slips = start.friction_slips;
     world_.lost_energy = start.lost_energy;
   }
 
@@ -174,6 +176,7 @@ class SweptStep {
 
   /// What the impulses at the start must still change, with the motion as it came out: what moved
   /// the sides other than the impulses stays. Shifts are no motion: impulses do not resist them.
+  /// What friction let slip in earlier steps it takes back.
   void aim_at_distances() {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
@@ -181,7 +184,8 @@ class SweptStep {
       const Vec3 moved = (search_.displacement(contact) - shift) / step();
       const Vec3 free = moved - m_.impulses[i].change();
       const double parting = may_move(contact, contact.normal.dot(shift)) / step();
-      m_.impulses[i].aim(parting - contact.normal.dot(free), free);
+      const Vec3 slip = warm_start_.slip(contact) / step();
+      m_.impulses[i].aim(parting - contact.normal.dot(free), free + slip);
     }
   }
 
@@ -211,6 +215,7 @@ class SweptStep {
 
   std::optional<Divergence> finish() {
     count_work_of_start();
+    warm_start_.remember_slips(search_);
     m_.work += keep_angular_momentum(world_, m_);
     meet_freely(world_, m_, search_, start(), tolerance());
     std::swap(m_.first_contacts, m_.contacts);
@@ -224,9 +229,7 @@ class SweptStep {
       m_.work += resolve_alone_on_ground(world_, search_, w_);
       m_.work += lift_sunk_vertices(world_, w_);
     }
-    for (const SweptCandidate& candidate : m_.candidates) {
-      if (!has_met(candidate)) touch(candidate);
-    }
+    touch_at_end();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
     follow_impacts(m_, tolerance());
@@ -240,7 +243,8 @@ class SweptStep {
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
-    report();
+    warm_start_.forget_sliding_boxes(search_);
+    list_pressing(m_, w_.contacts);
     if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }
@@ -302,6 +306,30 @@ class SweptStep {
     return given;
   }
 
+  void touch_at_end() {
+    const auto all = std::span(m_.candidates);
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+      const BodyPair bodies = all[first].bodies;
+      while (end < all.size() && all[end].bodies == bodies) ++end;
+      touch_at_end(all.subspan(first, end - first));
+    }
+  }
+
+  /// Of two bodies. The points of faces that come together differ by what is left of a solution;
+  /// boxes of which one corner alone were hit would turn.
+  void touch_at_end(std::span<const SweptCandidate> candidates) {
+    const std::size_t before = m_.contacts.size();
+    for (const SweptCandidate& candidate : candidates) {
+      if (!has_met(candidate)) touch(candidate);
+    }
+    const auto touched = std::span(m_.contacts).subspan(before);
+    if (touched.empty() || !search_.is_rigid(touched.front())) return;
+    if (std::ranges::none_of(touched, is_hit)) return;
+    for (const SweptCandidate& candidate : candidates) {
+      if (!has_met(candidate)) hit_as_well(candidate);
+    }
+  }
+
   /// What touches at the end does not approach, or bounces. An impulse of the start whose features
   /// did not meet is given back.
   void touch(const SweptCandidate& candidate) {
@@ -315,12 +343,28 @@ class SweptStep {
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     set_parting(before, both.restitution, *contact);
-    const Vec3 velocity = search_.end_velocity(*contact);
-    impulse.aim(contact->parting - contact->normal.dot(velocity), velocity);
-    m_.contacts.push_back(*contact);
+    add_at_end(*contact, impulse, before.impulse);
+  }
+
+  void hit_as_well(const SweptCandidate& candidate) {
+    if (given_at_start(candidate).normal > 0.0) return;
+    auto contact = search_.place_beside_hit(candidate);
+    if (!contact) return;
+    const ContactMaterial both = search_.material(*contact);
+    const double approach = -contact->normal.dot(search_.end_velocity(*contact));
+    set_parting({.is_known = true, .approach = approach}, both.restitution, *contact);
+    add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
+  }
+
+  void add_at_end(const SweptContact& contact, SweptImpulse impulse, const Vec3& given_at_start) {
+    const Vec3 velocity = search_.end_velocity(contact);
+    Vec3 sliding = velocity;
+    if (search_.is_rigid(contact)) sliding += warm_start_.slip(contact) / step();
+    impulse.aim(contact.parting - contact.normal.dot(velocity), sliding);
+    m_.contacts.push_back(contact);
     m_.impulses.push_back(impulse);
     m_.end_velocities.push_back(velocity);
-    m_.given_at_start.push_back(before.impulse);
+    m_.given_at_start.push_back(given_at_start);
   }
 
   /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
@@ -344,41 +388,6 @@ class SweptStep {
     }
   }
 
-  /// The contacts that pressed, for those who ask the stepper.
-  void report() {
-    const auto box = [&](int body) {
-      return body == swept_ground ? ContactSide{}
-                                  : ContactSide{SideKind::rigid, bodies_.box(body), {}};
-    };
-    const auto side = [&](const SurfacePoint& point) {
-      if (point.body == swept_ground || bodies_.is_rigid(point.body)) return box(point.body);
-      return ContactSide{SideKind::soft, point.body, point.feature};
-    };
-    for (const MetFreely& met : m_.met_freely) {
-      w_.contacts.push_back({.first = box(met.first),
-                             .second = box(met.second),
-                             .point = met.point,
-                             .normal = met.normal,
-                             .impulse = met.impulse});
-    }
-    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      const SweptContact& contact = m_.contacts[i];
-      const Vec3 impulse = m_.given_at_start[i] + m_.impulses[i].given();
-      if (impulse.isZero(0.0)) continue;
-      w_.contacts.push_back({.first = side(contact.first),
-                             .second = side(contact.second),
-                             .point = contact.first.point,
-                             .normal = contact.normal,
-                             .impulse = impulse});
-    }
-  }
-
-  std::string name(int body) const {
-    if (body == swept_ground) return "the ground";
-    return bodies_.is_rigid(body) ? world_.rigid[at(bodies_.box(body))].name
-                                  : world_.soft[at(body)].name;
-  }
-
   /// Words, which need memory, are for steps that cannot.
   bool can_be_halved() const { return fraction_ > std::ldexp(1.0, -max_halvings); }
 
@@ -390,8 +399,8 @@ class SweptStep {
     const SweptImpulse* most = std::ranges::max(
         impulses, {}, [](const SweptImpulse* impulse) { return impulse->normal_impulse(); });
     const SweptContact& contact = m_.contacts[at(static_cast<int>(most - m_.impulses.data()))];
-    divergence.body = name(contact.first.body);
-    divergence.what = "its contacts with " + name(contact.second.body) + " add " +
+    divergence.body = bodies_.name(world_, contact.first.body);
+    divergence.what = "its contacts with " + bodies_.name(world_, contact.second.body) + " add " +
                       base::text(excess.left) +
                       " J, which is more than their motion against each other can give back";
     return divergence;
@@ -400,8 +409,9 @@ class SweptStep {
   Divergence blocked() const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
     if (can_be_halved()) return divergence;
-    divergence.body = name(search_.blocked()->first);
-    divergence.what = "it cannot be kept from passing through " + name(search_.blocked()->second) +
+    divergence.body = bodies_.name(world_, search_.blocked()->first);
+    divergence.what = "it cannot be kept from passing through " +
+                      bodies_.name(world_, search_.blocked()->second) +
                       " in parts of the step either";
     return divergence;
   }
@@ -416,6 +426,18 @@ class SweptStep {
   double fraction_ = 1.0;  // of a whole step
   bool was_halved_ = false;
 };
+
+/// Of a world whose bodies were others, nothing is known.
+void forget_other_bodies(World& world) {
+  const auto is_of = [](std::size_t bodies, const auto& known) {
+    return known.empty() || known.size() == bodies;
+  };
+  if (is_of(at(body_count(world)), world.rest) && is_of(world.soft.size(), world.lost_energy))
+    return;
+  world.rest.clear();
+  world.lost_energy.clear();
+  world.friction_slips.clear();
+}
 
 /// Returns whether there were any.
 bool wake_what_was_touched(World& world, SweptMemory& memory) {
@@ -436,11 +458,7 @@ std::optional<Divergence> swept_step(World& world, StepWorkspace& workspace) {
   SweptMemory& m = *workspace.swept;
   m.work = m.driven_work = 0.0;
   workspace.contacts.clear();
-  // Of a world whose bodies were others, nothing is known.
-  if (world.rest.size() != at(m.bodies.count())) {
-    world.rest.clear();
-    world.lost_energy.clear();
-  }
+  forget_other_bodies(world);
   m.rest = world.rest;
   m.bodies.begin_step(world);
   wake_moving(world);

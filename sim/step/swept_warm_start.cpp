@@ -1,6 +1,7 @@
 #include "sim/step/swept_warm_start.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "sim/world/sleep.h"
 
@@ -9,9 +10,16 @@ namespace {
 
 /// Of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_contact = 0.05;
+/// Of the friction that there may be: what has more slides.
+constexpr double friction_of_sticking = 0.999;
 
 auto bodies_of(const SweptContact& contact) {
   return in_order(contact.first.body, contact.second.body);
+}
+
+auto order_of(const FrictionSlip& slip) {
+  return std::tuple(in_order(slip.first, slip.second), slip.first_feature.kind,
+                    slip.first_feature.index, slip.second_feature.kind, slip.second_feature.index);
 }
 
 }  // namespace
@@ -51,10 +59,14 @@ SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& kept, Moment moment) 
   return found;
 }
 
+bool SweptWarmStart::sleeps(int first, int second) const {
+  return is_asleep(world_, first) || (second != swept_ground && is_asleep(world_, second));
+}
+
 void SweptWarmStart::remember(double fraction) {
   std::erase_if(world_.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
-    return !is_asleep(world_, m_.bodies.of_box(impulse.first)) &&
-           !(impulse.second >= 0 && is_asleep(world_, m_.bodies.of_box(impulse.second)));
+    return !sleeps(m_.bodies.of_box(impulse.first),
+                   impulse.second < 0 ? swept_ground : m_.bodies.of_box(impulse.second));
   });
   remember(m_.first_contacts, m_.first_impulses, Moment::start, fraction);
   remember(m_.contacts, m_.impulses, Moment::end, fraction);
@@ -79,6 +91,63 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
          .point = pose.orientation.conjugate() * (first.point - pose.position),
          .impulse = impulses[i].given() / fraction,
          .is_of_start = moment == Moment::start});
+  }
+}
+
+FrictionSlip* SweptWarmStart::find_slip(const SweptContact& contact) const {
+  const FrictionSlip wanted = {contact.first.body, contact.second.body, contact.first.feature,
+                               contact.second.feature};
+  const auto found =
+      std::ranges::lower_bound(world_.friction_slips, order_of(wanted), {}, order_of);
+  const bool is_found =
+      found != world_.friction_slips.end() && order_of(*found) == order_of(wanted);
+  return is_found ? &*found : nullptr;
+}
+
+Vec3 SweptWarmStart::slip(const SweptContact& contact) const {
+  const FrictionSlip* known = find_slip(contact);
+  if (!known) return Vec3::Zero();
+  return known->slip - contact.normal.dot(known->slip) * contact.normal;
+}
+
+bool SweptWarmStart::slides(const SweptSearch& search, const SweptContact& contact,
+                            const SweptImpulse& impulse) const {
+  const double most = search.material(contact).friction * impulse.normal_impulse();
+  return impulse.friction_impulse().norm() >= friction_of_sticking * most;
+}
+
+void SweptWarmStart::remember_slips(const SweptSearch& search) {
+  std::vector<FrictionSlip>& slips = m_.friction_slips;
+  slips.clear();
+  for (const FrictionSlip& kept : world_.friction_slips) {
+    if (sleeps(kept.first, kept.second)) slips.push_back(kept);
+  }
+  for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+    const SweptContact& contact = m_.contacts[i];
+    if (!contact.is_near || contact.previous >= 0) continue;
+    if (search.is_rigid(contact) ? !search.is_driven(contact)
+                                 : slides(search, contact, m_.impulses[i])) {
+      continue;
+    }
+    const Vec3 moved = search.displacement(contact) - search.shift(contact);
+    slips.push_back({contact.first.body, contact.second.body, contact.first.feature,
+                     contact.second.feature, slip(contact) + moved});
+  }
+  std::ranges::sort(slips, {}, order_of);
+  std::swap(slips, world_.friction_slips);
+}
+
+/// Of what is held, the sides move so that the slip is taken back, wherever the limit is reached.
+void SweptWarmStart::forget_sliding_boxes(const SweptSearch& search) {
+  const double step = time_step(world_.settings);
+  for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+    const SweptContact& contact = m_.contacts[i];
+    FrictionSlip* known = search.is_rigid(contact) ? find_slip(contact) : nullptr;
+    if (!known) continue;
+    const Vec3 taken_back = -slip(contact) / step;
+    const Vec3 velocity = m_.end_velocities[i] + m_.impulses[i].change();
+    const Vec3 sliding = velocity - contact.normal.dot(velocity) * contact.normal;
+    if ((sliding - taken_back).squaredNorm() > taken_back.squaredNorm()) known->slip.setZero();
   }
 }
 

@@ -1,4 +1,5 @@
-// What held boxes in the last step, from which the solver of this one starts (ERRATA row 59).
+// What the last step knew of contacts: what held boxes, from which the solver of this one starts
+// (ERRATA row 59), and how far what friction holds has slipped (row 67).
 // Private to sim/step.
 #pragma once
 
@@ -22,11 +23,25 @@ class SweptWarmStart {
   /// boxes that sleep what held them when they fell asleep.
   void remember(double fraction);
 
+  /// m, by which the sides of a contact have slipped, across its normal: until the step began, or
+  /// until its end once they are remembered.
+  Vec3 slip(const SweptContact& contact) const;
+  /// Keeps how far the contacts of the start, once solved for, have slipped that a soft body sticks
+  /// in, or that a box has with what is moved; and of bodies that sleep what they had slipped when
+  /// they fell asleep.
+  void remember_slips(const SweptSearch& search);
+  /// Of the contacts of the end, once solved for: boxes are held by these.
+  void forget_sliding_boxes(const SweptSearch& search);
+
  private:
   /// The impulse of the nearest contact, if there is one.
   SweptImpulse* find(const WarmStartImpulse& kept, Moment moment);
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
                 Moment moment, double fraction);
+  FrictionSlip* find_slip(const SweptContact& contact) const;
+  bool slides(const SweptSearch& search, const SweptContact& contact,
+              const SweptImpulse& impulse) const;
+  bool sleeps(int first, int second) const;
   RigidState state(int box, Moment moment) const;
 
   World& world_;

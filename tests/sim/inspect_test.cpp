@@ -125,6 +125,8 @@ TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   world.particles.clear();
   world.rest = {{3, -1}, {40, 1}};
   world.warm_start_impulses.push_back({0, -1, {0.5, 1.0, -1.5}, {0.1, 0.0, 0.8}, true});
+  world.friction_slips.push_back(
+      {0, 1, {FeatureKind::edge, 7}, {FeatureKind::vertex, 3}, {1e-4, -2e-4, 0.0}});
   const auto bytes = save_state(world);
   World other = world;
   other.steps = 7;
@@ -155,6 +157,11 @@ TEST(Checkpoint, BodiesThatDoNotExistAreRefused) {
   for (const auto& boxes : {std::pair(1, -1), {-1, -1}, {0, 1}, {0, -2}}) {
     is_refused([&](World& changed) {
       changed.warm_start_impulses.push_back({.first = boxes.first, .second = boxes.second});
+    });
+  }
+  for (const auto& bodies : {std::pair(-1, 0), {2, -1}, {0, 2}, {0, -2}}) {
+    is_refused([&](World& changed) {
+      changed.friction_slips.push_back({bodies.first, bodies.second, {}, {}});
     });
   }
   for (const BodyRest& rest : {BodyRest{-1, -1}, BodyRest{0, 2}, BodyRest{0, -2}}) {
