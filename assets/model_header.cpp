@@ -48,6 +48,23 @@ std::optional<Count> read_count(std::istream& words) {
                                format, expected));
 }
 
+/// In a PLY file of text each element is a line after the header. The importer leaves out what is
+/// missing.
+void check_ply_lines(std::string_view body, Count announced) {
+  Count lines = 0;
+  while (!body.empty() && lines < announced) {
+    const std::string_view line = body.substr(0, body.find_first_of("\r\n"));
+    body.remove_prefix(std::min(line.size() + 1, body.size()));
+    if (line.find_first_not_of(" \t") != line.npos) ++lines;
+  }
+  if (lines == announced) return;
+  throw ModelError(
+      fmt::format("the PLY header announces {} lines, one for each vertex, face or other element, "
+                  "and there are "
+                  "{}; the file is cut short",
+                  announced, lines));
+}
+
 /// The lines up to "end_header".
 void check_ply(std::string_view bytes, const Limits& limits) {
   constexpr std::size_t longest_header = 64 * 1024;
@@ -56,11 +73,13 @@ void check_ply(std::string_view bytes, const Limits& limits) {
   const std::size_t end = start.find("end_header");
   if (end == start.npos) throw ModelError("the PLY header has no end_header; it is cut short");
   std::istringstream lines{std::string(start.substr(0, end))};
-  bool vertices = false, faces = false;
+  bool vertices = false, faces = false, is_text = false;
+  Count all = 0;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string first, name;
     words >> first >> name;
+    is_text = is_text || (first == "format" && name == "ascii");
     if (first != "element") continue;
     const auto count = read_count(words);
     if (!count) throw ModelError(fmt::format("the PLY header's count of {} is no number", name));
@@ -72,11 +91,13 @@ void check_ply(std::string_view bytes, const Limits& limits) {
                 : name == "face" ? "faces"
                                  : "elements",
                 *count, most, min_bytes, bytes.size());
+    all += *count;
     vertices = vertices || (name == "vertex" && *count > 0);
     faces = faces || (name == "face" && *count > 0);
   }
   if (!vertices) throw ModelError("the model has no vertices");
   if (!faces) throw ModelError("the model has no triangles");
+  if (is_text) check_ply_lines(bytes.substr(end + std::string_view("end_header").size()), all);
 }
 
 /// "OFF", perhaps with letters before it for colours, normals or texture coordinates, then three

@@ -113,6 +113,7 @@ json run_statistics_json(const RunStatistics& run) {
       {"penetration_m",
        {{"greatest", run.penetration.value},
         {"at_s", run.penetration.time},
+        {"bodies", run.penetration_bodies},
         {"at_start", run.start_penetration},
         {"greatest_in_last_half", run.settled_penetration}}},
       {"energy_J",

@@ -121,8 +121,9 @@ std::string penetration_text(const RunStatistics& run, const sim::Settings& sett
     last_half += fmt::format("; the ground is up to {:g} m (simulation.potential.distance) lower",
                              settings.potential.distance);
   }
-  return named_line("penetration", fmt::format("greatest {:.4f} m at {:.2f} s",
-                                               run.penetration.value, run.penetration.time)) +
+  return named_line("penetration",
+                    fmt::format("greatest {:.4f} m at {:.2f} s, of {}", run.penetration.value,
+                                run.penetration.time, run.penetration_bodies)) +
          named_line("", last_half);
 }
 
@@ -159,7 +160,7 @@ std::string energy_text(const RunStatistics& run) {
   }
   const std::string of_gas =
       "gas without ambient pressure counts as 0 J at 1 m^3 and less in any greater volume, ";
-  return text + named_line("", (run.gas.empty() ? "" : of_gas) +
+  return text + named_line("", (run.has_gas_in_vacuum ? of_gas : "") +
                                    "weight counts as 0 J at the origin: only differences mean "
                                    "anything");
 }

@@ -116,8 +116,7 @@ class Observer {
     keep_positions(start, before_);
     result_.energy_start = sim::energy(start);
     result_.momentum_start = sim::momentum(start);
-    result_.start_penetration = sim::max_penetration(start);
-    result_.penetration = {result_.start_penetration, sim::time(start)};
+    result_.start_penetration = look_at_penetration(start);
     result_.pushed_by = what_pushes(start);
     if (has_moved_obstacles(start)) result_.driven_work = 0.0;
     result_.pins_move = has_moved_pins(start);
@@ -130,6 +129,9 @@ class Observer {
       result_.volumes.push_back(
           {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas(start, index)});
       result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
+      if (body.material.n > 0.0 && body.material.ambient_pressure == 0.0) {
+        result_.has_gas_in_vacuum = true;
+      }
       add_gas(body, result_.gas.back());
     }
   }
@@ -158,8 +160,7 @@ class Observer {
     last_energy_ = now;
     least_energy_ = std::min(least_energy_, now);
     greatest_energy_ = std::max(greatest_energy_, now);
-    const double depth = sim::max_penetration(world);
-    if (depth > result_.penetration.value) result_.penetration = {depth, sim::time(world)};
+    const double depth = look_at_penetration(world);
     if (2 * world.steps > all_steps_) {
       result_.settled_penetration = std::max(result_.settled_penetration, depth);
     }
@@ -207,6 +208,16 @@ class Observer {
 
  private:
   using Pair = std::pair<int, int>;
+
+  /// m, now.
+  double look_at_penetration(const sim::World& world) {
+    const sim::Overlap deepest = sim::deepest_penetration(world);
+    if (deepest.depth > result_.penetration.value) {
+      result_.penetration = {deepest.depth, sim::time(world)};
+      result_.penetration_bodies = two_bodies(world, deepest.first, deepest.second);
+    }
+    return deepest.depth;
+  }
 
   void find_start_overlaps(const sim::World& start) {
     for (const sim::Overlap& overlap : sim::overlaps(start)) {

@@ -78,6 +78,7 @@ struct RunStatistics {
   int most_parts = 0;     // of one of them
 
   Peak penetration;                  // m, over the whole run
+  std::string penetration_bodies;    // "torus and cube 3", of that moment; empty: none
   double start_penetration = 0.0;    // m
   double settled_penetration = 0.0;  // m, over the last half of it
   int frames = 0;                    // looked at, the start among them
@@ -99,6 +100,7 @@ struct RunStatistics {
   bool pins_move = false;  // of bodies that are not moved whole: they do work that is not known
   // J, by which gas that came, went or was heated changed the energy of gas; none: none does.
   std::optional<double> gas_work;
+  bool has_gas_in_vacuum = false;  // without ambient pressure, at the start
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 
   std::vector<VolumeRange> volumes;  // of the soft bodies, and of obstacles among them

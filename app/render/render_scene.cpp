@@ -104,10 +104,12 @@ std::string other_beginning(const scenes::Scene& scene, const DivergenceError& e
     return fmt::format("{} motion.path end where there is room, and begin again with --overwrite",
                        error.is_crushed ? "Let" : "Shorter steps do not help: let");
   }
+  const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
   return fmt::format(
-      "Shorter steps do not help from here: begin again with --overwrite and --set "
+      "Shorter steps do not help from here: begin again with --overwrite and {}--set "
       "simulation.steps_per_second={}, or with --set simulation.contact=potential --set "
       "simulation.integrator=sdirk2, which takes several times as long",
+      is_explicit ? "--set simulation.integrator=implicit_euler, or with " : "",
       4 * scene.settings.steps_per_second);
 }
 

@@ -92,6 +92,28 @@ void add_loaded_start(const scenes::Scene& scene, const sim::World& start,
           body, near->distance, other, energy.contact, near->reach)));
 }
 
+/// Who asks for a bounce of more than half the speed, where steps of the first order damp it.
+constexpr double bouncy = 0.5;
+
+void add_lost_bounce(const scenes::Scene& scene, std::vector<std::string>& warnings) {
+  const sim::Settings& settings = scene.settings;
+  if (settings.contact != sim::ContactMethod::potential ||
+      settings.integrator != sim::Integrator::implicit_euler) {
+    return;
+  }
+  const auto bounces = [](const scenes::BodyScene& body) {
+    return body.surface.restitution > bouncy;
+  };
+  const auto body = std::ranges::find_if(scene.bodies, bounces);
+  if (body == scene.bodies.end()) return;
+  warnings.push_back(warning_at(
+      scene, body->name,
+      fmt::format("body '{}': restitution = {:g} needs steps that resolve the contact: "
+                  "simulation.integrator = \"implicit_euler\" damps most of the bounce in steps of "
+                  "{:.3g} s; \"sdirk2\" keeps it from 240 steps per second on, \"rk4\" from 60",
+                  body->name, body->surface.restitution, sim::time_step(settings))));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::World& start,
@@ -111,6 +133,7 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
       warnings.push_back(warning_at(scene, advice.body, weight_warning(advice)));
   }
   add_loaded_start(scene, start, warnings);
+  add_lost_bounce(scene, warnings);
   return warnings;
 }
 

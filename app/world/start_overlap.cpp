@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -54,7 +55,8 @@ std::string moved(double distance, std::string_view direction) {
 /// Two bodies of a world without others, of which the second may stand elsewhere.
 class TwoBodies {
  public:
-  TwoBodies(const sim::World& world, int first, int second) {
+  TwoBodies(const sim::World& world, int first, int second)
+      : moves_box_(sim::at(second) >= world.soft.size()) {
     pair_.settings = world.settings;
     pair_.settings.ground.reset();
     for (const int body : {first, second}) {
@@ -74,7 +76,7 @@ class TwoBodies {
   }
   bool are_apart(const sim::Vec3& way) const {
     sim::World moved = pair_;
-    if (moved.rigid.empty()) {
+    if (!moves_box_) {
       sim::VertexArray& positions = moved.soft.back().positions;
       for (int v = 0; v < positions.size(); ++v) positions[v] = positions[v] + way;
     } else {
@@ -87,28 +89,45 @@ class TwoBodies {
 
  private:
   sim::World pair_;
+  bool moves_box_;
 };
 
-/// The shortest way along an axis, and not into the ground, by which bodies come apart: all of that
-/// by which boxes along the axes about both do, or half of it, a quarter, ...
+/// Of a way: how much longer than needed it may be.
+constexpr double needed = 0.05;
+
+/// m along a unit `direction`, by which the second comes apart, of `all` that surely suffices; 0 if
+/// it is no shorter than `shortest`. Of fine bodies all of it.
+double way_along(const TwoBodies& both, const sim::Vec3& direction, double all, double shortest) {
+  if (both.are_fine()) return all < shortest ? all : 0.0;
+  double too_short = 0.0, enough = all * std::ldexp(1.0, -16);
+  while (enough < all && enough < shortest && !both.are_apart(enough * direction)) {
+    too_short = enough;
+    enough = std::min(all, 2.0 * enough);
+  }
+  if (too_short >= shortest) return 0.0;
+  while (enough - too_short > needed * enough) {
+    const double middle = 0.5 * (too_short + enough);
+    (both.are_apart(middle * direction) ? enough : too_short) = middle;
+  }
+  return enough < shortest ? enough : 0.0;
+}
+
+/// The shortest way along an axis, and not into the ground, by which bodies come apart.
 std::string way_apart(const sim::World& world, int first, int second) {
   constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
-  constexpr double least_part = 1.0 / 32.0;
   const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   const TwoBodies both(world, first, second);
-  const double first_part = both.are_fine() ? 1.0 : least_part;
   double shortest = std::numeric_limits<double>::infinity();
   std::string_view direction;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool down : {false, true}) {
       const double all = down ? own.high[axis] - other.low[axis] : other.high[axis] - own.low[axis];
-      for (double part = first_part; part <= 1.0 && part * all < shortest; part *= 2.0) {
-        const sim::Vec3 way = (down ? -part * all : part * all) * sim::Vec3::Unit(axis);
-        if (down && axis == 2 && world.settings.ground && own.low.z() + way.z() < 0.0) break;
-        if (part < 1.0 && !both.are_apart(way)) continue;
-        shortest = part * all;
-        direction = directions[2 * sim::at(axis) + (down ? 1 : 0)];
-      }
+      const sim::Vec3 unit = (down ? -1.0 : 1.0) * sim::Vec3::Unit(axis);
+      const double way = way_along(both, unit, all, shortest);
+      if (way == 0.0) continue;
+      if (down && axis == 2 && world.settings.ground && own.low.z() - way < 0.0) continue;
+      shortest = way;
+      direction = directions[2 * sim::at(axis) + (down ? 1 : 0)];
     }
   }
   return moved(shortest, direction);
@@ -127,19 +146,24 @@ StartOverlap in_the_ground(const sim::World& world, const sim::Overlap& overlap)
                                      moved(overlap.depth, "+z"), remedy(world))};
 }
 
+/// What is to be moved is not what the scene holds, if the other is free. `how` it starts.
+StartOverlap in_another(const sim::World& world, int first, int second, std::string_view how) {
+  if (sim::is_kinematic(world, second) && !sim::is_kinematic(world, first)) {
+    std::swap(first, second);
+  }
+  return {second,
+          fmt::format("starts {} body '{}'; {}{}", how, name_of(world, first),
+                      way_apart(world, first, second), remedy(world)),
+          first};
+}
+
 StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap) {
-  return {overlap.second,
-          fmt::format("starts {:.3g} m deep in body '{}'; {}{}", overlap.depth,
-                      name_of(world, overlap.first),
-                      way_apart(world, overlap.first, overlap.second), remedy(world)),
-          overlap.first};
+  return in_another(world, overlap.first, overlap.second,
+                    fmt::format("{:.3g} m deep in", overlap.depth));
 }
 
 StartOverlap through_another(const sim::World& world, const sim::CrossingPair& pair) {
-  return {pair.second,
-          fmt::format("starts through the surface of body '{}'; {}{}", name_of(world, pair.first),
-                      way_apart(world, pair.first, pair.second), remedy(world)),
-          pair.first};
+  return in_another(world, pair.first, pair.second, "through the surface of");
 }
 
 std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {

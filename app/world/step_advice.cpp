@@ -124,7 +124,9 @@ std::string remedy(const StepAdvice& advice) {
                                step, advice.why, advice.steps_per_second));
   }
   if (advice.implicit_can) {
-    ways.emplace_back("--set simulation.integrator=implicit_euler");
+    // Where the step is not too long by what is known, a shorter one may not help either.
+    ways.emplace(advice.too_long() ? ways.end() : ways.begin(),
+                 "--set simulation.integrator=implicit_euler");
   } else if (advice.of_springs && ways.empty()) {
     ways.emplace_back("a smaller k or damping of " + advice.why);
   } else if (ways.empty()) {

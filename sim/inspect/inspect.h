@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/collision/contact.h"
+#include "sim/inspect/overlap.h"
 #include "sim/mesh/measure.h"
 #include "sim/world/world.h"
 
@@ -43,6 +44,8 @@ Bounds bounds(const World& world);
 /// vertices and corners out (5.2.2), so that an edge may cut off a corner of another body. Looks at
 /// all of this on bodies that are near each other: for reports, not for the step.
 double max_penetration(const World& world);
+/// The same with the bodies: soft ones first, then boxes; the second may be ground_body.
+Overlap deepest_penetration(const World& world);
 
 /// 64-bit hash of the whole state. Equal states, equal hashes, on one build.
 std::uint64_t state_hash(const World& world);

@@ -94,29 +94,36 @@ double depth_of_pair(const Shapes& shapes, const BodyPair& pair) {
   return box_and_box(box(pair.first), box(pair.second));
 }
 
-double depth_in_ground(const World& world) {
-  double low = 0.0;
-  for (const SoftBody& body : world.soft) {
-    if (!is_kinematic(body)) low = std::min(low, bounds(body.positions).low.z());
+/// The lowest of what may move, if it is below 0.
+Overlap deepest_in_ground(const World& world) {
+  Overlap deepest{0, ground_body, 0.0};
+  const auto look_at = [&](int body, double low) {
+    if (!is_kinematic(world, body) && -low > deepest.depth) deepest = {body, ground_body, -low};
+  };
+  const int soft = soft_count(world);
+  for (int i = 0; i < soft; ++i) look_at(i, bounds(world.soft[at(i)].positions).low.z());
+  for (int i = soft; i < body_count(world); ++i) {
+    look_at(i, placed_box(world.rigid[at(i - soft)]).bounds.low.z());
   }
-  for (const RigidBox& box : world.rigid) {
-    if (!box.is_kinematic) low = std::min(low, placed_box(box).bounds.low.z());
-  }
-  return 0.0 - low;  // of 0: not -0
+  return deepest;
 }
 
 }  // namespace
 
-double max_penetration(const World& world) {
-  double depth = world.settings.ground ? depth_in_ground(world) : 0.0;
+Overlap deepest_penetration(const World& world) {
+  Overlap deepest;
+  if (world.settings.ground) deepest = deepest_in_ground(world);
   const Shapes shapes(world);
   std::vector<BodyPair> pairs;
   SweepAndPrune().find(shapes.spheres, pairs);
   for (const BodyPair& pair : pairs) {
     if (is_kinematic(world, pair.first) && is_kinematic(world, pair.second)) continue;
-    depth = std::max(depth, depth_of_pair(shapes, pair));
+    const double depth = depth_of_pair(shapes, pair);
+    if (depth > deepest.depth) deepest = {pair.first, pair.second, depth};
   }
-  return depth;
+  return deepest;
 }
+
+double max_penetration(const World& world) { return deepest_penetration(world).depth; }
 
 }  // namespace pneuma::sim

@@ -28,6 +28,12 @@ bool may_sleep(const World& world, int body) {
   return !has_gas_flow(world, body) && !has_springs(world, body);
 }
 
+/// m along the axis along which it is longest.
+double length(const World& world, int body) {
+  if (body >= soft_count(world)) return world.rigid[at(body - soft_count(world))].size.maxCoeff();
+  return bounds(world.soft[at(body)].mesh->rest_positions).size().maxCoeff();
+}
+
 /// Whether no point of the body has moved further, m. Velocities would not tell: those of a vertex
 /// that is pressed hold, at the end of a step, what its forces did since the impulses of its start.
 bool has_moved_less(const World& world, const MotionStart& start, int body, double than) {
@@ -68,19 +74,22 @@ FallAsleep::FallAsleep(const World& world)
       never_sleeps_(islands_.size()),
       is_touched_(islands_.size()),
       stays_awake_(islands_.size()) {
-  for (int i = 0; i < body_count(world); ++i) never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
+  for (int i = 0; i < body_count(world); ++i) {
+    sizes_.push_back(std::min(1.0, length(world, i)));
+    never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
+  }
 }
 
 bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   if (world.settings.sleep_speed == 0.0) return false;
   world.rest.resize(islands_.size());
   const int enough = quiet_steps(world.settings);
-  const double least = world.settings.sleep_speed * time_step(world.settings);
+  const double per_metre = world.settings.sleep_speed * time_step(world.settings);
   bool any = false;
   for (int i = 0; i < body_count(world); ++i) {
     BodyRest& rest = world.rest[at(i)];
     if (rest.group >= 0 || never_sleeps_[at(i)] != 0) continue;
-    const bool is_quiet = has_moved_less(world, start, i, least);
+    const bool is_quiet = has_moved_less(world, start, i, per_metre * sizes_[at(i)]);
     rest.quiet_steps = is_quiet ? std::min(rest.quiet_steps + 1, enough) : 0;
     any = any || rest.quiet_steps == enough;
   }

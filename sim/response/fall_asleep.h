@@ -13,7 +13,8 @@
 namespace pneuma::sim {
 
 /// Bodies near each other are an island, which falls asleep when it touches something and none of
-/// it has moved faster than Settings::sleep_speed for half a second. Allocates nothing but in the
+/// it has moved faster than Settings::sleep_speed for half a second; of a body that is shorter than
+/// a metre, that times its length in metres. Allocates nothing but in the
 /// first step.
 class FallAsleep {
  public:
@@ -32,6 +33,7 @@ class FallAsleep {
   void find_who_stays_awake(const World& world, std::span<const Contact> contacts);
 
   base::DisjointSets islands_;              // of bodies
+  std::vector<double> sizes_;               // per body, m, at most 1
   std::vector<std::uint8_t> never_sleeps_;  // per body
   std::vector<std::uint8_t> is_touched_;    // per island's first body
   std::vector<std::uint8_t> stays_awake_;   // per island's first body

@@ -125,9 +125,10 @@ TEST(RunStatisticsText, SaysWhetherPenetrationStaysBelowTheSkin) {
   RunStatistics run;
   EXPECT_EQ(after(run_statistics_text(run, by_impulses(0.5)), "penetration"), "none");
   run.penetration = {0.75, 1.25};
+  run.penetration_bodies = "torus and cube";
   run.settled_penetration = 0.25;
   const std::string below = run_statistics_text(run, by_impulses(0.5));
-  EXPECT_EQ(after(below, "penetration"), "greatest 0.7500 m at 1.25 s");
+  EXPECT_EQ(after(below, "penetration"), "greatest 0.7500 m at 1.25 s, of torus and cube");
   EXPECT_NE(below.find("0.2500 m, below the skin"), std::string::npos);
   EXPECT_NE(run_statistics_text(run, by_impulses(0.125)).find("NOT below"), std::string::npos);
 }

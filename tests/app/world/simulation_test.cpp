@@ -28,7 +28,7 @@ TEST(DivergenceError, NamesAStableStepUnlessShorterOnesHaveFailed) {
       const std::string text = message(contact, stage);
       EXPECT_NE(text.find("body ball: it broke"), std::string::npos) << text;
       const bool halved = contact == ContactMethod::swept && stage == Stage::resolve_contacts;
-      EXPECT_EQ(text.find("Use a step of ") == std::string::npos, halved) << text;
+      EXPECT_EQ(text.find("a step of ") == std::string::npos, halved) << text;
     }
   }
 }
@@ -82,7 +82,7 @@ TEST(DivergenceError, OfABodyWithoutRoomNamesWhatCrushesItAndNoStep) {
   EXPECT_NE(crushed.find("let what is moved stop earlier"), std::string::npos) << crushed;
   const std::string still = said_of_pressed_ball(pressed_ball(0.0), true);
   EXPECT_EQ(still.find("crushed"), std::string::npos) << still;
-  EXPECT_NE(still.find("Use a step of"), std::string::npos) << still;
+  EXPECT_NE(still.find("a step of"), std::string::npos) << still;
 }
 
 TEST(DivergenceError, AdvisesNoShorterStepOnceShorterOnesHaveFailed) {

@@ -111,6 +111,18 @@ TEST(Sleep, WakesIntoTheSameImpact) {
   }
 }
 
+/// Slow for a box of a metre, but its own length in each second.
+TEST(Sleep, ASmallBoxSlidesOn) {
+  constexpr double speed = 5e-3;
+  World world = make_free_boxes({make_rigid(Vec3::Constant(5e-3), {0.0, 0.0, 2.5e-3})}, 0.0);
+  world.settings.contact = ContactMethod::swept;
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  world.settings.ground = ContactMaterial{0.0, 0.0};
+  world.rigid[0].velocity.x() = speed;
+  ASSERT_FALSE(run(world, 3.0));
+  EXPECT_NEAR(world.rigid[0].position.x(), 3.0 * speed, 1e-3 * speed);
+}
+
 TEST(Sleep, ASoftBodyWakesWhatItFallsOn) {
   World world = make_stacks();
   SoftBody ball = make_body(make_sphere(1.0, 8, 8), {0.0, 0.0, 60.0});
