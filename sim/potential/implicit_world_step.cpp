@@ -77,7 +77,10 @@ ImplicitWorldReport ImplicitWorldStep::step(const World& world, const WorldState
   if (!by_sdirk || report_.by_euler) implicit_euler(world, h, start, end);
   if (!report_.arrived || !report_.is_valid) return report_;
   keep_given(start, h, end);
-  report_.energy_limited = limit_energy(world, end);
+  if (!does_work_) {
+    const double left = std::max(0.0, start_energy_ - potential(world, end));
+    report_.excess = std::max(0.0, kinetic(world, end) - left);
+  }
   return report_;
 }
 
@@ -238,43 +241,6 @@ double ImplicitWorldStep::potential(const World& world, const WorldState& state)
   const double contacts = contact_energy(surfaces_, positions, minimiser_.pairs_at(positions));
   magnitude_ += contacts;
   return sum + contacts;
-}
-
-/// Cuts the velocities to what is left of the energy: those relative to the bodies' centres, of
-/// which boxes have none, and only if that is not enough, all. Returns whether it was needed.
-bool ImplicitWorldStep::limit_energy(const World& world, WorldState& end) {
-  if (does_work_) return false;
-  const double left = std::max(0.0, start_energy_ - potential(world, end));
-  const double moving = kinetic(world, end);
-  if (moving <= left) return false;
-  double of_centres = kinetic_of_boxes(world, end);
-  for (const WorldEnergy::Body& body : energy_.bodies()) {
-    const SoftBody& soft = world.soft[at(body.soft)];
-    if (soft.pins) continue;
-    const int count = body.mesh->topology.vertex_count();
-    const Vec3 common =
-        end.velocities.rows().middleCols(body.first_vertex, count).rowwise().mean().head<3>();
-    of_centres += 0.5 * soft.material.vertex_mass * count * common.squaredNorm();
-  }
-  const bool keeps_centres = of_centres <= left;
-  const double kept = keeps_centres ? of_centres : 0.0;
-  const double factor = moving > kept ? std::sqrt((left - kept) / (moving - kept)) : 0.0;
-  for (const WorldEnergy::Body& body : energy_.bodies()) {
-    const int count = body.mesh->topology.vertex_count();
-    auto own = end.velocities.rows().middleCols(body.first_vertex, count);
-    const bool has_centre = keeps_centres && !world.soft[at(body.soft)].pins;
-    const Eigen::Vector4d common = has_centre ? Eigen::Vector4d(own.rowwise().mean())
-                                              : Eigen::Vector4d(Eigen::Vector4d::Zero());
-    own = factor * (own.colwise() - common).eval();
-    own.colwise() += common;
-  }
-  for (RigidState& box : end.boxes) {
-    if (keeps_centres) break;
-    box.velocity *= factor;
-    box.angular_velocity *= factor;
-  }
-  move_corners(end);
-  return true;
 }
 
 }  // namespace pneuma::sim

@@ -28,7 +28,7 @@ struct ImplicitWorldReport {
   bool converged = true;
   bool arrived = true;  // what keys move; else `blocked` has stopped it
   bool by_euler = false;
-  bool energy_limited = false;
+  double excess = 0.0;  // J, of motion at the end, by which the energy has grown beyond rounding
   WayLimit blocked;
   ContactPair blocked_pair;
 };
@@ -54,7 +54,6 @@ class ImplicitWorldStep {
   double potential(const World& world, const WorldState& state);
   double kinetic(const World& world, const WorldState& state) const;
   double kinetic_of_boxes(const World& world, const WorldState& state) const;
-  bool limit_energy(const World& world, WorldState& end);
   void keep_given(const WorldState& start, double step, WorldState& end) const;
 
   const ContactSurfaces& surfaces_;

@@ -7,6 +7,7 @@
 
 #include "sim/base/text.h"
 #include "sim/inspect/closed_surface.h"
+#include "sim/response/group_motion.h"
 #include "sim/step/find_divergence.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages.h"
@@ -100,6 +101,7 @@ class PotentialStep {
   }
 
   std::optional<Divergence> try_step(int halvings, bool& may_be_halved) {
+    excess_ = 0.0;
     if (auto failure = gather_start()) return failure;
     auto failure = m_.implicit_step ? step_implicitly(halvings, may_be_halved)
                                     : step_explicitly(halvings, may_be_halved);
@@ -114,6 +116,7 @@ class PotentialStep {
         return divergence;
       }
     }
+    if (excess_ > 0.0) take_excess();
     for (const SoftBody& body : world_.soft) {
       if (auto divergence = find_divergence(world_, body)) {
         divergence->stage = Stage::integrate_soft;
@@ -121,6 +124,37 @@ class PotentialStep {
       }
     }
     return std::nullopt;
+  }
+
+  /// From what soft bodies do besides moving as rigid ones, and only if that is not enough, from
+  /// all motion: where nothing bears the bodies, first from what they do besides moving as one.
+  void take_excess() {
+    double of_vibrations = 0.0;
+    for_each_vibration([&](const GroupMotion& motion) { of_vibrations += motion.energy(); });
+    if (excess_ <= of_vibrations) {
+      const double share = excess_ / of_vibrations;
+      for_each_vibration([&](GroupMotion& motion) { motion.take(share * motion.energy()); });
+      return;
+    }
+    const bool is_free =
+        !world_.settings.ground && !w_.has_pins && m_.movable.size() == at(body_count(world_));
+    GroupMotion besides(world_, m_.movable), all(world_, m_.movable);
+    if (is_free) {
+      besides.leave_out_common();
+      excess_ -= besides.take(excess_);
+    }
+    all.take(excess_);
+  }
+
+  /// Of what is pinned, all motion is.
+  template <class Visit>
+  void for_each_vibration(const Visit& visit) {
+    for (const int& body : m_.movable) {
+      if (body >= soft_count(world_)) return;
+      GroupMotion motion(world_, {&body, 1});
+      if (!world_.soft[at(body)].pins) motion.leave_out_common();
+      visit(motion);
+    }
   }
 
   /// J, of the vertices that no force moves, in a part of the step: the mean of what they push with
@@ -155,6 +189,7 @@ class PotentialStep {
 
   std::optional<Divergence> step_implicitly(int halvings, bool& may_be_halved) {
     const ImplicitWorldReport report = m_.implicit_step->step(world_, m_.start, m_.end);
+    excess_ = report.excess;
     if (!report.is_valid) {
       return failure(first_body(), "its energy has no value: it has lost its volume, or touches");
     }
@@ -277,6 +312,7 @@ class PotentialStep {
   StepWorkspace& w_;
   PotentialMemory& m_;
   StageRunner run_;
+  double excess_ = 0.0;  // J, by which the last part of the step has added to the energy
 };
 
 std::vector<int> find_free_boxes(const World& world) {
@@ -287,11 +323,20 @@ std::vector<int> find_free_boxes(const World& world) {
   return found;
 }
 
+std::vector<int> find_movable(const World& world) {
+  std::vector<int> found;
+  for (int i = 0; i < body_count(world); ++i) {
+    if (!is_kinematic(world, i)) found.push_back(i);
+  }
+  return found;
+}
+
 }  // namespace
 
 PotentialMemory::PotentialMemory(const World& world)
     : surfaces(world),
       free_boxes(find_free_boxes(world)),
+      movable(find_movable(world)),
       start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count()),
             std::vector<RigidState>(free_boxes.size())},
       end(start),

@@ -35,6 +35,7 @@ struct PotentialMemory {
 
   ContactSurfaces surfaces;
   std::vector<int> free_boxes;  // of the world's
+  std::vector<int> movable;     // bodies, soft ones first
   std::optional<ExplicitWorldStep> explicit_step;
   std::optional<ImplicitWorldStep> implicit_step;
   std::array<Start, max_potential_halvings + 1> starts;  // of a part of the step and all around it
