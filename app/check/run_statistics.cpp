@@ -129,10 +129,7 @@ class Observer {
       result_.volumes.push_back(
           {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas(start, index)});
       result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
-      if (body.material.n > 0.0 && body.material.ambient_pressure == 0.0) {
-        result_.has_gas_in_vacuum = true;
-      }
-      add_gas(body, result_.gas.back());
+      look_at_gas(body, result_.gas.back());
     }
   }
 
@@ -170,7 +167,7 @@ class Observer {
       VolumeRange& range = result_.volumes[b];
       range.least = std::min(range.least, volume(world.soft[b]));
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
-      add_gas(world.soft[b], result_.gas[b]);
+      look_at_gas(world.soft[b], result_.gas[b]);
     }
     fastest_ = fastest_point(world, before_, sim::time(world) - frame_time_);
     keep_positions(world, before_);
@@ -190,10 +187,11 @@ class Observer {
     result_.momentum_end = sim::momentum(world);
     result_.at_end = fastest_;
     result_.state_hash = sim::state_hash(world);
+    if (!has_touched_ground()) std::erase(result_.pushed_by, "the ground");
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       result_.volumes[b].end = volume(world.soft[b]);
       result_.volumes[b].shape_deviation = shape_deviation(world.soft[b]);
-      add_gas(world.soft[b], result_.gas[b]);
+      look_at_gas(world.soft[b], result_.gas[b]);
     }
     std::erase_if(result_.gas, [](const GasRange& range) { return std::isnan(range.n.start); });
     for (const sim::Overlap& overlap : sim::overlaps(world)) {
@@ -208,6 +206,18 @@ class Observer {
 
  private:
   using Pair = std::pair<int, int>;
+
+  void look_at_gas(const sim::SoftBody& body, GasRange& range) {
+    add_gas(body, range);
+    if (body.material.n > 0.0 && body.material.ambient_pressure == 0.0) {
+      result_.has_gas_in_vacuum = true;
+    }
+  }
+
+  bool has_touched_ground() const {
+    return result_.contacts.of(sim::ContactKind::soft_ground).most > 0 ||
+           result_.contacts.of(sim::ContactKind::rigid_ground).most > 0;
+  }
 
   /// m, now.
   double look_at_penetration(const sim::World& world) {

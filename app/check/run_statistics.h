@@ -100,7 +100,7 @@ struct RunStatistics {
   bool pins_move = false;  // of bodies that are not moved whole: they do work that is not known
   // J, by which gas that came, went or was heated changed the energy of gas; none: none does.
   std::optional<double> gas_work;
-  bool has_gas_in_vacuum = false;  // without ambient pressure, at the start
+  bool has_gas_in_vacuum = false;  // without ambient pressure, at any time
   double energy_span = 0.0;  // J, between the greatest and the least: what a rise is judged by
 
   std::vector<VolumeRange> volumes;  // of the soft bodies, and of obstacles among them

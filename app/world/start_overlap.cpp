@@ -95,21 +95,20 @@ class TwoBodies {
 /// Of a way: how much longer than needed it may be.
 constexpr double needed = 0.05;
 
-/// m along a unit `direction`, by which the second comes apart, of `all` that surely suffices; 0 if
-/// it is no shorter than `shortest`. Of fine bodies all of it.
-double way_along(const TwoBodies& both, const sim::Vec3& direction, double all, double shortest) {
-  if (both.are_fine()) return all < shortest ? all : 0.0;
-  double too_short = 0.0, enough = all * std::ldexp(1.0, -16);
-  while (enough < all && enough < shortest && !both.are_apart(enough * direction)) {
-    too_short = enough;
-    enough = std::min(all, 2.0 * enough);
-  }
-  if (too_short >= shortest) return 0.0;
+/// m along a unit `direction`, by which the second comes apart, of `all` that surely suffices; none
+/// if it is no shorter than `shortest`. Of fine bodies all of it.
+std::optional<double> way_along(const TwoBodies& both, const sim::Vec3& direction, double all,
+                                double shortest) {
+  if (!(all > 0.0)) return std::nullopt;
+  double too_short = 0.0, enough = std::min(all, shortest);
+  if (both.are_fine()) return all < shortest ? std::optional(all) : std::nullopt;
+  if (enough < all && !both.are_apart(enough * direction)) return std::nullopt;
   while (enough - too_short > needed * enough) {
-    const double middle = 0.5 * (too_short + enough);
-    (both.are_apart(middle * direction) ? enough : too_short) = middle;
+    // Of what is not in another deeply, halves would come near it slowly.
+    const double between = too_short > 0.0 ? 0.5 * (too_short + enough) : enough / 8.0;
+    (both.are_apart(between * direction) ? enough : too_short) = between;
   }
-  return enough < shortest ? enough : 0.0;
+  return enough < shortest ? std::optional(enough) : std::nullopt;
 }
 
 /// The shortest way along an axis, and not into the ground, by which bodies come apart.
@@ -123,10 +122,10 @@ std::string way_apart(const sim::World& world, int first, int second) {
     for (const bool down : {false, true}) {
       const double all = down ? own.high[axis] - other.low[axis] : other.high[axis] - own.low[axis];
       const sim::Vec3 unit = (down ? -1.0 : 1.0) * sim::Vec3::Unit(axis);
-      const double way = way_along(both, unit, all, shortest);
-      if (way == 0.0) continue;
-      if (down && axis == 2 && world.settings.ground && own.low.z() - way < 0.0) continue;
-      shortest = way;
+      const auto way = way_along(both, unit, all, shortest);
+      if (!way) continue;
+      if (down && axis == 2 && world.settings.ground && own.low.z() - *way < 0.0) continue;
+      shortest = *way;
       direction = directions[2 * sim::at(axis) + (down ? 1 : 0)];
     }
   }

@@ -115,9 +115,9 @@ Section simulation_section(Scene& scene) {
                                     "over an island of contacts; at most 3 if none of them is "
                                     "a box's with another or the ground"})),
           only(swept, of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
-                                 "bodies that touch, none faster for half a second (of less than "
-                                 "1 m: times their length), leave the step until something "
-                                 "touches them; 0: never"})),
+                                 "bodies that touch, none faster for half a second, leave the step "
+                                 "until something touches them; of a body shorter than 1 m, this "
+                                 "times its length in m; 0: never"})),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

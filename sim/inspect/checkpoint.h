@@ -16,7 +16,7 @@ class CheckpointError : public std::runtime_error {
 };
 
 /// Everything that steps change: positions, velocities, orientations, gas that comes and goes,
-/// particles, warm-start impulses, pairs that are being moved apart, the step count.
+/// particles, warm-start impulses, slips, pairs that are being moved apart, the step count.
 std::vector<std::uint8_t> save_state(const World& world);
 
 /// Puts saved state into a world built from the same scene. Throws CheckpointError when the bytes

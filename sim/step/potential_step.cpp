@@ -127,23 +127,58 @@ class PotentialStep {
   }
 
   /// From what soft bodies do besides moving as rigid ones, and only if that is not enough, from
-  /// all motion: where nothing bears the bodies, first from what they do besides moving as one.
+  /// all motion: of bodies that touch only each other, from what they do besides moving as one.
+  /// Bodies that touch nothing give theirs only if that does not do.
   void take_excess() {
-    double of_vibrations = 0.0;
+    join_bodies_in_contact();
+    double of_vibrations = 0.0, of_groups = 0.0;
     for_each_vibration([&](const GroupMotion& motion) { of_vibrations += motion.energy(); });
     if (excess_ <= of_vibrations) {
       const double share = excess_ / of_vibrations;
       for_each_vibration([&](GroupMotion& motion) { motion.take(share * motion.energy()); });
       return;
     }
-    const bool is_free =
-        !world_.settings.ground && !w_.has_pins && m_.movable.size() == at(body_count(world_));
-    GroupMotion besides(world_, m_.movable), all(world_, m_.movable);
-    if (is_free) {
-      besides.leave_out_common();
-      excess_ -= besides.take(excess_);
+    for_each_group([&](const GroupMotion& motion) { of_groups += motion.energy(); });
+    const double share = of_groups > excess_ ? excess_ / of_groups : 1.0;
+    for_each_group([&](GroupMotion& motion) { excess_ -= motion.take(share * motion.energy()); });
+    if (share == 1.0) GroupMotion(world_, m_.movable).take(excess_);
+  }
+
+  /// Not through what is moved or stands still, which holds them as the ground does, and pins.
+  void join_bodies_in_contact() {
+    find_contacts_at(m_.end);
+    m_.joined.reset();
+    std::ranges::fill(m_.touches, std::uint8_t{0});
+    std::ranges::fill(m_.is_held, std::uint8_t{0});
+    for (const ActiveContact& contact : m_.active) {
+      const bool on_ground = contact.second < 0;
+      const bool first_moves = !is_kinematic(world_, contact.first);
+      const bool second_moves = !on_ground && !is_kinematic(world_, contact.second);
+      if (first_moves) m_.touches[at(contact.first)] = 1;
+      if (second_moves) m_.touches[at(contact.second)] = 1;
+      if (first_moves && second_moves) m_.joined.unite(contact.first, contact.second);
+      if (first_moves && !second_moves) m_.is_held[at(contact.first)] = 1;
+      if (second_moves && !first_moves) m_.is_held[at(contact.second)] = 1;
     }
-    all.take(excess_);
+    for (const int body : m_.movable) {
+      const bool has_pins = body < soft_count(world_) && world_.soft[at(body)].pins;
+      if (has_pins || m_.is_held[at(body)] != 0) m_.is_held[at(m_.joined.find(body))] = 1;
+    }
+  }
+
+  /// `visit(motion)` of each group in contact: what is held has no common motion.
+  template <class Visit>
+  void for_each_group(const Visit& visit) {
+    for (const int& first : m_.movable) {
+      if (m_.touches[at(first)] == 0 || m_.joined.find(first) != first) continue;
+      m_.group.clear();
+      for (const int body : m_.movable) {
+        if (m_.joined.find(body) == first) m_.group.push_back(body);
+      }
+      GroupMotion motion(world_, m_.group);
+      if (m_.is_held[at(first)] == 0) motion.leave_out_common();
+      visit(motion);
+    }
   }
 
   /// Of what is pinned, all motion is.
@@ -337,11 +372,15 @@ PotentialMemory::PotentialMemory(const World& world)
     : surfaces(world),
       free_boxes(find_free_boxes(world)),
       movable(find_movable(world)),
+      joined(at(body_count(world))),
+      touches(joined.size()),
+      is_held(joined.size()),
       start{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count()),
             std::vector<RigidState>(free_boxes.size())},
       end(start),
       finder(surfaces),
       forces(surfaces.vertex_count()) {
+  group.reserve(movable.size());
   if (is_implicit(world.settings.integrator)) {
     implicit_step.emplace(world, surfaces);
   } else {

@@ -8,9 +8,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "sim/base/disjoint_sets.h"
 #include "sim/potential/explicit_world_step.h"
 #include "sim/potential/implicit_world_step.h"
 #include "sim/response/motion_start.h"
@@ -34,8 +36,11 @@ struct PotentialMemory {
   };
 
   ContactSurfaces surfaces;
-  std::vector<int> free_boxes;  // of the world's
-  std::vector<int> movable;     // bodies, soft ones first
+  std::vector<int> free_boxes;                 // of the world's
+  std::vector<int> movable;                    // bodies, soft ones first
+  base::DisjointSets joined;                   // bodies, by contacts
+  std::vector<std::uint8_t> touches, is_held;  // per body; of a group, that of its first body
+  std::vector<int> group;                      // bodies
   std::optional<ExplicitWorldStep> explicit_step;
   std::optional<ImplicitWorldStep> implicit_step;
   std::array<Start, max_potential_halvings + 1> starts;  // of a part of the step and all around it

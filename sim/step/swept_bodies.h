@@ -55,6 +55,8 @@ class SweptBodies {
   /// For those who ask for contacts and for messages. `feature`: of a soft body.
   ContactSide contact_side(int body, const Feature& feature) const;
   std::string name(const World& world, int body) const;
+  /// Of a box, from the start to the end.
+  const Mat3& turn(int box) const { return turns_[at(box)]; }
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
   /// Whether it is a soft body that is an obstacle and keeps its shape.
   bool is_obstacle(int body) const { return obstacles_[at(body)] || is_in_own_axes(body); }

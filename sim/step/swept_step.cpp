@@ -243,7 +243,7 @@ class SweptStep {
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
-    warm_start_.forget_sliding_boxes(search_);
+    warm_start_.remember_held_boxes(search_, tolerance());
     list_pressing(m_, w_.contacts);
     if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
@@ -353,6 +353,7 @@ class SweptStep {
     const ContactMaterial both = search_.material(*contact);
     const double approach = -contact->normal.dot(search_.end_velocity(*contact));
     set_parting({.is_known = true, .approach = approach}, both.restitution, *contact);
+    if (!is_hit(*contact)) return;
     add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
   }
 
@@ -437,6 +438,7 @@ void forget_other_bodies(World& world) {
   world.rest.clear();
   world.lost_energy.clear();
   world.friction_slips.clear();
+  world.warm_start_impulses.clear();
 }
 
 /// Returns whether there were any.

@@ -105,9 +105,19 @@ FrictionSlip* SweptWarmStart::find_slip(const SweptContact& contact) const {
 }
 
 Vec3 SweptWarmStart::slip(const SweptContact& contact) const {
-  const FrictionSlip* known = find_slip(contact);
+  const FrictionSlip* known = contact.previous < 0 ? find_slip(contact) : nullptr;
   if (!known) return Vec3::Zero();
   return known->slip - contact.normal.dot(known->slip) * contact.normal;
+}
+
+/// The slip turns with what moves the other side, or with the box.
+Vec3 SweptWarmStart::turned(const SweptContact& contact, const Vec3& slip) const {
+  int box = -1;
+  for (const int body : {contact.first.body, contact.second.body}) {
+    if (m_.bodies.is_box(body) && (box < 0 || is_kinematic(world_, body)))
+      box = m_.bodies.box(body);
+  }
+  return box < 0 ? slip : Vec3(m_.bodies.turn(box) * slip);
 }
 
 bool SweptWarmStart::slides(const SweptSearch& search, const SweptContact& contact,
@@ -125,30 +135,43 @@ void SweptWarmStart::remember_slips(const SweptSearch& search) {
   for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
     const SweptContact& contact = m_.contacts[i];
     if (!contact.is_near || contact.previous >= 0) continue;
-    if (search.is_rigid(contact) ? !search.is_driven(contact)
-                                 : slides(search, contact, m_.impulses[i])) {
+    if (search.is_rigid(contact) ? !find_slip(contact) : slides(search, contact, m_.impulses[i])) {
       continue;
     }
     const Vec3 moved = search.displacement(contact) - search.shift(contact);
-    slips.push_back({contact.first.body, contact.second.body, contact.first.feature,
-                     contact.second.feature, slip(contact) + moved});
+    add_slip(contact, turned(contact, slip(contact)) + moved, slips);
   }
   std::ranges::sort(slips, {}, order_of);
   std::swap(slips, world_.friction_slips);
 }
 
-/// Of what is held, the sides move so that the slip is taken back, wherever the limit is reached.
-void SweptWarmStart::forget_sliding_boxes(const SweptSearch& search) {
+void SweptWarmStart::add_slip(const SweptContact& contact, const Vec3& slip,
+                              std::vector<FrictionSlip>& slips) {
+  slips.push_back({contact.first.body, contact.second.body, contact.first.feature,
+                   contact.second.feature, slip});
+}
+
+/// A box that is held ends the step with the velocity that takes its slip back; one that does not
+/// slides.
+void SweptWarmStart::remember_held_boxes(const SweptSearch& search, double tolerance) {
   const double step = time_step(world_.settings);
+  std::vector<FrictionSlip>& slips = m_.friction_slips;
+  slips.clear();
+  for (const FrictionSlip& kept : world_.friction_slips) {
+    const bool of_boxes = m_.bodies.is_box(kept.first) && m_.bodies.is_box(kept.second);
+    if (!of_boxes || sleeps(kept.first, kept.second)) slips.push_back(kept);
+  }
   for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
     const SweptContact& contact = m_.contacts[i];
-    FrictionSlip* known = search.is_rigid(contact) ? find_slip(contact) : nullptr;
-    if (!known) continue;
-    const Vec3 taken_back = -slip(contact) / step;
+    if (!contact.is_near || !search.is_rigid(contact) || !search.is_driven(contact)) continue;
+    const Vec3 known = slip(contact), taken_back = -known / step;
     const Vec3 velocity = m_.end_velocities[i] + m_.impulses[i].change();
     const Vec3 sliding = velocity - contact.normal.dot(velocity) * contact.normal;
-    if ((sliding - taken_back).squaredNorm() > taken_back.squaredNorm()) known->slip.setZero();
+    if ((sliding - taken_back).norm() > taken_back.norm() + tolerance) continue;
+    add_slip(contact, known, slips);
   }
+  std::ranges::sort(slips, {}, order_of);
+  std::swap(slips, world_.friction_slips);
 }
 
 }  // namespace pneuma::sim

@@ -27,11 +27,12 @@ class SweptWarmStart {
   /// until its end once they are remembered.
   Vec3 slip(const SweptContact& contact) const;
   /// Keeps how far the contacts of the start, once solved for, have slipped that a soft body sticks
-  /// in, or that a box has with what is moved; and of bodies that sleep what they had slipped when
-  /// they fell asleep.
+  /// in, or in which a box was held by what is moved; and of bodies that sleep what they had
+  /// slipped when they fell asleep.
   void remember_slips(const SweptSearch& search);
-  /// Of the contacts of the end, once solved for: boxes are held by these.
-  void forget_sliding_boxes(const SweptSearch& search);
+  /// Of these, and of the contacts of the end, once solved for to a `tolerance` (m/s): keeps those
+  /// of boxes that are held by what is moved.
+  void remember_held_boxes(const SweptSearch& search, double tolerance);
 
  private:
   /// The impulse of the nearest contact, if there is one.
@@ -39,6 +40,9 @@ class SweptWarmStart {
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
                 Moment moment, double fraction);
   FrictionSlip* find_slip(const SweptContact& contact) const;
+  Vec3 turned(const SweptContact& contact, const Vec3& slip) const;
+  static void add_slip(const SweptContact& contact, const Vec3& slip,
+                       std::vector<FrictionSlip>& slips);
   bool slides(const SweptSearch& search, const SweptContact& contact,
               const SweptImpulse& impulse) const;
   bool sleeps(int first, int second) const;

@@ -23,9 +23,9 @@ struct WarmStartImpulse {
   bool is_of_start = false;     // given at the start of the step (ERRATA row 67), not at its end
 };
 
-/// How far two features that friction holds have slipped so far. It is solved for with masses
-/// alone; springs that act within the step take back a part of what it does, in every step the same
-/// way. So the next step makes up for it, and these are state (ERRATA row 67).
+/// How far two features that friction holds have slipped so far: a little in every step, as springs
+/// act within it and as what turns leads along an arc. The next step makes up for it, so these are
+/// state (ERRATA row 67).
 struct FrictionSlip {
   int first = 0;   // body, soft ones first
   int second = 0;  // body, or -1 for the ground
@@ -68,7 +68,7 @@ struct World {
   std::vector<ParticlePair> particles;  // pairs that have met, ordered by (first, second)
   // Of the last step. Without swept contacts those of each pair of boxes come one after the other.
   std::vector<WarmStartImpulse> warm_start_impulses;
-  // Of the last step, of swept contacts with a soft body, ordered by what is in contact.
+  // Of the last step, where contacts are swept, ordered by what is in contact.
   std::vector<FrictionSlip> friction_slips;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   // J, per soft body, of the last steps: what bodies in contact may gain

@@ -140,7 +140,7 @@ TEST(StartOverlap, NamesAWayThatParts) {
       "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = ";
   const std::string back = refusal_of(ring + "[1.8, 0, 4]\n");
   EXPECT_NE(back.find("move it 0.517 m along -x"), std::string::npos) << back;
-  EXPECT_EQ(refusal_of(ring + "[1.282, 0, 4]\n"), "");
+  EXPECT_EQ(refusal_of(ring + "[1.283, 0, 4]\n"), "");
 }
 
 TEST(StartOverlap, TellsATouchByWeightFromAnOverlap) {

@@ -1,6 +1,7 @@
 // Friction that holds: what it lets slip in a step is made up for in the next.
 #include <gtest/gtest.h>
 
+#include "sim/inspect/checkpoint.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -50,9 +51,8 @@ TEST(HeldByFriction, IsTheSameWithoutSleep) {
   EXPECT_EQ(hash_with(0.0), hash_with(1e-12));
 }
 
-/// Within a step a box moves along a straight line, and what it lies on along an arc.
-TEST(HeldByFriction, HoldsABoxOnATurntable) {
-  constexpr double radius = 2.0, turn = 1.0;  // m, rad/s: friction holds up to 2.45 m
+/// A box at rest on a table that turns, in its axes.
+Vec3 place_on_turntable(double radius, double turn, double friction, double seconds) {
   World world;
   world.settings.contact = ContactMethod::swept;
   world.settings.ground.reset();
@@ -64,11 +64,51 @@ TEST(HeldByFriction, HoldsABoxOnATurntable) {
   box.rho_g = 0.0;
   box.velocity = {0.0, turn * radius, 0.0};
   box.angular_velocity = table.angular_velocity;
-  table.surface = box.surface = {0.0, 0.25};
+  table.surface = box.surface = {0.0, friction};
   world.rigid = {table, box};
-  ASSERT_FALSE(run(world, 6.0));
-  // In each step a straight line leads turn^2 radius h^2 / 2 outwards: by 100 mm in all.
-  EXPECT_NEAR(world.rigid[1].position.head<2>().norm(), radius, 2e-3);
+  EXPECT_FALSE(run(world, seconds));
+  return world.rigid[0].orientation.conjugate() * world.rigid[1].position;
+}
+
+/// Within a step a box moves along a straight line, and what it lies on along an arc: turn^2 radius
+/// h^2 / 2 outwards in each step, 100 mm in all of the first and 1.6 m of the second.
+TEST(HeldByFriction, HoldsABoxOnATurntable) {
+  const Vec3 slow = place_on_turntable(2.0, 1.0, 0.25, 6.0);
+  EXPECT_LT((slow - Vec3(2.0, 0.0, slow.z())).norm(), 2e-3);
+  const Vec3 fast = place_on_turntable(0.5, 4.0, 1.2, 6.0);
+  EXPECT_LT((fast - Vec3(0.5, 0.0, fast.z())).norm(), 5e-3);
+}
+
+/// What slid is no slip that is taken back.
+TEST(HeldByFriction, ABoxThatSlidesComesToRestWithoutTurningBack) {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  world.settings.ground.reset();
+  world.settings.gravity = {0.0, 0.0, -g};
+  RigidBox table = make_rigid({10.0, 10.0, 0.5}, {0.0, 0.0, 0.0}, 1.0);
+  table.is_kinematic = true;
+  RigidBox box = make_rigid({0.5, 0.5, 0.3}, {0.0, 0.0, 0.403}, 1.0);
+  box.rho_g = 0.0;
+  box.velocity = {1.0, 0.0, 0.0};
+  table.surface = box.surface = {0.0, 0.3};
+  world.rigid = {table, box};
+  Stepper stepper(world);
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    EXPECT_GT(world.rigid[1].velocity.x(), -1e-6) << i;
+  }
+  EXPECT_NEAR(world.rigid[1].velocity.x(), 0.0, 1e-6);
+}
+
+TEST(HeldByFriction, IsTheSameAfterAResume) {
+  World world = make_crate_on_torus();
+  ASSERT_FALSE(run(world, 2.0));
+  ASSERT_FALSE(world.friction_slips.empty());
+  World resumed = make_crate_on_torus();
+  load_state(save_state(world), resumed);
+  ASSERT_FALSE(run(world, 1.0));
+  ASSERT_FALSE(run(resumed, 1.0));
+  EXPECT_EQ(state_hash(resumed), state_hash(world));
 }
 
 }  // namespace
