@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/inspect/checkpoint.h"
@@ -108,6 +109,21 @@ TEST(Sleep, WakesIntoTheSameImpact) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(sleeping.rigid[i].position, awake.rigid[i].position) << i;
     EXPECT_EQ(sleeping.rigid[i].velocity, awake.rigid[i].velocity) << i;
+  }
+}
+
+TEST(Sleep, AWorldOfFewerBoxesKnowsNothingOfTheOthers) {
+  for (const double sleep_speed : {0.0, 0.01}) {
+    World world = make_stacks();
+    world.settings.sleep_speed = sleep_speed;
+    ASSERT_FALSE(run(world, 1.0));
+    world.rigid.resize(3);
+    ASSERT_FALSE(run(world, 0.1));
+    for (const WarmStartImpulse& impulse : world.warm_start_impulses) {
+      EXPECT_LT(std::max(impulse.first, impulse.second), 3);
+    }
+    World loaded = world;
+    EXPECT_NO_THROW(load_state(save_state(world), loaded));
   }
 }
 
