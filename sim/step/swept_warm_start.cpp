@@ -154,6 +154,7 @@ void SweptWarmStart::add_slip(const SweptContact& contact, const Vec3& slip,
 /// A box that is held ends the step with the velocity that takes its slip back; one that does not
 /// slides.
 void SweptWarmStart::remember_held_boxes(const SweptSearch& search, double tolerance) {
+  if (std::ranges::none_of(world_.rigid, &RigidBox::is_kinematic)) return;
   const double step = time_step(world_.settings);
   std::vector<FrictionSlip>& slips = m_.friction_slips;
   slips.clear();
