@@ -10,33 +10,44 @@ namespace {
 constexpr double parallel = 1e-14;
 
 /// Fills in what follows from the weights.
-PairPoint finished(const PairCorners& x, PairPoint point) {
+void finish(const PairCorners& x, PairPoint& point) {
   for (std::size_t i = 0; i < 4; ++i) point.apart += point.weights[i] * x[i];
   point.distance = point.apart.norm();
-  return point;
 }
 
 /// Of a vertex (weight `sign`) and the segment between two others.
-PairPoint nearest_on_segment(const PairCorners& x, std::size_t vertex, std::size_t from,
-                             std::size_t to, double sign) {
-  const Vec3 along = x[to] - x[from];
-  const double squared = along.squaredNorm();
-  const double place =
-      squared > 0.0 ? std::clamp((x[vertex] - x[from]).dot(along) / squared, 0.0, 1.0) : 0.0;
-  PairPoint point;
-  point.weights[vertex] = sign;
-  point.weights[from] = -sign * (1.0 - place);
-  point.weights[to] = -sign * place;
-  if (place > 0.0 && place < 1.0) {
-    point.slides = 1;
-    point.rates[0][from] = sign;
-    point.rates[0][to] = -sign;
+struct OnSegment {
+  OnSegment(const PairCorners& x, std::size_t its_vertex, std::size_t begin, std::size_t end,
+            double its_sign)
+      : vertex(its_vertex), from(begin), to(end), sign(its_sign) {
+    const Vec3 along = x[to] - x[from], offset = x[vertex] - x[from];
+    const double squared = along.squaredNorm();
+    place = squared > 0.0 ? std::clamp(offset.dot(along) / squared, 0.0, 1.0) : 0.0;
+    squared_distance = (offset - place * along).squaredNorm();
   }
-  return finished(x, point);
+
+  std::size_t vertex, from, to;
+  double sign;
+  double place;             // fraction of the way
+  double squared_distance;  // m^2
+};
+
+const OnSegment& nearer(const OnSegment& a, const OnSegment& b) {
+  return b.squared_distance < a.squared_distance ? b : a;
 }
 
-const PairPoint& nearer(const PairPoint& a, const PairPoint& b) {
-  return b.distance < a.distance ? b : a;
+PairPoint point_of(const PairCorners& x, const OnSegment& nearest) {
+  PairPoint point;
+  point.weights[nearest.vertex] = nearest.sign;
+  point.weights[nearest.from] = -nearest.sign * (1.0 - nearest.place);
+  point.weights[nearest.to] = -nearest.sign * nearest.place;
+  if (nearest.place > 0.0 && nearest.place < 1.0) {
+    point.slides = 1;
+    point.rates[0][nearest.from] = nearest.sign;
+    point.rates[0][nearest.to] = -nearest.sign;
+  }
+  finish(x, point);
+  return point;
 }
 
 }  // namespace
@@ -54,10 +65,11 @@ PairPoint nearest_vertex_triangle(const PairCorners& x) {
     point.weights = {1.0, b + c - 1.0, -b, -c};
     point.slides = 2;
     point.rates = {PairWeights{0.0, 1.0, -1.0, 0.0}, PairWeights{0.0, 1.0, 0.0, -1.0}};
-    return finished(x, point);
+    finish(x, point);
+    return point;
   }
-  return nearer(nearer(nearest_on_segment(x, 0, 1, 2, 1.0), nearest_on_segment(x, 0, 2, 3, 1.0)),
-                nearest_on_segment(x, 0, 3, 1, 1.0));
+  const OnSegment first(x, 0, 1, 2, 1.0), opposite(x, 0, 2, 3, 1.0), last(x, 0, 3, 1, 1.0);
+  return point_of(x, nearer(nearer(first, opposite), last));
 }
 
 PairPoint nearest_edge_edge(const PairCorners& x) {
@@ -73,10 +85,12 @@ PairPoint nearest_edge_edge(const PairCorners& x) {
     point.weights = {1.0 - s, s, t - 1.0, -t};
     point.slides = 2;
     point.rates = {PairWeights{-1.0, 1.0, 0.0, 0.0}, PairWeights{0.0, 0.0, 1.0, -1.0}};
-    return finished(x, point);
+    finish(x, point);
+    return point;
   }
-  return nearer(nearer(nearest_on_segment(x, 0, 2, 3, 1.0), nearest_on_segment(x, 1, 2, 3, 1.0)),
-                nearer(nearest_on_segment(x, 2, 0, 1, -1.0), nearest_on_segment(x, 3, 0, 1, -1.0)));
+  const OnSegment start(x, 0, 2, 3, 1.0), end(x, 1, 2, 3, 1.0);
+  const OnSegment other_start(x, 2, 0, 1, -1.0), other_end(x, 3, 0, 1, -1.0);
+  return point_of(x, nearer(nearer(start, end), nearer(other_start, other_end)));
 }
 
 Vec12 distance_gradient(const PairPoint& point) {

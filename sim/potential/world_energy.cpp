@@ -149,11 +149,14 @@ void WorldEnergy::hessian(const WorldPoint& point, ContactHessian form, LaggedTe
     for (int v = 0; v < own.positions.size(); ++v) {
       matrix.add_diagonal(first + v, body.energy.inertia);
     }
+    const double gauge = pressure(body.energy, own);
     const auto& edges = body.mesh->topology.edges();
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const EdgeHessian of_edge = edge_hessian(*body.mesh, body.energy, own, body.opposite, e);
-      matrix.add(first + edges[e][0], of_edge.own);
-      matrix.add(first + edges[e][1], of_edge.own);
+      EdgeHessian of_edge;
+      find_edge_hessian(*body.mesh, body.energy, own, gauge, body.opposite, e, of_edge);
+      const Mat3 own_block = to_mat3(of_edge.own);
+      matrix.add(first + edges[e][0], own_block);
+      matrix.add(first + edges[e][1], own_block);
       matrix.add_between(first + edges[e][0], first + edges[e][1], of_edge.between);
     }
     add_hinges(body, own, matrix);

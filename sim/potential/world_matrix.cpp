@@ -41,9 +41,9 @@ void WorldMatrix::add_diagonal(int vertex, double value) {
   diagonal_[at(vertex)].diagonal().array() += value;
 }
 
-void WorldMatrix::add_between(int a, int b, const Mat3& block) {
+void WorldMatrix::add_between(int a, int b, const Mat3x4& block) {
   between_.push_back({a, b});
-  between_blocks_.push_back(mat3x4(block));
+  between_blocks_.push_back(block);
 }
 
 void WorldMatrix::add_rank_one(int first, const VertexArray& q) {
@@ -57,7 +57,7 @@ void WorldMatrix::add(const std::array<int, 4>& vertices, const Mat12& block) {
   for (int i = 0; i < 4; ++i) {
     add(vertices[at(i)], block.block<3, 3>(3 * i, 3 * i));
     for (int j = i + 1; j < 4; ++j) {
-      add_between(vertices[at(i)], vertices[at(j)], block.block<3, 3>(3 * i, 3 * j));
+      add_between(vertices[at(i)], vertices[at(j)], mat3x4(block.block<3, 3>(3 * i, 3 * j)));
     }
   }
 }
@@ -127,9 +127,8 @@ bool WorldMatrix::invert_diagonal(double shift) {
   for (std::size_t v = 0; v < whole.size(); ++v) {
     if (is_mobile_[v] == 0 || box_of_vertex_[v] >= 0) continue;
     whole[v].diagonal().array() += shift;
-    const Eigen::LLT<Mat3> factor(whole[v]);
-    if (factor.info() != Eigen::Success) return false;
-    inverse_[v] = mat3x4(factor.solve(Mat3::Identity()));
+    if (!is_positive_definite(whole[v])) return false;
+    inverse_[v] = mat3x4(whole[v].inverse());
   }
   return boxes_.empty() || invert_boxes(shift);
 }

@@ -27,7 +27,7 @@ class WorldMatrix {
   void add_diagonal(int vertex, double value);
   void add(int vertex, const Mat3& block) { diagonal_[at(vertex)] += block; }
   /// In the rows of a and the columns of b, and transposed.
-  void add_between(int a, int b, const Mat3& block);
+  void add_between(int a, int b, const Mat3x4& block);
   /// q q^T of the vertices from `first` on.
   void add_rank_one(int first, const VertexArray& q);
   std::vector<WeightedBlock>& blocks() { return blocks_; }

@@ -1,6 +1,5 @@
 #include "sim/soft/conjugate_gradients.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace pneuma::sim {
@@ -30,9 +29,9 @@ bool ConjugateGradients::promises_to_be_quick(int vertex_count, double stiffness
 bool ConjugateGradients::invert_diagonal(const VertexMatrix& matrix, const VertexArray& rank_one) {
   for (int v = 0; v < rank_one.size(); ++v) {
     const Vec3 q = rank_one[v];
-    const Eigen::LLT<Mat3> factor(matrix.diagonal_block(v) + q * q.transpose());
-    if (factor.info() != Eigen::Success) return false;
-    inverse_[at(v)] = factor.solve(Mat3::Identity());
+    const Mat3 block = matrix.diagonal_block(v) + q * q.transpose();
+    if (!is_positive_definite(block)) return false;
+    inverse_[at(v)] = block.inverse();
   }
   return true;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/mesh/rotation.h"
 #include "sim/soft/bending.h"
 #include "sim/soft/pressure_force.h"
 
@@ -49,17 +48,31 @@ void add_friction_hessian(const IncrementalPotential& energy, const VertexArray&
     Mat3 whole = Mat3::Zero();
     whole.topLeftCorner<2, 2>() =
         energy.friction_bound[at(v)] / std::max(size, energy.regularisation_length) * block;
-    hessian.add(v, whole);
+    hessian.add(v, mat3x4(whole));
   }
 }
 
 /// Of s/2 (l - r)^2 in the ends' own rows and columns, and negative between them: stiff along the
 /// spring, across it by as much as the spring is stretched. A spring of no length has no direction.
-Mat3 spring_hessian(const Vec3& edge, double length, double stiffness, double rest_length) {
-  if (!(length > 0.0)) return stiffness * Mat3::Identity();
-  const double across = 1.0 - rest_length / length;
-  const Vec3 d = edge / length;
-  return stiffness * (across * Mat3::Identity() + (1.0 - across) * d * d.transpose());
+void put_spring_hessian(Vec4d edge, double length, double stiffness, double rest_length,
+                        Mat3x4& hessian) {
+  const bool has_direction = length > 0.0;
+  const double inverse = has_direction ? 1.0 / length : 0.0;
+  const Vec4d d = inverse * edge;
+  const double rest = stiffness * rest_length * inverse;
+  const double across = stiffness - rest;
+  const Vec4d along = rest * d;
+  hessian.columns[0] = fma(along[0], d, across * Vec4d{1.0});
+  hessian.columns[1] = fma(along[1], d, across * Vec4d{0.0, 1.0});
+  hessian.columns[2] = fma(along[2], d, across * Vec4d{0.0, 0.0, 1.0});
+}
+
+/// The matrix m of m u = w x u.
+void put_cross_matrix(Vec4d w, Mat3x4& matrix) {
+  const Vec4d minus = -w;
+  matrix.columns[0] = __builtin_shufflevector(w, minus, 3, 2, 5, 3);
+  matrix.columns[1] = __builtin_shufflevector(w, minus, 6, 3, 0, 3);
+  matrix.columns[2] = __builtin_shufflevector(w, minus, 1, 4, 3, 3);
 }
 
 void add_bending_hessian(const IncrementalPotential& energy, const VertexArray& positions,
@@ -68,9 +81,10 @@ void add_bending_hessian(const IncrementalPotential& energy, const VertexArray& 
     const HingeHessian block = hinge_hessian(energy.hinges, positions, energy.bending, e);
     const HingeTable::Corners& corners = energy.hinges.corners[at(e)];
     for (int i = 0; i < 4; ++i) {
-      hessian.add(corners[at(i)], block.block<3, 3>(3 * i, 3 * i));
+      hessian.add(corners[at(i)], mat3x4(block.block<3, 3>(3 * i, 3 * i)));
       for (int j = i + 1; j < 4; ++j) {
-        hessian.add_between(corners[at(i)], corners[at(j)], block.block<3, 3>(3 * i, 3 * j));
+        hessian.add_between(corners[at(i)], corners[at(j)],
+                            mat3x4(block.block<3, 3>(3 * i, 3 * j)));
       }
     }
   }
@@ -152,17 +166,18 @@ std::vector<std::array<int, 2>> opposite_vertices(const MeshTopology& topology) 
   return opposite;
 }
 
-EdgeHessian edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
-                         const EnergyPoint& point, const std::vector<std::array<int, 2>>& opposite,
-                         std::size_t edge) {
+void find_edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
+                       const EnergyPoint& point, double pressure,
+                       const std::vector<std::array<int, 2>>& opposite, std::size_t edge,
+                       EdgeHessian& hessian) {
   // V = sum of a . (b x c) / 6 is linear in each vertex. In b, the gradient b x c / 6 at a changes
   // by u x c / 6 with u: of an edge with c and c' across it, d^2V/da db u = u x (c - c') / 6.
-  const VertexArray& x = point.positions;
+  const VertexReader x(point.positions);
   const auto& [a, b] = mesh.topology.edges()[edge];
-  const Mat3 spring =
-      spring_hessian(x[b] - x[a], point.lengths[edge], energy.stiffness, energy.rest_lengths[edge]);
-  const Vec3 across = x[opposite[edge][0]] - x[opposite[edge][1]];
-  return {spring, pressure(energy, point) / 6.0 * cross_matrix(across) - spring};
+  put_spring_hessian(x[b] - x[a], point.lengths[edge], energy.stiffness, energy.rest_lengths[edge],
+                     hessian.own);
+  put_cross_matrix(pressure / 6.0 * (x[opposite[edge][0]] - x[opposite[edge][1]]), hessian.between);
+  for (std::size_t i = 0; i < 3; ++i) hessian.between.columns[i] -= hessian.own.columns[i];
 }
 
 void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& energy,
@@ -170,10 +185,12 @@ void hessian_without_rank_one(const SoftMesh& mesh, const IncrementalPotential& 
                               const std::vector<std::array<int, 2>>& opposite,
                               VertexMatrix& hessian) {
   hessian.set_identity(energy.inertia);
+  const double gauge = pressure(energy, point);
   const auto& edges = mesh.topology.edges();
+  EdgeHessian of_edge;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto& [a, b] = edges[e];
-    const EdgeHessian of_edge = edge_hessian(mesh, energy, point, opposite, e);
+    find_edge_hessian(mesh, energy, point, gauge, opposite, e, of_edge);
     hessian.add(a, of_edge.own);
     hessian.add(b, of_edge.own);
     hessian.add_between(static_cast<int>(e), of_edge.between);

@@ -86,14 +86,15 @@ void gradient_without_gas(const SoftMesh& mesh, const IncrementalPotential& ener
 std::vector<std::array<int, 2>> opposite_vertices(const MeshTopology& topology);
 
 /// What an edge adds to d^2E/dx^2, N/m: to both of its ends' own blocks, and to the block in the
-/// rows of its first and the columns of its second vertex.
+/// rows of its first and the columns of its second vertex. `pressure`: P - p0 at the point, Pa.
 struct EdgeHessian {
-  Mat3 own;
-  Mat3 between;
+  Mat3x4 own;
+  Mat3x4 between;
 };
-EdgeHessian edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
-                         const EnergyPoint& point, const std::vector<std::array<int, 2>>& opposite,
-                         std::size_t edge);
+void find_edge_hessian(const SoftMesh& mesh, const IncrementalPotential& energy,
+                       const EnergyPoint& point, double pressure,
+                       const std::vector<std::array<int, 2>>& opposite, std::size_t edge,
+                       EdgeHessian& hessian);
 
 /// d^2E/dx^2 in N/m at a point that has been evaluated, without the gas's term P/V dV/dx dV/dx^T,
 /// which would fill the matrix.

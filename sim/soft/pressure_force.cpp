@@ -1,24 +1,29 @@
 #include "sim/soft/pressure_force.h"
 
+#include <cmath>
+
 #include "sim/mesh/measure.h"
+#include "sim/mesh/vec4d.h"
 
 namespace pneuma::sim {
 
 void volume_gradient(const MeshTopology& topology, const VertexArray& positions,
                      VertexArray& gradient) {
+  const VertexReader x(positions);
+  const VertexWriter out(gradient);
   for (int v = 0; v < topology.vertex_count(); ++v) {
     // Differences from the vertex itself: the ring is closed, so any origin gives the same sum, and
     // this one keeps the digits of a body far away.
-    const Vec3 centre = positions[v];
+    const Vec4d centre = x[v];
     const auto ring = topology.ring(v);
-    Vec3 previous = positions[ring.back().vertex] - centre;
-    Vec3 twice_area = Vec3::Zero();
+    Vec4d previous = x[ring.back().vertex] - centre;
+    Vec4d twice_area{};
     for (const auto& spoke : ring) {
-      const Vec3 next = positions[spoke.vertex] - centre;
-      twice_area += previous.cross(next);
+      const Vec4d next = x[spoke.vertex] - centre;
+      twice_area += cross(previous, next);
       previous = next;
     }
-    gradient[v] = twice_area / 6.0;
+    out.put(v, twice_area / 6.0);
   }
 }
 
@@ -34,11 +39,12 @@ double volume(const VertexArray& positions, const VertexArray& gradient) {
 double volume_rounding(const VertexArray& positions, const VertexArray& gradient) {
   constexpr double rounding = 1e-15;  // of a term and its part of the sum
   const Vec3 centre = mean(positions);
-  double terms = 0.0;
+  double squared_distances = 0.0;
   for (int v = 0; v < positions.size(); ++v) {
-    terms += (positions[v] - centre).norm() * gradient[v].norm();
+    squared_distances += (positions[v] - centre).squaredNorm();
   }
-  return rounding * terms;
+  // The terms' sum is at most this (Cauchy and Schwarz).
+  return rounding * std::sqrt(squared_distances * gradient.rows().squaredNorm());
 }
 
 }  // namespace pneuma::sim

@@ -14,6 +14,7 @@ VertexMatrix::VertexMatrix(const MeshTopology& topology, const HingeTable* hinge
   factor_.analyzePattern(upper_);
   right_.resize(upper_.rows());
   solution_.resize(upper_.rows());
+  ordered_ = ordered_product_ = VertexArray(topology.vertex_count());
 }
 
 void VertexMatrix::find_pairs(const HingeTable* hinges) {
@@ -117,24 +118,31 @@ double VertexMatrix::max_diagonal() const {
   return max;
 }
 
-void VertexMatrix::add(int vertex, const Mat3& block) {
+void VertexMatrix::add(int vertex, const Mat3x4& block) {
   const int rank = rank_[at(vertex)];
   for (int column = 0; column < 3; ++column) {
     double* values =
         upper_.valuePtr() + upper_.outerIndexPtr()[3 * rank + column] + diagonal_offset_[at(rank)];
-    for (int row = 0; row <= column; ++row) values[row] += block(row, column);
+    for (int row = 0; row <= column; ++row) values[row] += block.columns[at(column)][row];
   }
 }
 
-void VertexMatrix::add_between(int a, int b, int pair, const Mat3& block) {
-  const bool in_order = rank_[at(a)] < rank_[at(b)];
-  const int later = in_order ? rank_[at(b)] : rank_[at(a)];
-  for (int column = 0; column < 3; ++column) {
-    double* values =
-        upper_.valuePtr() + upper_.outerIndexPtr()[3 * later + column] + pair_offset_[at(pair)];
-    for (int row = 0; row < 3; ++row) {
-      values[row] += in_order ? block(row, column) : block(column, row);
-    }
+void VertexMatrix::add_between(int a, int b, int pair, const Mat3x4& block) {
+  if (rank_[at(a)] < rank_[at(b)]) {
+    add_above(rank_[at(b)], pair, block);
+  } else {
+    add_above(rank_[at(a)], pair, transposed(block));
+  }
+}
+
+/// In the columns of a pair's later vertex. The fourth number of a block's column is 0, and what it
+/// is added to is of the same column.
+void VertexMatrix::add_above(int rank, int pair, const Mat3x4& block) {
+  const int* const columns = upper_.outerIndexPtr() + 3 * rank;
+  double* const first = upper_.valuePtr() + pair_offset_[at(pair)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    double* const values = first + columns[i];
+    store_vec4d(load_vec4d(values) + block.columns[i], values);
   }
 }
 
@@ -172,9 +180,43 @@ void VertexMatrix::solve(VertexArray& values) const {
 }
 
 void VertexMatrix::multiply(const VertexArray& values, VertexArray& product) const {
-  put_in_order(values);
-  solution_.noalias() = upper_.selfadjointView<Eigen::Upper>() * right_;
-  take_from_order(product);
+  for (int v = 0; v < values.size(); ++v) ordered_[rank_[at(v)]] = values[v];
+  for (int rank = 0; rank < values.size(); ++rank) {
+    VertexWriter(ordered_product_).put(rank, multiply_row(rank));
+  }
+  for (int v = 0; v < values.size(); ++v) product[v] = ordered_product_[rank_[at(v)]];
+}
+
+/// Of the blocks on and left of the diagonal; adds what those above it, the same ones transposed,
+/// come to in the products of lower ranks. With a block's column of three numbers the one behind
+/// them is read: it comes into nothing but the fourth number of a product, which nobody reads.
+Vec4d VertexMatrix::multiply_row(int rank) const {
+  const VertexReader x(ordered_), before(ordered_product_);
+  const VertexWriter after(ordered_product_);
+  std::array<const double*, 3> columns;
+  for (int i = 0; i < 3; ++i) {
+    columns[at(i)] = upper_.valuePtr() + upper_.outerIndexPtr()[3 * rank + i];
+  }
+  const int* rows = upper_.innerIndexPtr() + upper_.outerIndexPtr()[3 * rank];
+  const Vec4d own = x[rank];
+  std::array<Vec4d, 3> products{};
+  const int diagonal = diagonal_offset_[at(rank)];
+  for (int i = 0; i < diagonal; i += 3) {
+    const int other = rows[i] / 3;
+    Vec4d of_other = before[other];
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Vec4d column = load_vec4d(columns[j] + i);
+      of_other = fma(own[static_cast<int>(j)], column, of_other);
+      products[j] = fma(column, x[other], products[j]);
+    }
+    after.put(other, of_other);
+  }
+  const Vec3x4 sums = to_columns(products[0], products[1], products[2], Vec4d{});
+  const double* const a = columns[0] + diagonal;
+  const double* const b = columns[1] + diagonal;
+  const double* const c = columns[2] + diagonal;
+  const Mat3x4 block{{Vec4d{a[0], b[0], c[0]}, Vec4d{b[0], b[1], c[1]}, Vec4d{c[0], c[1], c[2]}}};
+  return sums.x + sums.y + sums.z + block * own;
 }
 
 Mat3 VertexMatrix::diagonal_block(int vertex) const {

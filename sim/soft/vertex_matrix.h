@@ -8,12 +8,14 @@
 // KiB each) and are allocated each time.
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <vector>
 
 #include "sim/mesh/hinges.h"
 #include "sim/mesh/topology.h"
+#include "sim/mesh/vec4d.h"
 #include "sim/mesh/vertex_array.h"
 
 namespace pneuma::sim {
@@ -21,6 +23,12 @@ namespace pneuma::sim {
 /// Over all coordinates of all vertices.
 inline double dot(const VertexArray& a, const VertexArray& b) {
   return a.rows().cwiseProduct(b.rows()).sum();
+}
+
+/// Of a symmetric matrix, by Sylvester's criterion.
+inline bool is_positive_definite(const Mat3& block) {
+  return block(0, 0) > 0.0 && block.topLeftCorner<2, 2>().determinant() > 0.0 &&
+         block.determinant() > 0.0;
 }
 
 class VertexMatrix {
@@ -31,15 +39,15 @@ class VertexMatrix {
   /// `diagonal` times the identity.
   void set_identity(double diagonal);
 
-  void add(int vertex, const Mat3& block);  // symmetric
+  void add(int vertex, const Mat3x4& block);  // symmetric
   /// The block of an edge in the rows of its first vertex and the columns of its second, and the
   /// transposed one in the mirrored position.
-  void add_between(int edge, const Mat3& block) {
+  void add_between(int edge, const Mat3x4& block) {
     const auto& [a, b] = topology_.edges()[at(edge)];
     add_between(a, b, edge, block);
   }
   /// Likewise of two vertices of a hinge.
-  void add_between(int a, int b, const Mat3& block) { add_between(a, b, pair(a, b), block); }
+  void add_between(int a, int b, const Mat3x4& block) { add_between(a, b, pair(a, b), block); }
 
   /// Adds to the whole diagonal.
   void add_identity(double diagonal);
@@ -77,7 +85,9 @@ class VertexMatrix {
   void order();
   void make_pattern();
   int pair(int a, int b) const;
-  void add_between(int a, int b, int pair, const Mat3& block);
+  void add_between(int a, int b, int pair, const Mat3x4& block);
+  void add_above(int rank, int pair, const Mat3x4& block);
+  Vec4d multiply_row(int rank) const;
   void put_in_order(const VertexArray& values) const;  // into right_
   void take_from_order(VertexArray& values) const;     // from solution_
 
@@ -92,6 +102,7 @@ class VertexMatrix {
   Factor factor_;
   int negative_count_ = 0;
   mutable Eigen::VectorXd right_, solution_;
+  mutable VertexArray ordered_, ordered_product_;
 };
 
 }  // namespace pneuma::sim

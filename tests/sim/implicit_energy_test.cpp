@@ -112,6 +112,26 @@ TEST(VertexMatrix, FixingTakesACoordinateOut) {
   EXPECT_LT((pinned - expected).norm() / expected.norm(), 1e-10);  // inverted twice
 }
 
+TEST(VertexMatrix, ProductsAreThoseOfTheDenseMatrix) {
+  MinimiserCase c(ball(), 0.3);
+  VertexMatrix matrix(c.mesh().topology);
+  hessian_without_rank_one(c.mesh(), c.energy, c.point, opposite_vertices(c.mesh().topology),
+                           matrix);
+  ASSERT_TRUE(matrix.factorize());
+  const int count = c.point.positions.size();
+  const Eigen::MatrixXd whole = dense(matrix, count);
+  VertexArray product(count);
+  matrix.multiply(c.energy.target, product);
+  const Eigen::VectorXd expected = whole * MinimiserCase::flat(c.energy.target);
+  const double tolerance = 1e-10;  // inverted twice
+  EXPECT_LT((MinimiserCase::flat(product) - expected).norm(), tolerance * expected.norm());
+  EXPECT_EQ(product.rows().row(3), Eigen::RowVectorXd::Zero(count));
+  for (int v = 0; v < count; ++v) {
+    EXPECT_LT((matrix.diagonal_block(v) - whole.block<3, 3>(3 * v, 3 * v)).norm(),
+              tolerance * whole.norm());
+  }
+}
+
 /// S and q at the case's point.
 struct Hessian {
   VertexMatrix matrix;
@@ -208,9 +228,9 @@ TEST(ConjugateGradients, SolveWhatOnlyTheRankOneTermMakesPositive) {
   const int vertices = c.point.positions.size();
   hessian.matrix.set_identity(1.0);
   for (int e = 0; e < c.mesh().topology.edge_count(); ++e) {
-    hessian.matrix.add_between(e, 0.05 * Mat3::Identity());
+    hessian.matrix.add_between(e, mat3x4(0.05 * Mat3::Identity()));
   }
-  hessian.matrix.add(4, Vec3(-1.5, 0.0, 0.0).asDiagonal());
+  hessian.matrix.add(4, mat3x4(Mat3(Vec3(-1.5, 0.0, 0.0).asDiagonal())));
   hessian.rank_one.rows().setZero();
   hessian.rank_one[4].x() = 1.5;
   ASSERT_TRUE(hessian.matrix.factorize());
@@ -231,8 +251,9 @@ TEST(ConjugateGradients, SeeThatAMatrixIsNotPositive) {
             ConjugateGradients::End::not_positive);
   // The blocks on the diagonal are, but between the ends of an edge is more.
   matrix.set_identity(1.0);
-  for (int e = 0; e < body.mesh->topology.edge_count(); ++e)
-    matrix.add_between(e, Mat3::Identity());
+  for (int e = 0; e < body.mesh->topology.edge_count(); ++e) {
+    matrix.add_between(e, mat3x4(Mat3::Identity()));
+  }
   EXPECT_EQ(gradients.solve(matrix, none, gradient, direction),
             ConjugateGradients::End::not_positive);
 }

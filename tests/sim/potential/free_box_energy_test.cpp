@@ -198,7 +198,7 @@ TEST(WorldMatrix, GoesOnAlongNegativeCurvature) {
   for (int v = 0; v < count; ++v) matrix.add_diagonal(v, 2.0);
   Mat3 coupling = Mat3::Zero();
   coupling(2, 2) = 3.0;
-  matrix.add_between(0, 1, coupling);
+  matrix.add_between(0, 1, mat3x4(coupling));
   VertexArray right(count), direction(count), product(count);
   right[0] = Vec3(0.3, 0.0, 0.5);
   right[1] = Vec3(0.0, 0.1, -0.4);
