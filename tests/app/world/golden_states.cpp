@@ -25,10 +25,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view system_word = "system ";
 
-/// By then bodies have met in nearly all scenes. Those of many small steps, whose implicit steps
-/// take half a minute for as long, run for a second.
+/// By then bodies have met in nearly all scenes. Those of many small steps run for less, so that
+/// all integrators together take seconds.
 double seconds_of(const scenes::Scene& scene) {
-  return scene.settings.steps_per_second <= 240 ? 3.0 : 1.0;
+  if (scene.settings.steps_per_second < 240) return 3.0;
+  return scene.settings.steps_per_second == 240 ? 1.5 : 1.0;
 }
 
 double total_volume(const sim::World& world) {
