@@ -12,6 +12,7 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <new>
 #include <set>
 
 #include "assets/model_file.h"
@@ -232,6 +233,7 @@ Eigen::Matrix4d to_file_axes(Format format) {
 
 [[noreturn]] void refuse(const Assimp::Importer& importer) {
   std::string reason = importer.GetErrorString();
+  if (reason == "std::bad_alloc") throw std::bad_alloc();  // the sandbox knows its limit
   std::replace_if(
       reason.begin(), reason.end(), [](char c) { return c < 0x20 || c == 0x7f; }, ' ');
   throw ModelError(

@@ -27,7 +27,9 @@ class Damage {
       load_model(path_);
       ++outcome_.accepted;
     } catch (const ModelError& error) {
-      EXPECT_GT(std::string(error.what()).size(), path_.string().size() + 10);
+      const std::string message = error.what();
+      EXPECT_GT(message.size(), path_.string().size() + 10);
+      EXPECT_EQ(message.find("bad_alloc"), message.npos) << message;
       ++outcome_.refused;
     }
   }
