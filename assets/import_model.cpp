@@ -16,6 +16,7 @@
 #include <set>
 
 #include "assets/model_file.h"
+#include "assets/number_mistake.h"
 #include "assets/obj_numbers.h"
 #include "assets/sandbox.h"
 #include "assets/serialise_model.h"
@@ -270,13 +271,15 @@ ApartLimits sandbox_limits(std::size_t bytes, const ImportLimits& import) {
   return limits;
 }
 
-Model import_apart(const std::filesystem::path& path, Format format, const std::string& bytes,
-                   const ImportLimits& limits) {
+/// `file`: as it is; `bytes`: as the importer is to read it.
+Model import_apart(const std::filesystem::path& path, Format format, const std::string& file,
+                   const std::string& bytes, const ImportLimits& limits) {
   try {
     return deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
                                       sandbox_limits(bytes.size(), limits)));
   } catch (const ModelError& error) {
-    const std::string mistake = format == Format::obj ? obj_mistake(bytes) : std::string();
+    const std::string mistake =
+        format == Format::obj ? obj_mistake(file) : number_mistake(format, file);
     if (mistake.empty()) throw;
     const std::string reason = error.what();
     throw ModelError(reason.starts_with(unreadable) ? mistake
@@ -289,12 +292,13 @@ Model import_apart(const std::filesystem::path& path, Format format, const std::
 Model import_model(const std::filesystem::path& path, const ImportLimits& limits) {
   try {
     const Format format = format_of(path);
-    std::string bytes = read_model_file(path, limits.bytes);
-    if (format == Format::off) bytes = without_comments(bytes);
+    const std::string file = read_model_file(path, limits.bytes);
+    const std::string off = format == Format::off ? without_comments(file) : std::string();
+    const std::string& bytes = format == Format::off ? off : file;
     check_model_header(format, bytes, limits.vertices, limits.triangles);
-    Model model = import_apart(path, format, bytes, limits);
+    Model model = import_apart(path, format, file, bytes, limits);
     if (format == Format::obj) {
-      number_as_in_obj(bytes, model);
+      number_as_in_obj(file, model);
       // The importer's name for faces before the first object.
       std::ranges::replace(model.part_names, "defaultobject", "");
     }
