@@ -16,7 +16,6 @@
 #include <set>
 
 #include "assets/model_file.h"
-#include "assets/number_mistake.h"
 #include "assets/obj_numbers.h"
 #include "assets/sandbox.h"
 #include "assets/serialise_model.h"

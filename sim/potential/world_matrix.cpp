@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/block_inverse.h"
 #include "sim/soft/vertex_matrix.h"
 
 namespace pneuma::sim {
@@ -127,8 +128,9 @@ bool WorldMatrix::invert_diagonal(double shift) {
   for (std::size_t v = 0; v < whole.size(); ++v) {
     if (is_mobile_[v] == 0 || box_of_vertex_[v] >= 0) continue;
     whole[v].diagonal().array() += shift;
-    if (!is_positive_definite(whole[v])) return false;
-    inverse_[v] = mat3x4(whole[v].inverse());
+    Mat3 inverse;
+    if (!base::invert_positive_definite(whole[v], inverse)) return false;
+    inverse_[v] = mat3x4(inverse);
   }
   return boxes_.empty() || invert_boxes(shift);
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/base/block_inverse.h"
+
 namespace pneuma::sim {
 namespace {
 
@@ -30,8 +32,7 @@ bool ConjugateGradients::invert_diagonal(const VertexMatrix& matrix, const Verte
   for (int v = 0; v < rank_one.size(); ++v) {
     const Vec3 q = rank_one[v];
     const Mat3 block = matrix.diagonal_block(v) + q * q.transpose();
-    if (!is_positive_definite(block)) return false;
-    inverse_[at(v)] = block.inverse();
+    if (!base::invert_positive_definite(block, inverse_[at(v)])) return false;
   }
   return true;
 }

@@ -8,7 +8,6 @@
 // KiB each) and are allocated each time.
 #pragma once
 
-#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <vector>
@@ -23,12 +22,6 @@ namespace pneuma::sim {
 /// Over all coordinates of all vertices.
 inline double dot(const VertexArray& a, const VertexArray& b) {
   return a.rows().cwiseProduct(b.rows()).sum();
-}
-
-/// Of a symmetric matrix, by Sylvester's criterion.
-inline bool is_positive_definite(const Mat3& block) {
-  return block(0, 0) > 0.0 && block.topLeftCorner<2, 2>().determinant() > 0.0 &&
-         block.determinant() > 0.0;
 }
 
 class VertexMatrix {

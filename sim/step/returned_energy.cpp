@@ -10,12 +10,14 @@
 namespace pneuma::sim {
 namespace {
 
-/// Of what was lost before, per step.
-constexpr double kept_of_loss = 0.5;
-/// Of motion, per step, that is taken for work that has not made energy grow.
-constexpr double fraction_of_motion = 0.02;
-/// Slower than this fraction of what a fall gains in a step, all motion counts as rest.
-constexpr double quiet_speed = 0.2;
+/// Of what was lost before, per step. The energy of what is loaded heavily goes up and down over
+/// some steps.
+constexpr double kept_of_loss = 0.9;
+/// Of vibrations, per step, that is taken for work that has not made energy grow.
+constexpr double fraction_of_vibration = 0.02;
+/// Of what a fall gains in a step: slower vibrations, and other motions, count as rest. What is so
+/// much out of balance that a step gains no more stays there.
+constexpr double quiet_vibration = 0.2, quiet_speed = 0.05;
 
 /// What bears an island without being moved by impulses: the ground and bodies that nothing moves,
 /// or bodies that keep their velocities, and pins.
@@ -25,13 +27,18 @@ enum class Holder { none, at_rest, moved };
 struct Due {
   double must = 0.0;   // as its energy has grown
   double may = 0.0;    // besides, as its contacts have done work
-  double quiet = 0.0;  // of motion that counts as rest
+  double fall = 0.0;   // of one step from rest
   Holder holder = Holder::none;
 
   double all() const { return must + may; }
   /// Of a motion with so much energy, J.
   double of(double motion) const {
-    return std::min(motion, must + std::min(may, std::max(fraction_of_motion * motion, quiet)));
+    return std::min(motion, must + std::min(may, quiet_speed * quiet_speed * fall));
+  }
+  double of_vibration(double motion) const {
+    const double quiet = quiet_vibration * quiet_vibration * fall;
+    const double most = std::max(fraction_of_vibration * motion, quiet);
+    return std::min(motion, must + std::min(may, most));
   }
   void pay(double taken) {
     const double of_must = std::min(must, taken);
@@ -192,7 +199,7 @@ double slow_vibrations(World& world, SweptMemory& memory, int island, const Due&
   double there_is = 0.0;
   for_each_soft_body(world, memory, island,
                      [&](std::size_t i) { there_is += energy_of_vibration(world.soft[i]); });
-  const double taken = due.of(there_is);
+  const double taken = due.of_vibration(there_is);
   if (!(taken > 0.0)) return 0.0;
   const double factor = std::sqrt(1.0 - taken / there_is);
   for_each_soft_body(world, memory, island,
@@ -283,7 +290,7 @@ class EnergyAccount {
     const double mass = motion_of_island(world_, m_, island).mass();
     return {.must = must,
             .may = work - must,
-            .quiet = quiet_speed * quiet_speed * energy_of_fall(world_.settings, mass),
+            .fall = energy_of_fall(world_.settings, mass),
             .holder = holder};
   }
 

@@ -23,8 +23,13 @@ constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+/// What keeps its shape needs no skin that is thicker than the other's, however large its
+/// triangles.
 double SweptSearch::distance_wanted(int first, int second) const {
-  return second == swept_ground ? 0.0 : bodies_.skin(first) + bodies_.skin(second);
+  if (second == swept_ground) return 0.0;
+  const double one = bodies_.skin(first), other = bodies_.skin(second);
+  return (is_kinematic(world_, first) ? std::min(one, other) : one) +
+         (is_kinematic(world_, second) ? std::min(one, other) : other);
 }
 
 double SweptSearch::near_distance(int first, int second) const {
@@ -237,9 +242,13 @@ void SweptSearch::hold_where_they_meet() {
 }
 
 /// The points that meet after a fraction of the step are kept apart along the line through them at
-/// its start: along no other would the impulse keep angular momentum.
-SweptContact SweptSearch::place_along_line(const SweptCandidate& candidate, double fraction) const {
+/// its start: along no other would the impulse keep angular momentum. What impulses do not move
+/// takes any: there it is the direction in which they meet, or what slides would be braked.
+SweptContact SweptSearch::place_along_line(const SweptCandidate& candidate, double fraction) {
   SweptContact contact = place_at(candidate, fraction);
+  const bool both_move =
+      bodies_.side(world_, contact.first).moves() && bodies_.side(world_, contact.second).moves();
+  if (!both_move) return contact;
   const Vec3 apart = contact.first.point - contact.second.point;
   contact.distance = apart.norm();
   if (contact.distance >= min_distance) contact.normal = apart / contact.distance;

@@ -266,7 +266,7 @@ class SweptSearch {
                  Moment moment) const;
   SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
                      Moment moment) const;
-  SweptContact place_along_line(const SweptCandidate& candidate, double fraction) const;
+  SweptContact place_along_line(const SweptCandidate& candidate, double fraction);
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
   std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted,
                                            double reach);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "sim/base/block_inverse.h"
+#include "sim/mesh/rotation.h"
 #include "sim/soft/conjugate_gradients.h"
 #include "sim/soft/implicit_step.h"
 #include "sim/soft/minimise_energy.h"
@@ -110,6 +112,30 @@ TEST(VertexMatrix, FixingTakesACoordinateOut) {
   ASSERT_TRUE(matrix.factorize());
   const Eigen::MatrixXd pinned = dense(matrix, c.point.positions.size());
   EXPECT_LT((pinned - expected).norm() / expected.norm(), 1e-10);  // inverted twice
+}
+
+TEST(BlockInverse, StaysPositiveDefiniteHoweverStiffOneDirectionIs) {
+  const Mat3 turned = rotation_of_degrees({20.0, 35.0, 50.0}).toRotationMatrix();
+  for (const double stiff : {1.0, 1e4, 1e8, 1e12}) {
+    const Mat3 block = turned * Vec3(stiff, 1.0, 2.0).asDiagonal() * turned.transpose();
+    const Mat3 symmetric = 0.5 * (block + block.transpose());
+    Mat3 inverse;
+    ASSERT_TRUE(base::invert_positive_definite(symmetric, inverse)) << stiff;
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(inverse);
+    EXPECT_GT(solver.eigenvalues()[0], 0.0) << stiff;
+    // Rounding of the block's entries, which are as large as its stiffness.
+    EXPECT_NEAR(solver.eigenvalues()[2], 1.0, 1e-14 + 1e-15 * stiff) << stiff;
+  }
+}
+
+TEST(BlockInverse, KnowsWhatIsNotPositiveDefinite) {
+  const Mat3 turned = rotation_of_degrees({20.0, 35.0, 50.0}).toRotationMatrix();
+  Mat3 inverse;
+  for (const Vec3& values : {Vec3(-1.0, 1.0, 1.0), Vec3(1.0, -1.0, 1.0), Vec3(1.0, 1.0, -1.0),
+                             Vec3(-1.0, -1.0, 1.0), Vec3(std::nan(""), 1.0, 1.0)}) {
+    const Mat3 block = turned * values.asDiagonal() * turned.transpose();
+    EXPECT_FALSE(base::invert_positive_definite(block, inverse)) << values.transpose();
+  }
 }
 
 TEST(VertexMatrix, ProductsAreThoseOfTheDenseMatrix) {

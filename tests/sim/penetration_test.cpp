@@ -87,5 +87,34 @@ TEST(Penetration, OfAHundredCubesOnATorusIsThatOfAllPairs) {
   }
 }
 
+/// Two boxes 0.1 m in each other, 0.05 m in the ground, and a ball 0.3 m in the second.
+World three_overlaps() {
+  World world;
+  world.soft.push_back(make_body(make_icosphere(1.0, 3), {4.6, 0.0, 1.5}));
+  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 0.95}));
+  world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {1.9, 0.0, 1.5}));
+  return world;
+}
+
+void expect_deepest(const World& world, int first, int second, double depth) {
+  const Overlap deepest = deepest_penetration(world);
+  EXPECT_EQ(deepest.first, first);
+  EXPECT_EQ(deepest.second, second);
+  // The ball's mesh lies within its sphere, and its depth is that of the nearest of its points.
+  EXPECT_NEAR(deepest.depth, depth, second == 2 && first == 0 ? 0.01 : 1e-12);
+}
+
+TEST(Penetration, NamesTheBodiesThatLieDeepest) {
+  World world = three_overlaps();
+  for (int v = 0; v < world.soft[0].positions.size(); ++v) world.soft[0].positions[v].x() -= 1.0;
+  expect_deepest(world, 0, 2, 0.3);
+  world = three_overlaps();
+  expect_deepest(world, 1, 2, 0.1);
+  world.rigid[1].position.y() += 5.0;
+  expect_deepest(world, 1, ground_body, 0.05);
+  world.settings.ground.reset();
+  EXPECT_EQ(max_penetration(world), 0.0);
+}
+
 }  // namespace
 }  // namespace pneuma::sim
