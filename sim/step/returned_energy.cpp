@@ -25,9 +25,9 @@ enum class Holder { none, at_rest, moved };
 
 /// J, that an island gives up.
 struct Due {
-  double must = 0.0;   // as its energy has grown
-  double may = 0.0;    // besides, as its contacts have done work
-  double fall = 0.0;   // of one step from rest
+  double must = 0.0;  // as its energy has grown
+  double may = 0.0;   // besides, as its contacts have done work
+  double fall = 0.0;  // of one step from rest
   Holder holder = Holder::none;
 
   double all() const { return must + may; }
