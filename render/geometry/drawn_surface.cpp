@@ -45,19 +45,30 @@ bool bend_is_seen(const SurfaceVertex& a, const SurfaceVertex& b, float pixels, 
          (height > visible_in_shadow && at_outline(a.normal, b.normal, view.to_light));
 }
 
-/// m. A soft body that rests may be so far below the ground, which would show through its skin.
-constexpr float most_sunk = 0.03f;
-/// m: is seen above the ground from any camera that sees a body.
-constexpr float just_above_ground = 0.002f;
+/// Where the ground may not hide a body, for a camera at some distance from its target: of scenes
+/// of millimetres, which are seen from as near, less than of those of metres.
+class GroundLimits {
+ public:
+  explicit GroundLimits(const View& view) {
+    const float distance = (view.target - view.eye).norm();
+    most_sunk_ = std::min(most_sunk_, 0.03f * distance);
+    just_above_ = std::min(just_above_, 4e-4f * distance);
+  }
 
-/// No point above the ground comes nearer to it than half its height, and none that is pressed into
-/// it is hidden by it.
-Vec3f kept_above_ground(Vec3f position, float flat_height) {
-  if (flat_height <= -most_sunk) return position;
-  const float least = std::max(0.5f * flat_height, just_above_ground);
-  position.z() = std::max(position.z(), least);
-  return position;
-}
+  /// No point above the ground comes nearer to it than half its height, and none that is pressed
+  /// into it is hidden by it.
+  Vec3f kept_above(Vec3f position, float flat_height) const {
+    if (flat_height <= -most_sunk_) return position;
+    position.z() = std::max({position.z(), 0.5f * flat_height, just_above_});
+    return position;
+  }
+
+ private:
+  // m. A soft body that rests may be so far below the ground, which would show through its skin.
+  float most_sunk_ = 0.03f;
+  // m: by less than a pixel, and by what the depths of pixels tell apart.
+  float just_above_ = 0.002f;
+};
 
 float height_of(const SurfacePoint& point, std::span<const Vec3f> positions) {
   float height = 0.0f;
@@ -119,7 +130,7 @@ void DrawnSurface::build(const Frame& frame, const View& view) {
   meshes_.clear();
   for (const Mesh& mesh : frame.meshes) {
     const std::size_t first = triangles_.size();
-    mesh.normals.empty() ? add_flat(mesh, frame) : add_smooth(mesh, frame, view);
+    mesh.normals.empty() ? add_flat(mesh, frame, view) : add_smooth(mesh, frame, view);
     meshes_.push_back({middle_depth(mesh, view), {first, triangles_.size()}, meshes_.size()});
   }
   order_triangles(view);
@@ -194,6 +205,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
     pixels = pixels_per_metre(mesh, view);
   }
   std::vector<SurfaceVertex> vertices;  // of the points so far
+  const GroundLimits limits(view);
   const std::vector<float> flatness = flatness_of(mesh);
   const std::vector<Vec3f> own = own_colours(mesh);
   const std::vector<Vec3f>& colours = own.empty() ? shape_of(mesh.shape).colours : own;
@@ -201,7 +213,7 @@ void DrawnSurface::add_smooth(const Mesh& mesh, const Frame& frame, const View& 
     for (std::size_t i = vertices.size(); i < points.size(); ++i) {
       Vec3f position = rounded_position(mesh.positions, mesh.normals, share, points[i]);
       if (frame.ground) {
-        position = kept_above_ground(position, height_of(points[i], mesh.positions));
+        position = limits.kept_above(position, height_of(points[i], mesh.positions));
       }
       vertices.push_back({position, mixed(points[i], mesh.normals).normalized(),
                           mixed(points[i], flatness),
@@ -235,7 +247,7 @@ void DrawnSurface::add_corner_normals(const Mesh& mesh, const Shape& shape) {
   for (std::size_t i = first; i < normals_.size(); ++i) normals_[i].stableNormalize();
 }
 
-void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
+void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame, const View& view) {
   Shape& shape = shape_of(mesh.shape);
   if (shape.corners.empty()) share_corners(*mesh.shape, shape);
   const std::vector<Vec3f> own = own_colours(mesh);
@@ -244,6 +256,7 @@ void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
   add_corner_normals(mesh, shape);
   Refinement whole;
   whole.triangles = shape.corners;
+  const GroundLimits limits(view);
   std::vector<std::uint32_t> first_at(mesh.positions.size(), ~0u);
   for (std::uint32_t i = 0; i < shape.sources.size(); ++i) {
     const std::uint32_t v = shape.sources[i];
@@ -252,7 +265,7 @@ void DrawnSurface::add_flat(const Mesh& mesh, const Frame& frame) {
     positions_.push_back(position);
     if (first_at[v] == ~0u) first_at[v] = static_cast<std::uint32_t>(vertices_.size());
     places_.push_back(first_at[v]);
-    vertices_.push_back({frame.ground ? kept_above_ground(position, position.z()) : position,
+    vertices_.push_back({frame.ground ? limits.kept_above(position, position.z()) : position,
                          normals_[positions_.size() - 1], 1.0f,
                          material(colours[v], mesh.roughness)});
   }

@@ -84,7 +84,7 @@ class DrawnSurface {
   static void share_corners(const MeshShape& shape, Shape& made);
   Shape& shape_of(const std::shared_ptr<const MeshShape>& shape);
   void add_smooth(const Mesh& mesh, const Frame& frame, const View& view);
-  void add_flat(const Mesh& mesh, const Frame& frame);
+  void add_flat(const Mesh& mesh, const Frame& frame, const View& view);
   void add_lit_mesh(const Mesh& mesh, std::size_t count);
   void add_corner_normals(const Mesh& mesh, const Shape& shape);
   void append(const Refinement& refinement);

@@ -207,5 +207,24 @@ TEST(DrawnSurface, IsNotHiddenByTheGroundThatItIsPressedInto) {
   EXPECT_GT(lowest(make_box({0, 0, 0.49f}, {1, 1, 1}, {1, 0, 0})), 0.0f);  // flat
 }
 
+TEST(DrawnSurface, StandsOnTheGroundAsWellInMillimetres) {
+  constexpr float scale = 1e-3f;
+  Frame frame = empty_frame();
+  frame.ground = Ground{};
+  frame.camera = {scale * Vec3f(0, -5, 1), Vec3f::Zero(), 40.0f};
+  const auto lowest = [&](float z) {
+    frame.meshes = {make_box({0, 0, scale * z}, Vec3f::Constant(scale), {1, 0, 0})};
+    DrawnSurface surface;
+    surface.build(frame, make_view(frame, 320, 240));
+    float low = scale;
+    for (const SurfaceVertex& vertex : surface.vertices()) low = std::min(low, vertex.position.z());
+    return low / scale;
+  };
+  EXPECT_GT(lowest(0.5f), 0.0f);
+  EXPECT_LT(lowest(0.5f), 0.01f) << "of its side, so much is cut off";
+  EXPECT_GT(lowest(0.49f), 0.0f);
+  EXPECT_NEAR(lowest(0.3f), -0.2f, 1e-6f) << "what lies in the ground is shown to lie in it";
+}
+
 }  // namespace
 }  // namespace pneuma::render

@@ -26,6 +26,7 @@ class Picture {
     const { scenery, shaders } = recording.header;
     this.scenery = scenery;
     this.hasGround = scenery.grid_spacing !== null;
+    this.groundLimits = this.hasGround ? groundLimits(norm(subtract(scenery.eye, scenery.target))) : null;
     this.toLight = normalize(scale(scenery.light, -1));
     this.surface = new Surface(recording);
     if (scenery.shadows) {
@@ -86,7 +87,7 @@ class Picture {
   load(frame, rounded) {
     const { gl, recording, surface, map, between, groundShadow, boxContacts } = this;
     const positions = recording.positionsAt(frame);
-    surface.place(positions, rounded ? recording.sharesAt(frame) : null, this.hasGround);
+    surface.place(positions, rounded ? recording.sharesAt(frame) : null, this.groundLimits);
     this.casters = boxAround(surface.positions);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.positionBuffer);
     gl.bufferData(gl.ARRAY_BUFFER, surface.positions, gl.STREAM_DRAW);

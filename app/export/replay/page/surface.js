@@ -145,12 +145,13 @@ class Surface {
     return mixed;
   }
 
-  // `positions`: of the vertices. `shares`: of the bulge; null where nothing is rounded. `ground`: whether there is any.
-  place(positions, shares, ground) {
+  // `positions`: of the vertices. `shares`: of the bulge; null where nothing is rounded. `limits`: the
+  // ground's (groundLimits); null where there is none.
+  place(positions, shares, limits) {
     this.findVertexNormals(positions);
     this.findFlatness(positions);
     this.placeLit(positions, shares);
-    this.placePoints(ground);
+    this.placePoints(limits);
   }
 
   // Each vertex's from the areas of the triangles around it. As sim/mesh/measure.cpp.
@@ -222,7 +223,7 @@ class Surface {
   }
 
   // p + share / 2 * sum of w_i ((x_i - p) . n_i) n_i
-  placePoints(ground) {
+  placePoints(limits) {
     const { lit, corners, weights, positions, normals } = this;
     for (let i = 0; i < corners.length; i += 3) {
       let px = 0, py = 0, pz = 0, nx = 0, ny = 0, nz = 0, share = 0;
@@ -241,7 +242,7 @@ class Surface {
       }
       positions[i] = px + x;
       positions[i + 1] = py + y;
-      positions[i + 2] = ground ? keptAboveGround(pz + z, pz) : pz + z;
+      positions[i + 2] = limits ? keptAboveGround(limits, pz + z, pz) : pz + z;
       normals[i] = nx; normals[i + 1] = ny; normals[i + 2] = nz;
     }
     setLengthsToOne(normals);
@@ -259,11 +260,17 @@ class Surface {
   }
 }
 
+// Where the ground may not hide a body, in m, of a scene seen from this distance. As render/geometry/drawn_surface.cpp.
+function groundLimits(distance) {
+  return {
+    mostSunk: Math.min(0.03, 0.03 * distance),  // a soft body that rests may be so far below
+    justAbove: Math.min(0.002, 4e-4 * distance),
+  };
+}
+
 // Nothing above the ground comes nearer to it than half its height; what is pressed into it is not hidden by it.
-function keptAboveGround(height, flatHeight) {
-  const mostSunk = 0.03;  // m. A soft body that rests may be so far below.
-  const justAboveGround = 0.002;  // m
-  return flatHeight <= -mostSunk ? height : Math.max(height, 0.5 * flatHeight, justAboveGround);
+function keptAboveGround({ mostSunk, justAbove }, height, flatHeight) {
+  return flatHeight <= -mostSunk ? height : Math.max(height, 0.5 * flatHeight, justAbove);
 }
 
 function setLengthsToOne(vectors) {
