@@ -117,7 +117,9 @@ void Reader::read_key(const Key& key, const Member& member) {
   origins_[target] = member.value.at;
   if (member.value.at.override_index >= 0) used_overrides_.insert(member.value.at.override_index);
   if (const auto complaint = assign(key, member.value)) {
-    report_.add(complaint->at, complaint->message);
+    // What was read before the kind of body was known is read again.
+    const bool is_first = refused_members_.insert(&member).second;
+    if (is_first) report_.add(complaint->at, complaint->message);
     refused_.insert(target);
   }
 }

@@ -61,7 +61,8 @@ class Reader {
 
   Report& report_;
   std::map<const void*, Origin> origins_;
-  std::set<const void*> refused_;
+  std::set<const void*> refused_;              // by the scene's members
+  std::set<const Member*> refused_members_;    // by the document's
   std::map<int, std::string> idle_overrides_;  // the message if it stays idle
   std::set<int> used_overrides_;
   std::set<std::string_view> selected_by_override_;  // tables

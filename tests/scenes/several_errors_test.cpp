@@ -41,6 +41,17 @@ TEST(SeveralErrors, ARefusedValueCausesNoErrorsElsewhere) {
   }
 }
 
+TEST(SeveralErrors, AMassIsRefusedOnceWhateverItsBody) {
+  for (const char* kind : {"soft", "rigid"}) {
+    try {
+      parse_scene(std::string("[[body]]\nkind = \"") + kind + "\"\nmass = -1\n", "x.toml");
+      FAIL();
+    } catch (const SceneError& error) {
+      EXPECT_EQ(error.diagnostics().size(), 1u) << error.what();
+    }
+  }
+}
+
 TEST(SeveralErrors, AnUnknownKindCausesNoErrorsAboutKeysOfItsBody) {
   try {
     parse_scene("[[body]]\nkind = \"rigd\"\nsize = [2, 2, 2]\nmass = 3\nvelocty = 1\n", "x.toml");
