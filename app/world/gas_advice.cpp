@@ -129,16 +129,15 @@ bool is_limp(const sim::SoftBody& body, double weight) {
   return weight > limp_weight * body.material.k * edge;
 }
 
-/// Whether springs carry its weight, from pinned vertices above its middle.
+/// Whether springs carry its weight: some of its pinned vertices are as high as its middle, but for
+/// rounding.
 bool hangs(const sim::SoftBody& body) {
   if (!body.pins) return false;
-  double sum = 0.0, pinned = 0.0;
+  const double middle = sim::mean(body.positions).z() - 1e-9;
   for (int v = 0; v < body.positions.size(); ++v) {
-    if (body.pins->is_pinned[sim::at(v)] == 0) continue;
-    sum += body.positions[v].z();
-    pinned += 1.0;
+    if (body.pins->is_pinned[sim::at(v)] != 0 && body.positions[v].z() >= middle) return true;
   }
-  return sum > pinned * sim::mean(body.positions).z();
+  return false;
 }
 
 /// kg that the gas carries on an area, m^2, in nearly its volume, m^3.

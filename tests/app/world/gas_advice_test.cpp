@@ -202,6 +202,7 @@ TEST(GasAdvice, WhatHangsIsNotPressed) {
   EXPECT_TRUE(crushed(""));
   EXPECT_TRUE(crushed("pinned = [[-9, -9, 4, 9, 9, 4.8]]\n"));
   EXPECT_FALSE(crushed("pinned = [[-9, -9, 7.2, 9, 9, 8]]\n"));
+  EXPECT_FALSE(crushed("pinned = [[1.2, -9, 4, 9, 9, 8], [-9, -9, 4, -1.2, 9, 8]]\n")) << "sides";
 }
 
 TEST(SceneWarnings, SayWhereAnInflationIsNotMet) {
