@@ -56,6 +56,16 @@ FastestPoint fastest_point(const sim::World& world, const std::vector<sim::Verte
   return fastest;
 }
 
+/// What moves as it is told to is not slowed down by it.
+bool has_drag(const sim::World& world) {
+  const bool of_soft = std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
+    return body.material.rho_g > 0.0 && !sim::is_kinematic(body);
+  });
+  return of_soft || std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
+           return box.rho_g > 0.0 && !box.is_kinematic;
+         });
+}
+
 std::vector<std::string> what_pushes(const sim::World& world) {
   std::vector<std::string> names;
   if (!world.settings.gravity.isZero()) names.emplace_back("gravity");
@@ -70,6 +80,7 @@ std::vector<std::string> what_pushes(const sim::World& world) {
   };
   if (has_pins(true)) names.emplace_back("obstacles");
   if (has_pins(false)) names.emplace_back("pins");
+  if (has_drag(world)) names.emplace_back("the air (rho_g)");
   return names;
 }
 

@@ -106,8 +106,7 @@ struct RunStatistics {
   std::vector<VolumeRange> volumes;  // of the soft bodies, and of obstacles among them
   std::vector<GasRange> gas;         // of the soft bodies that ever have some
 
-  // "gravity", "the ground", ...: what changes the momentum of all bodies together. Drag, which
-  // takes a share of it, is not named.
+  // "gravity", "the ground", ...: what changes the momentum of all bodies together.
   std::vector<std::string> pushed_by;
   sim::Momentum momentum_start;
   sim::Momentum momentum_end;

@@ -193,6 +193,7 @@ TEST(RunStatistics, AreNotOfAFreeSceneUnderGravityOrOnAGround) {
   EXPECT_EQ(statistics_of(free_sphere, {"simulation.gravity=[0, 0, -9.81]"}).pushed_by,
             Names{"gravity"});
   EXPECT_EQ(statistics_of(free_sphere, {"ground.present=true"}).pushed_by, Names{"the ground"});
+  EXPECT_EQ(statistics_of(free_sphere, {"body.rho_g=0.01"}).pushed_by, Names{"the air (rho_g)"});
   EXPECT_EQ(
       statistics_of(free_sphere, {"ground.present=true", "balloon.position=[0, 0, 50]"}).pushed_by,
       Names());
