@@ -107,11 +107,13 @@ void add_value(double value, ValueRange& range) {
   range.end = value;
 }
 
+/// Once it has had some, also when none is left: nothing outside presses on it either then.
 void add_gas(const sim::SoftBody& body, GasRange& range) {
   const sim::GasLaw law = sim::gas_law(body.material);
+  const bool is_empty = law.strength == 0.0;
   const double now = volume(body);
-  if (!(law.strength > 0.0 && now > 0.0)) return;
-  add_value(sim::gauge_pressure(law, now), range.pressure);
+  if (is_empty ? std::isnan(range.n.start) : !(now > 0.0)) return;
+  add_value(is_empty ? 0.0 : sim::gauge_pressure(law, now), range.pressure);
   add_value(body.material.n, range.n);
 }
 

@@ -100,6 +100,15 @@ TEST(RunStatistics, TellPressureAndGasThatComes) {
   EXPECT_EQ(run_statistics_json(run)["gas"][1]["n_mol"]["end"], 1.5);
 }
 
+TEST(RunStatistics, TellThatGasHasGone) {
+  const std::string text = std::string(free_sphere) + "supply.n = [[0, 0.2], [0.3, 0]]\n";
+  const RunStatistics run = statistics_of(text.c_str());
+  ASSERT_EQ(run.gas.size(), 1u);
+  EXPECT_EQ(run.gas[0].n.greatest, 0.2);
+  EXPECT_EQ(run.gas[0].n.end, 0.0);
+  EXPECT_EQ(run.gas[0].pressure.end, 0.0);
+}
+
 TEST(RunStatistics, NameTheBodiesThatStartInEachOther) {
   const RunStatistics run = statistics_of(R"(
 duration = 0.1

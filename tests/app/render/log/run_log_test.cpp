@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/record/gas_json.h"
 #include "app/world/build_world.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/checkpoint.h"
@@ -40,6 +41,16 @@ class RunLogOfABall : public testing::Test {
       "duration = 1.0\n[[body]]\nkind = \"soft\"\nshape = \"sphere\"\n", "test.toml");
   sim::World start_ = build_world(scene_);
 };
+
+TEST(GasOfBodies, IsZeroOfABodyThatLetItsGasGo) {
+  const auto gas_with = [](const std::string& keys) {
+    return gas_of_bodies_json<nlohmann::json>(
+        build_world(scenes::parse_scene("[[body]]\nname = \"ball\"\n" + keys, "test.toml")));
+  };
+  EXPECT_EQ(gas_with("supply.n = [[0, 0], [1, 0.5]]\n"),
+            nlohmann::json::parse(R"({"ball": {"n": 0.0, "gauge_pressure": 0.0}})"));
+  EXPECT_TRUE(gas_with("n = 0\n").empty()) << "none ever";
+}
 
 TEST_F(RunLogOfABall, StartsWithTheWorldThatItIsGiven) {
   const RunLog log = open(ExistingRun::refuse);
