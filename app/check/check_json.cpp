@@ -134,7 +134,7 @@ json run_statistics_json(const RunStatistics& run) {
        {{"start", momentum_json(run.momentum_start)}, {"end", momentum_json(run.momentum_end)}}},
       {"end_speed_m_per_s", run.at_end.speed},
       {"fastest_at_end", run.at_end.body},
-      {"at_rest", run.at_end.speed < rest_speed && !run.divergence},
+      {"at_rest", run.rests_from.has_value()},
       {"at_rest_from_s", run.rests_from ? json(*run.rests_from) : json(nullptr)},
       {"state_hash", hex(run.state_hash)}};
 }

@@ -244,6 +244,28 @@ std::string momentum_text(const RunStatistics& run) {
                                            "kg m^2/s"));
 }
 
+std::string rest_text(const RunStatistics& run) {
+  const FastestPoint& liveliest = run.liveliest_at_end;
+  if (run.rests_from) {
+    return fmt::format("at rest (that is below {:g} m/s for {:g} s) from {:.2f} s on",
+                       liveliest.limit, rest_time, *run.rests_from);
+  }
+  if (liveliest.over_limit() < 1.0) {
+    return fmt::format("not at rest yet (that is below {:g} m/s for {:g} s)", liveliest.limit,
+                       rest_time);
+  }
+  const std::string whose =
+      liveliest.body == run.at_end.body
+          ? ""
+          : fmt::format(", as {} with {:.3g} m/s is", liveliest.body, liveliest.speed);
+  return fmt::format("not at rest{} (that is below {:g} m/s)", whose, liveliest.limit);
+}
+
+std::string end_speed_text(const RunStatistics& run) {
+  return fmt::format("{:.3g} m/s at most{}: {}", run.at_end.speed,
+                     run.at_end.body.empty() ? "" : ", of " + run.at_end.body, rest_text(run));
+}
+
 /// Lines that TOML skips.
 std::string as_comments(const std::string& text) {
   std::istringstream lines(text);
@@ -293,14 +315,7 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
   }
   text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) +
           gas_ranges_text(run) + shapes_text(run) + momentum_text(run);
-  const bool rests = run.at_end.speed < rest_speed && !run.divergence;
-  text += named_line(
-      "speed at the end",
-      fmt::format(
-          "{:.3g} m/s at most{}: {} (that is below {:g} m/s){}", run.at_end.speed,
-          run.at_end.body.empty() ? "" : ", of " + run.at_end.body,
-          rests ? "at rest" : "not at rest", rest_speed,
-          rests && run.rests_from ? fmt::format(" from {:.2f} s on", *run.rests_from) : ""));
+  text += named_line("speed at the end", end_speed_text(run));
   return text + named_line("state hash", hex(run.state_hash));
 }
 

@@ -34,26 +34,48 @@ void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& posi
   }
 }
 
+/// m/s, of a body that is so long, in m, along the axis along which it is longest.
+double rest_limit(double length) { return rest_speed * std::min(1.0, length); }
+
+/// Per soft body, then per box, m/s.
+std::vector<double> rest_limits(const sim::World& world) {
+  std::vector<double> limits;
+  for (const sim::SoftBody& body : world.soft) {
+    limits.push_back(rest_limit(sim::bounds(body.mesh->rest_positions).size().maxCoeff()));
+  }
+  for (const sim::RigidBox& box : world.rigid) limits.push_back(rest_limit(box.size.maxCoeff()));
+  return limits;
+}
+
+/// The fastest of all, and that with the greatest part of its body's limit.
+struct Motion {
+  FastestPoint fastest;
+  FastestPoint liveliest;
+
+  void meet(double speed, const std::string& body, double limit) {
+    if (speed > fastest.speed) fastest = {speed, body, limit};
+    if (speed / limit > liveliest.over_limit()) liveliest = {speed, body, limit};
+  }
+};
+
 /// In the last `duration` (s), at whose start the soft bodies were `before`. The velocity of a
 /// vertex that is pressed holds, at the end of a step, what its forces did since the last impulses.
-FastestPoint fastest_point(const sim::World& world, const std::vector<sim::VertexArray>& before,
-                           double duration) {
-  FastestPoint fastest;
-  const auto meet = [&](double speed, const std::string& body) {
-    if (speed > fastest.speed) fastest = {speed, body};
-  };
+Motion motion(const sim::World& world, const std::vector<sim::VertexArray>& before, double duration,
+              const std::vector<double>& limits) {
+  Motion found;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (before[i].size() == 0) continue;
     const sim::SoftBody& body = world.soft[i];
-    meet(sim::max_distance(before[i], body.positions) / duration, body.name);
+    found.meet(sim::max_distance(before[i], body.positions) / duration, body.name, limits[i]);
   }
-  for (const sim::RigidBox& box : world.rigid) {
+  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+    const sim::RigidBox& box = world.rigid[i];
     if (box.is_kinematic) continue;
     // No point of a box is farther from its axis of rotation than half the diagonal.
     const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
-    meet(box.velocity.norm() + rim, box.name);
+    found.meet(box.velocity.norm() + rim, box.name, limits[world.soft.size() + i]);
   }
-  return fastest;
+  return found;
 }
 
 /// What moves as it is told to is not slowed down by it.
@@ -122,6 +144,7 @@ class Observer {
  public:
   Observer(const sim::World& start, std::int64_t all_steps)
       : all_steps_(all_steps),
+        rest_limits_(rest_limits(start)),
         frame_time_(sim::time(start)),
         last_energy_(sim::energy(start).total()),
         least_energy_(last_energy_),
@@ -182,13 +205,13 @@ class Observer {
       range.greatest = std::max(range.greatest, volume(world.soft[b]));
       look_at_gas(world.soft[b], result_.gas[b]);
     }
-    fastest_ = fastest_point(world, before_, sim::time(world) - frame_time_);
+    motion_ = motion(world, before_, sim::time(world) - frame_time_, rest_limits_);
     keep_positions(world, before_);
     frame_time_ = sim::time(world);
-    if (fastest_.speed >= rest_speed) {
-      result_.rests_from.reset();
-    } else if (!result_.rests_from) {
-      result_.rests_from = sim::time(world);
+    if (motion_.liveliest.over_limit() >= 1.0) {
+      quiet_from_.reset();
+    } else if (!quiet_from_) {
+      quiet_from_ = frame_time_;
     }
   }
 
@@ -198,7 +221,9 @@ class Observer {
     result_.energy_end = sim::energy(world);
     result_.energy_span = greatest_energy_ - least_energy_;
     result_.momentum_end = sim::momentum(world);
-    result_.at_end = fastest_;
+    result_.at_end = motion_.fastest;
+    result_.liveliest_at_end = motion_.liveliest;
+    if (!result_.divergence && has_been_quiet()) result_.rests_from = quiet_from_;
     result_.state_hash = sim::state_hash(world);
     if (!has_touched_ground()) std::erase(result_.pushed_by, "the ground");
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
@@ -225,6 +250,11 @@ class Observer {
     if (body.material.n > 0.0 && body.material.ambient_pressure == 0.0) {
       result_.has_gas_in_vacuum = true;
     }
+  }
+
+  bool has_been_quiet() const {
+    constexpr double rounding = 1e-9;  // s
+    return quiet_from_ && frame_time_ - *quiet_from_ >= rest_time - rounding;
   }
 
   bool has_touched_ground() const {
@@ -294,8 +324,10 @@ class Observer {
   RunStatistics result_;
   std::int64_t all_steps_;
   std::vector<sim::VertexArray> before_;  // where the soft bodies were in the last frame
-  double frame_time_;                     // s, its
-  FastestPoint fastest_;                  // up to it
+  std::vector<double> rest_limits_;
+  double frame_time_;                 // s, its
+  Motion motion_;                     // up to it
+  std::optional<double> quiet_from_;  // s, of the frame from which on nothing was faster
   double last_energy_;
   double least_energy_;
   double greatest_energy_;

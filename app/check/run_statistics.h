@@ -46,10 +46,22 @@ struct GasRange {
   ValueRange n;         // mol
 };
 
+/// Slower than this, m/s, a body is called at rest; one that is shorter than a metre, slower than
+/// that times its length in metres, as bodies fall asleep (sim/response/fall_asleep.h). On the
+/// ground gravity adds 0.16 m/s in every 1/60 s, which the contact takes away again: the third of
+/// it is what may be left over.
+inline constexpr double rest_speed = 0.05;
+
+/// s, for which nothing may be faster: what swings stands still twice in every period.
+inline constexpr double rest_time = 0.5;
+
 /// Of all bodies but those that move as they are told to; of a soft one over a frame.
 struct FastestPoint {
-  double speed = 0.0;  // m/s
-  std::string body;    // empty: nothing moves
+  double speed = 0.0;         // m/s
+  std::string body;           // empty: nothing moves
+  double limit = rest_speed;  // m/s, below which that body is called at rest
+
+  double over_limit() const { return speed / limit; }
 };
 
 /// How often and how much surfaces passed through each other, in the frames of a run.
@@ -112,14 +124,12 @@ struct RunStatistics {
   sim::Momentum momentum_end;
 
   FastestPoint at_end;
-  // s, of the first frame from which on nothing is faster than rest_speed; none: it is at the end.
+  FastestPoint liveliest_at_end;  // that with the greatest part of its body's limit
+  // s, of the first frame from which on nothing was faster than its limit; none: that was not so
+  // for the last rest_time.
   std::optional<double> rests_from;
   std::uint64_t state_hash = 0;
 };
-
-/// Slower than this, m/s, a body is called at rest. On the ground gravity adds 0.16 m/s in every
-/// 1/60 s, which the contact takes away again: the third of it is what may be left over.
-inline constexpr double rest_speed = 0.05;
 
 /// Runs the scene without pictures, by default as `pneuma render` does: a step that diverges is
 /// done in parts where it is short enough for small motions. `threads` changes nothing but the time

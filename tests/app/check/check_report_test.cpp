@@ -162,9 +162,15 @@ TEST(RunStatisticsText, SaysWhatTheEnergyLeavesOut) {
 
 TEST(RunStatisticsText, SaysAtRestOrNot) {
   RunStatistics run;
-  run.at_end = {0.9 * rest_speed, "ball"};
-  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": at rest"), std::string::npos);
-  run.at_end.speed = 1.1 * rest_speed;
+  run.at_end = run.liveliest_at_end = {0.9 * rest_speed, "ball"};
+  run.rests_from = 2.5;
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5))
+                .find(": at rest (that is below 0.05 m/s for 0.5 s) from 2.50 s on"),
+            std::string::npos);
+  run.rests_from.reset();
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find(": not at rest yet"),
+            std::string::npos);
+  run.at_end.speed = run.liveliest_at_end.speed = 1.1 * rest_speed;
   EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find("m/s at most, of ball: not at rest"),
             std::string::npos);
 }

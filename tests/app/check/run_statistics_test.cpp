@@ -59,6 +59,52 @@ TEST(RunStatistics, HaveSpeedsOverAFrame) {
   EXPECT_EQ(run.at_end.body, "balloon");
 }
 
+/// Boxes without weight that do nothing but what is said of them.
+std::string drifting(const std::string& boxes) {
+  return "duration = 1\n[ground]\npresent = false\n[simulation]\ngravity = [0, 0, 0]\n" + boxes;
+}
+
+TEST(RunStatistics, CallSmallBodiesAtRestByTheirSize) {
+  const auto rests = [](const std::string& size, const std::string& speed) {
+    const std::string text = drifting("[[body]]\nkind = \"rigid\"\nsize = [0.001, 0.001, " + size +
+                                      "]\nvelocity = [" + speed + ", 0, 0]\nrho_g = 0\n");
+    return statistics_of(text.c_str()).rests_from.has_value();
+  };
+  EXPECT_TRUE(rests("2", "0.04"));  // no size makes it more than rest_speed
+  EXPECT_FALSE(rests("2", "0.06"));
+  EXPECT_TRUE(rests("0.01", "0.0004"));
+  EXPECT_FALSE(rests("0.01", "0.0006"));
+}
+
+TEST(RunStatistics, TellTheLiveliestFromTheFastest) {
+  const std::string text = drifting(
+      "[[body]]\nname = \"large\"\nkind = \"rigid\"\nvelocity = [0.04, 0, 0]\nrho_g = 0\n"
+      "[[body]]\nname = \"small\"\nkind = \"rigid\"\nposition = [0, 9, 0]\n"
+      "size = [0.1, 0.1, 0.1]\nvelocity = [0.01, 0, 0]\nrho_g = 0\n");
+  const RunStatistics run = statistics_of(text.c_str());
+  EXPECT_EQ(run.at_end.body, "large");
+  EXPECT_EQ(run.liveliest_at_end.body, "small");
+  EXPECT_DOUBLE_EQ(run.liveliest_at_end.limit, 0.1 * rest_speed);
+  const std::string said = run_statistics_text(run, {});
+  EXPECT_NE(said.find("0.04 m/s at most, of large: not at rest, as small with 0.01 m/s is (that is "
+                      "below 0.005 m/s)"),
+            std::string::npos)
+      << said;
+}
+
+TEST(RunStatistics, CallAtRestWhatIsSlowForAWhile) {
+  // By drag alone 0.07 m/s become 0.05 m/s in 0.56 s.
+  const std::string text =
+      drifting("[[body]]\nkind = \"rigid\"\nvelocity = [0.07, 0, 0]\nrho_g = 0.01\n");
+  const RunStatistics early = statistics_of(text.c_str());
+  EXPECT_LT(early.at_end.speed, rest_speed);
+  EXPECT_FALSE(early.rests_from);
+  EXPECT_NE(run_statistics_text(early, {}).find("not at rest"), std::string::npos);
+  const RunStatistics late = statistics_of(text.c_str(), {"duration=1.1"});
+  ASSERT_TRUE(late.rests_from);
+  EXPECT_NEAR(*late.rests_from, 0.567, 0.001) << "the first frame with less";
+}
+
 TEST(RunStatistics, LeaveOutTheSpeedOfWhatMovesAsItIsTold) {
   constexpr const char* belts =
       "duration = 0.5\n[[body]]\nname = \"belt\"\nkind = \"moved\"\nshape = \"box\"\n"
