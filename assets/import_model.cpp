@@ -277,12 +277,16 @@ Model import_apart(const std::filesystem::path& path, Format format, const std::
     return deserialise(run_in_sandbox([&] { return serialise(import_here(path, bytes, limits)); },
                                       sandbox_limits(bytes.size(), limits)));
   } catch (const ModelError& error) {
-    const std::string mistake =
-        format == Format::obj ? obj_mistake(file) : number_mistake(format, file);
-    if (mistake.empty()) throw;
     const std::string reason = error.what();
-    throw ModelError(reason.starts_with(unreadable) ? mistake
-                                                    : fmt::format("{} ({})", mistake, reason));
+    const bool tells_no_more = reason.starts_with(unreadable);
+    std::string mistake;
+    if (format == Format::obj) {
+      mistake = obj_mistake(file);
+    } else if (tells_no_more) {
+      mistake = number_mistake(format, file);
+    }
+    if (mistake.empty()) throw;
+    throw ModelError(tells_no_more ? mistake : fmt::format("{} ({})", mistake, reason));
   }
 }
 

@@ -1,6 +1,6 @@
 // What the first bytes of model files announce, held against what the files hold: the importer
-// reserves memory for whatever a PLY, OFF or STL header asks for. And what it does not tell of files
-// of text: the line of a number that is none.
+// reserves memory for whatever a PLY, OFF or STL header asks for. And what it does not tell of
+// files of text: the line of a number that is none.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -162,7 +162,7 @@ void check_text(std::string_view bytes, std::string_view format, char first) {
 constexpr std::string_view blanks = " \t\r\n";
 
 bool is_number(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error != std::errc::invalid_argument && end == word.data() + word.size();
@@ -221,16 +221,17 @@ std::string ply_mistake(std::string_view file) {
   return is_text ? first_mistake(words) : std::string();
 }
 
-/// Each "vertex" and "normal" is followed by three numbers.
+/// Each "vertex" and "normal" is followed by three numbers, unless the file ends. Names are not
+/// looked at.
 std::string stl_mistake(std::string_view file) {
   if (!file.starts_with("solid")) return {};
   Words words(file);
-  words.skip_line();  // its name
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+    if (word == "solid" || word == "endsolid") words.skip_line();
     if (word != "vertex" && word != "normal") continue;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view number = words.next();
-      if (!is_number(number)) return mistake(words, number);
+      if (!number.empty() && !is_number(number)) return mistake(words, number);
     }
   }
   return {};

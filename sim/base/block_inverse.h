@@ -7,9 +7,9 @@
 
 namespace pneuma::base {
 
-/// Writes A^-1 = W^T W, W the inverse of A's Cholesky factor: positive definite however stiff one
-/// of its directions is beside the others, which by cofactors would be lost in rounding. A is
-/// symmetric; false, and nothing is written, if it is not positive definite.
+/// Writes A^-1 = W^T W, W the inverse of A's Cholesky factor: positive definite where one direction
+/// is up to 1e14 times as stiff as the others, which by cofactors would be lost in rounding from
+/// 1e8 on. A is symmetric; false, and nothing is written, if it is not positive definite.
 [[nodiscard]] inline bool invert_positive_definite(const Eigen::Matrix3d& a,
                                                    Eigen::Matrix3d& inverse) {
   if (!(a(0, 0) > 0.0)) return false;

@@ -15,8 +15,8 @@ namespace {
 constexpr double kept_of_loss = 0.9;
 /// Of vibrations, per step, that is taken for work that has not made energy grow.
 constexpr double fraction_of_vibration = 0.02;
-/// Of what a fall gains in a step: slower vibrations, and other motions, count as rest. What is so
-/// much out of balance that a step gains no more stays there.
+/// Of what a fall gains in a step: slower vibrations, and other motions, count as rest. So a load
+/// that is out of balance by less than a 20th of its weight may stay where it is.
 constexpr double quiet_vibration = 0.2, quiet_speed = 0.05;
 
 /// What bears an island without being moved by impulses: the ground and bodies that nothing moves,

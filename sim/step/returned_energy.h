@@ -36,10 +36,11 @@ struct Excess {
 /// Of an island that is so held and has soft bodies, springs that are damped between the impulses
 /// at both ends may have taken the work already, and steps may gain and lose energy alternately.
 /// Were all work taken, no motion might be left. So it gives up what its energy has grown by, less
-/// what it lost, by whatever, in the step before and half as much of each step before that
-/// (World::lost_energy): over some steps its energy does not grow, in a single one it may. Of the
-/// rest of the work it gives up no more than a fraction of its motion, or than what is as slow as
-/// at rest.
+/// what it lost, by whatever, in the step before and nine tenths as much of each step before that
+/// (World::lost_energy): its energy may rise by what it lost in some ten steps, and no higher than
+/// it was. Balls of a few joules between plates, at the coarsest steps that they bear, were seen to
+/// rise by up to 2 % of their motion. For the rest of the work only vibrations pay, by a fraction
+/// of theirs, and what is as slow as at rest.
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///

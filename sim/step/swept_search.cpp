@@ -242,8 +242,9 @@ void SweptSearch::hold_where_they_meet() {
 }
 
 /// The points that meet after a fraction of the step are kept apart along the line through them at
-/// its start: along no other would the impulse keep angular momentum. What impulses do not move
-/// takes any: there it is the direction in which they meet, or what slides would be braked.
+/// its start: along no other would the impulse keep angular momentum. A side that impulses do not
+/// move takes up any: beside it they are kept apart in the direction in which they meet, or what
+/// slides would be braked.
 SweptContact SweptSearch::place_along_line(const SweptCandidate& candidate, double fraction) {
   SweptContact contact = place_at(candidate, fraction);
   const bool both_move =

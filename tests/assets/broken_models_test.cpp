@@ -108,16 +108,19 @@ const Broken broken_models[] = {
      {"line 2: v needs three numbers"}},
     {"no_number_in_ply",
      "a.ply",
-     replaced(ply_text(cube()), "1 1 1", "1 q 1"),
-     {"line ", "'q' is"}},
+     "ply\nformat ascii 1.0\ncomment q\nelement vertex 3\nproperty float x\nproperty float y\n"
+     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+     "0 0 0\n1 0 0\n0 q 0\n3 0 1 2\n",
+     {"line 13: 'q' is not a number"}},
     {"no_number_in_off",
      "a.off",
      "OFF  # counts: vertices, faces, edges\n# of them\n3 1 0\n0 0 0\n1 0 0\n0 1 z\n3 0 1 2\n",
      {"line 6: 'z' is not a number"}},
     {"no_number_in_stl",
      "a.stl",
-     replaced(stl_text(cube()), "vertex -1", "vertex x"),
-     {"line ", "'x' is"}},
+     "solid the vertex x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 x 0\n"
+     "vertex 0 1 0\nendloop\nendfacet\nendsolid\n",
+     {"line 5: 'x' is not a number"}},
     {"nan_of_obj_in_its_line", "a.obj", "v 0 nan 0\n" + obj_text(with_nan()), {"line 1: v has"}},
     {"word_in_a_face_of_obj", "a.obj", obj_text(cube()) + "f 1 q 2\n", {"f holds what is no"}},
     {"index_zero_in_obj", "a.obj", obj_text(cube()) + "f 0 1 2\n", {"f names vertex 0"}},

@@ -114,9 +114,9 @@ TEST(VertexMatrix, FixingTakesACoordinateOut) {
   EXPECT_LT((pinned - expected).norm() / expected.norm(), 1e-10);  // inverted twice
 }
 
-TEST(BlockInverse, StaysPositiveDefiniteHoweverStiffOneDirectionIs) {
+TEST(BlockInverse, StaysPositiveDefiniteWhereOneDirectionIsFarStiffer) {
   const Mat3 turned = rotation_of_degrees({20.0, 35.0, 50.0}).toRotationMatrix();
-  for (const double stiff : {1.0, 1e4, 1e8, 1e12}) {
+  for (const double stiff : {1.0, 1e4, 1e8, 1e12, 1e14}) {
     const Mat3 block = turned * Vec3(stiff, 1.0, 2.0).asDiagonal() * turned.transpose();
     const Mat3 symmetric = 0.5 * (block + block.transpose());
     Mat3 inverse;
@@ -151,7 +151,6 @@ TEST(VertexMatrix, ProductsAreThoseOfTheDenseMatrix) {
   const Eigen::VectorXd expected = whole * MinimiserCase::flat(c.energy.target);
   const double tolerance = 1e-10;  // inverted twice
   EXPECT_LT((MinimiserCase::flat(product) - expected).norm(), tolerance * expected.norm());
-  EXPECT_EQ(product.rows().row(3), Eigen::RowVectorXd::Zero(count));
   for (int v = 0; v < count; ++v) {
     EXPECT_LT((matrix.diagonal_block(v) - whole.block<3, 3>(3 * v, 3 * v)).norm(),
               tolerance * whole.norm());

@@ -75,7 +75,7 @@ TEST(HeldMotion, WhatHasNoFrictionSlidesAsItFalls) {
   for (const int steps_per_second : {180, 240}) {
     sim::World world = world_of(folder, ball_on_slope("size = [60, 20, 1]", steps_per_second));
     run_for(world, 2.0);
-    // What vibrations would have gained is taken from all motion: 1e-4 of it.
+    // Motion pays for work of contacts that makes energy grow: 1e-4 of it here.
     const double expected = 2.0 * gravity_on_slope * std::sin(slope);
     EXPECT_NEAR(along_slope(sim::mean(world.soft[0].velocities)), expected, 5e-4 * expected)
         << steps_per_second;
@@ -135,7 +135,7 @@ rho_g = 0.03
 TEST(HeldMotion, APlateOnABalloonSwingsAlikeInShorterSteps) {
   const TemporaryFolder folder;
   const double coarse = height_of_plate(folder, 480), fine = height_of_plate(folder, 960);
-  // Of a swing by 0.36 m; kept at a turning point it would be 0.1 m off or more.
+  // Of a swing by 0.36 m. Stopped at the turning points of 2 or 3 s it would be 0.1 m off.
   EXPECT_NEAR(coarse, fine, 0.015);
   EXPECT_NEAR(fine, 1.755, 0.01);  // at 1,920 steps/s
 }
