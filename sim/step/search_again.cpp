@@ -1,6 +1,7 @@
-// Other searches of the same step: beside obstacles of fine triangles, of which so many are near
-// that only those are candidates that may touch as the ends now are. The contacts that there are go
-// over to the candidates of another search.
+// Other searches of the same step: what of an earlier one stays, and what is searched again beside
+// obstacles of fine triangles, of which so many are near that only those are candidates that may
+// touch as the ends now are. The contacts that there are go over to the candidates of another
+// search.
 #include <algorithm>
 #include <limits>
 #include <tuple>
@@ -124,6 +125,23 @@ void SweptSearch::search_beside_obstacles() {
     from = end;
   }
   m_.candidates.insert(m_.candidates.end(), from, earlier.end());
+}
+
+/// Of boxes whose ways still end where an earlier search of the step allowed for. Pairs are asked
+/// for in the order of the candidates.
+bool SweptSearch::keep_earlier(const BodyPair& bodies) {
+  const std::vector<SweptCandidate>& earlier = m_.earlier_candidates;
+  if (earlier.empty() || !bodies_.is_as_searched(bodies)) return false;
+  const auto wanted = in_order(bodies.first, bodies.second);
+  const auto next = [&] {
+    const BodyPair& one = earlier[next_earlier_].bodies;
+    return in_order(one.first, one.second);
+  };
+  while (next_earlier_ < earlier.size() && next() < wanted) ++next_earlier_;
+  while (next_earlier_ < earlier.size() && next() == wanted) {
+    m_.candidates.push_back(earlier[next_earlier_++]);
+  }
+  return true;
 }
 
 /// Candidates of an earlier search know their contacts.

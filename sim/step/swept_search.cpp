@@ -87,23 +87,6 @@ void SweptSearch::wake_if_touched(const BodyPair& bodies) {
   }
 }
 
-/// Of boxes whose ways still end where an earlier search of the step allowed for. Pairs are asked
-/// for in the order of the candidates.
-bool SweptSearch::keep_earlier(const BodyPair& bodies) {
-  const std::vector<SweptCandidate>& earlier = m_.earlier_candidates;
-  if (earlier.empty() || !bodies_.is_as_searched(bodies)) return false;
-  const auto wanted = in_order(bodies.first, bodies.second);
-  const auto next = [&] {
-    const BodyPair& one = earlier[next_earlier_].bodies;
-    return in_order(one.first, one.second);
-  };
-  while (next_earlier_ < earlier.size() && next() < wanted) ++next_earlier_;
-  while (next_earlier_ < earlier.size() && next() == wanted) {
-    m_.candidates.push_back(earlier[next_earlier_++]);
-  }
-  return true;
-}
-
 /// Of two bodies that no impulse moves one must sleep and the other come near it.
 bool SweptSearch::may_touch(const BodyPair& bodies) const {
   const auto [first, second] = bodies;
