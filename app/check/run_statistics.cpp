@@ -16,6 +16,7 @@
 #include "sim/inspect/overlap.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/mesh/measure.h"
+#include "sim/response/fall_asleep.h"
 #include "sim/soft/gas_law.h"
 #include "sim/soft/pins.h"
 
@@ -34,16 +35,12 @@ void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& posi
   }
 }
 
-/// m/s, of a body that is so long, in m, along the axis along which it is longest.
-double rest_limit(double length) { return rest_speed * std::min(1.0, length); }
-
 /// Per soft body, then per box, m/s.
 std::vector<double> rest_limits(const sim::World& world) {
   std::vector<double> limits;
-  for (const sim::SoftBody& body : world.soft) {
-    limits.push_back(rest_limit(sim::bounds(body.mesh->rest_positions).size().maxCoeff()));
+  for (int i = 0; i < sim::body_count(world); ++i) {
+    limits.push_back(rest_speed * sim::length_of_rest(world, i));
   }
-  for (const sim::RigidBox& box : world.rigid) limits.push_back(rest_limit(box.size.maxCoeff()));
   return limits;
 }
 

@@ -28,12 +28,6 @@ bool may_sleep(const World& world, int body) {
   return !has_gas_flow(world, body) && !has_springs(world, body);
 }
 
-/// m along the axis along which it is longest.
-double length(const World& world, int body) {
-  if (body >= soft_count(world)) return world.rigid[at(body - soft_count(world))].size.maxCoeff();
-  return bounds(world.soft[at(body)].mesh->rest_positions).size().maxCoeff();
-}
-
 /// Whether no point of the body has moved further, m. Velocities would not tell: those of a vertex
 /// that is pressed hold, at the end of a step, what its forces did since the impulses of its start.
 bool has_moved_less(const World& world, const MotionStart& start, int body, double than) {
@@ -69,13 +63,20 @@ double halt(World& world, int body) {
 
 }  // namespace
 
+double length_of_rest(const World& world, int body) {
+  const int box = body - soft_count(world);
+  const Vec3 size = box >= 0 ? world.rigid[at(box)].size
+                             : bounds(world.soft[at(body)].mesh->rest_positions).size();
+  return std::min(1.0, size.maxCoeff());
+}
+
 FallAsleep::FallAsleep(const World& world)
     : islands_(at(body_count(world))),
       never_sleeps_(islands_.size()),
       is_touched_(islands_.size()),
       stays_awake_(islands_.size()) {
   for (int i = 0; i < body_count(world); ++i) {
-    sizes_.push_back(std::min(1.0, length(world, i)));
+    sizes_.push_back(length_of_rest(world, i));
     never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
   }
 }

@@ -12,10 +12,13 @@
 
 namespace pneuma::sim {
 
+/// m, along the axis along which a body is longest, but at most 1: what speeds of rest are measured
+/// by.
+double length_of_rest(const World& world, int body);
+
 /// Bodies near each other are an island, which falls asleep when it touches something and none of
 /// it has moved faster than Settings::sleep_speed for half a second; of a body that is shorter than
-/// a metre, that times its length in metres. Allocates nothing but in the
-/// first step.
+/// a metre, that times its length in metres. Allocates nothing but in the first step.
 class FallAsleep {
  public:
   explicit FallAsleep(const World& world);
