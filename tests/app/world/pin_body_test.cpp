@@ -135,7 +135,8 @@ TEST(PinBody, ARunThatIsSavedAndGoesOnComesToTheSame) {
 TEST(PinBody, MomentumIsSaidToChangeByPinsAndObstacles) {
   const std::string free = "[simulation]\ngravity = [0, 0, 0]\n[ground]\npresent = false\n";
   using Names = std::vector<std::string>;
-  EXPECT_EQ(run_statistics(scene_of(two_balls + "pinned = [[-9, -9, 3.5, 9, 9, 9]]\n" + free), 1)
+  EXPECT_EQ(run_statistics(
+                scene_of(two_balls + "rho_g = 0\npinned = [[-9, -9, 3.5, 9, 9, 9]]\n" + free), 1)
                 .pushed_by,
             Names{"pins"});
   EXPECT_EQ(run_statistics(scene_of(obstacle + free), 1).pushed_by, Names{"obstacles"});
