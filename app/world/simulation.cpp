@@ -135,7 +135,8 @@ void Simulation::step() {
   gas_work_ = stepper_.gas_work();
   if (!divergence) return;
   stepper_.place_obstacles(world_);
-  const bool may_divide = divides();
+  // Parts of a step make no room for what is squeezed.
+  const bool may_divide = divergence->stage != sim::Stage::find_contacts && divides();
   if (may_divide) {
     for (int parts = 2; parts <= greatest_step_parts; parts *= 2) {
       if (step_in_parts(parts)) return;

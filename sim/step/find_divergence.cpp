@@ -33,9 +33,9 @@ constexpr double min_gain = 0.02;
 /// Steps of free fall: what is slower is left to later steps.
 constexpr double slow_falls = 10.0;
 
-/// Of the shortest side of a box that something moved presses on: it gives way before that if it
-/// can.
-constexpr double squeezed_depth = 0.1;
+/// Of the shortest side of a box that something moved presses on, and no less than the distance
+/// that it keeps: it gives way before that if it can.
+constexpr double squeezed_depth = 0.02;
 
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
                    const std::string& what) {
@@ -283,7 +283,8 @@ class SqueezedBoxes {
       if (!is_free_box(body) || !(other == swept_ground || bodies_.is_rigid(other))) continue;
       const RigidBox& box = world_.rigid[at(bodies_.box(body))];
       const double depth = -contact.distance;
-      if (depth <= squeezed_depth * box.size.minCoeff() || !is_pressed(body)) continue;
+      const double least = std::max(squeezed_depth * box.size.minCoeff(), contact.wanted);
+      if (depth <= least || !is_pressed(body)) continue;
       return Divergence{Stage::find_contacts, world_.steps + 1, box.name,
                         "it has no room left: it is pressed " + base::text(depth) + " m into " +
                             name(other) + ". Let what is moved leave more room"};
@@ -295,12 +296,7 @@ class SqueezedBoxes {
   bool is_free_box(int body) const {
     return body != swept_ground && bodies_.is_rigid(body) && !is_kinematic(world_, body);
   }
-  /// Also while it holds still between two moves.
-  bool is_moved(int body) const {
-    if (body == swept_ground || !is_kinematic(world_, body)) return false;
-    return bodies_.moves(world_, body) ||
-           (bodies_.is_rigid(body) && world_.rigid[at(bodies_.box(body))].motion);
-  }
+  bool is_moved(int body) const { return bodies_.pushes(body) && is_kinematic(world_, body); }
   bool is_pressed(int box) const {
     return std::ranges::any_of(contacts_, [&](const SweptContact& contact) {
       return (contact.first.body == box && is_moved(contact.second.body)) ||

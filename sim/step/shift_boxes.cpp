@@ -14,22 +14,47 @@ constexpr double max_shift = 0.05;
 constexpr double min_shift = 0.02;
 /// Of the greatest shift: to a hundredth of this they are solved for, as velocities of boxes are.
 constexpr double shift_tolerance = 0.5;
+/// Of its distance to what is soft: so much nearer a shift may bring a box, where there is no other
+/// room.
+constexpr double most_of_distance = 0.5;
 /// Of the greatest shift: contacts with more room are left out. Only the shifts of a chain of more
 /// boxes than that, all of them sunk alike, could take it.
 constexpr double room_for_shifts = 20.0;
 
-/// Solves for the shifts as changes of the boxes. Whether any is worth one.
-bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
-  const auto shift = [&](double missing) {
-    return std::min(made_up_per_step * missing, fraction * max_shift);
-  };
-  const double greatest = shift(search.greatest_missing_of_boxes());
-  if (greatest < min_shift * memory.bodies.thinnest_skin()) return false;
+/// One side is.
+bool is_soft(const SweptBodies& bodies, const SweptContact& contact) {
+  const auto is_soft = [&](int body) { return body != swept_ground && !bodies.is_rigid(body); };
+  return is_soft(contact.first.body) || is_soft(contact.second.body);
+}
+
+double shift(double missing, double fraction) {
+  return std::min(made_up_per_step * missing, fraction * max_shift);
+}
+
+/// Of the shifts that came out, at most 1: what has no room is let through, but not into what is
+/// soft.
+double part_beside_soft(const SweptMemory& memory) {
+  double part = 1.0;
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    const SweptContact& contact = memory.contacts[i];
+    if (!is_soft(memory.bodies, contact)) continue;
+    const double closer = -contact.normal.dot(memory.impulses[i].change());
+    const double kept = most_of_distance * std::min(contact.distance, contact.wanted);
+    if (closer > contact.distance - kept) part = std::min(part, (contact.distance - kept) / closer);
+  }
+  return part;
+}
+
+/// Solves for the shifts as changes of the boxes, which are to keep a part of the distance wanted.
+/// Returns whether there is room for it.
+bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction, double greatest,
+                      double of_wanted) {
   search.find_contacts_of_boxes(room_for_shifts * greatest);
   memory.impulses.clear();
   for (const SweptContact& contact : memory.contacts) {
+    const double missing = missing_distance(of_wanted * contact.wanted, contact.distance);
     memory.impulses.push_back(search.impulse(contact, 0.0));
-    memory.impulses.back().aim(shift(missing_distance(contact)), Vec3::Zero());
+    memory.impulses.back().aim(shift(missing, fraction), Vec3::Zero());
   }
   const std::size_t of_boxes = memory.contacts.size();
   search.find_contacts_beside_boxes(fraction * max_shift);
@@ -37,8 +62,18 @@ bool find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
     const SweptContact& contact = memory.contacts[i];
     memory.impulses[i].aim(std::min(0.0, contact.wanted - contact.distance), Vec3::Zero());
   }
-  memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
-  return true;
+  return memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
+}
+
+/// Returns how much of the shifts, which are changes of the boxes, they are to take: 0, if none is
+/// worth one. Where there is no room for the distance wanted they may touch.
+double find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
+  const double greatest = shift(search.greatest_missing_of_boxes(), fraction);
+  if (greatest < min_shift * memory.bodies.thinnest_skin()) return 0.0;
+  if (solve_for_shifts(memory, search, fraction, greatest, 1.0)) return 1.0;
+  for (SweptImpulse& impulse : memory.impulses) impulse.replace_given(Vec4d{});
+  if (solve_for_shifts(memory, search, fraction, greatest, 0.0)) return 1.0;
+  return part_beside_soft(memory);
 }
 
 /// Finds the boxes that are near each other and nothing else.
@@ -95,16 +130,16 @@ double keep_angular_momentum(World& world, SweptMemory& memory) {
 bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   memory.bodies.forget_shifts();
   if (world.rigid.empty()) return false;
-  const bool shifts = find_shifts(memory, search, fraction);
-  if (shifts) {
+  const double part = find_shifts(memory, search, fraction);
+  if (part > 0.0) {
     group_near_boxes(memory);
-    memory.bodies.take_as_shifts();
+    memory.bodies.take_as_shifts(part);
     memory.bodies.shift_boxes(world);
     memory.work += memory.bodies.work_of_shifts(world);
   }
   memory.contacts.clear();  // they are none of the step's motion
   memory.impulses.clear();
-  return shifts;
+  return part > 0.0;
 }
 
 }  // namespace pneuma::sim

@@ -72,6 +72,7 @@ SweptBodies::SweptBodies(const World& world) : soft_count_(static_cast<int>(worl
     }
   }
   is_still_.resize(surfaces_.size());
+  pushes_.resize(surfaces_.size());
   is_fitted_.resize(surfaces_.size());
   is_followed_.assign(surfaces_.size(), 1);
   is_lone_.assign(surfaces_.size(), 0);
@@ -137,10 +138,18 @@ void SweptBodies::set_start(const World& world, const MotionStart& start,
   }
 }
 
+/// Also once it has stopped.
+bool SweptBodies::is_moved(const World& world, int body) const {
+  return pushes(body) || moves(world, body) ||
+         (is_rigid(body) && world.rigid[at(box(body))].motion);
+}
+
 void SweptBodies::find_what_is_still(const World& world) {
   for (int i = 0; i < count(); ++i) {
     const bool is_still = never_moves_[at(i)] != 0 || is_asleep(world, i);
     is_still_[at(i)] = is_still ? 1 : 0;
+    const bool is_soft = !is_rigid(i) && !is_kinematic(world, i);
+    pushes_[at(i)] = is_soft || (!is_still && is_kinematic(world, i) && is_moved(world, i)) ? 1 : 0;
     if (!is_still) is_fitted_[at(i)] = 0;
   }
 }

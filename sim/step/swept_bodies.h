@@ -44,6 +44,9 @@ class SweptBodies {
   /// Whether a body of this step has a velocity.
   bool moves(const World& world, int body) const;
   bool any_driven_moves() const;
+  /// Whether it moves, or has moved, where impulses do not move it: an obstacle or box that is
+  /// moved, or a soft body, whose pinned vertices are.
+  bool pushes(int body) const { return body != swept_ground && pushes_[at(body)] != 0; }
 
   int count() const { return static_cast<int>(surfaces_.size()); }
   bool is_rigid(int body) const { return body >= soft_count_; }
@@ -137,9 +140,10 @@ class SweptBodies {
                       const SurfacePoint& point) const;
   Vec3 end_velocity(const World& world, const SurfacePoint& point) const;
 
-  /// Takes the changes since begin_at_start as displacements, in m and rad, that the boxes are
-  /// given in this step besides their motion, and forgets them; without it there are none.
-  void take_as_shifts();
+  /// Takes a part of the changes since begin_at_start as displacements, in m and rad, that the
+  /// boxes are given in this step besides their motion, and forgets them; without it there are
+  /// none.
+  void take_as_shifts(double part);
   void forget_shifts() { shifts_.clear(); }
   /// m, by which the shifts move a point of a box; zero of others.
   Vec3 shift(const SurfacePoint& point) const;
@@ -173,6 +177,7 @@ class SweptBodies {
   void refit_anew(int body, double allowed);
   Bounds root_bounds(int body) const;
   bool may_be_near(const BodyPair& bodies) const;
+  bool is_moved(const World& world, int body) const;
   void find_what_is_still(const World& world);
   bool is_in_own_axes(int body) const {
     return moved_[at(body)] && moved_[at(body)]->is_in_own_axes();
@@ -213,6 +218,7 @@ class SweptBodies {
   std::vector<MovingSurface> seen_;                        // per body: from an obstacle
   std::vector<std::uint8_t> never_moves_;                  // per body
   std::vector<std::uint8_t> is_still_;     // per body: as it never moves, or is asleep
+  std::vector<std::uint8_t> pushes_;       // per body
   std::vector<std::uint8_t> is_fitted_;    // per body: as it lies still
   bool has_pins_ = false;                  // any soft body
   std::vector<std::uint8_t> is_followed_;  // per body: whether its surface is that of this step

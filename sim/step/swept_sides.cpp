@@ -120,8 +120,12 @@ Vec3 SweptBodies::end_velocity(const World& world, const SurfacePoint& point) co
   return interpolate(point, [&](int v) { return velocities[v]; });
 }
 
-void SweptBodies::take_as_shifts() {
+void SweptBodies::take_as_shifts(double part) {
   shifts_ = box_changes_;
+  for (BoxChange& shift : shifts_) {
+    shift.velocity *= part;
+    shift.angular_velocity *= part;
+  }
   for (BoxChange& change : box_changes_) change.velocity = change.angular_velocity = Vec4d{};
 }
 

@@ -16,8 +16,20 @@ constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;
 constexpr double penalty_growth = 30.0;
 
+/// What has no mass, and what leaves no room, is not kept apart by any impulse. An impulse may be
+/// so many times what would give all boxes of the patch the speed that is missing, and no more than
+/// the lesser where they have not been solved for.
+constexpr double most_of_enough = 100.0, most_of_unsolved = 3.0;
+/// How often what pushes with more is let go.
+constexpr int max_let_go = 4;
+
 /// In place of a node: of contacts with what sleeps, which will be woken and the step done again.
 constexpr int nothing_moves = -1;
+
+/// Of two bodies of which one is moved.
+bool have_same_bodies(const SweptImpulse& one, const SweptImpulse& other) {
+  return one.first().box() == other.first().box() && one.second().box() == other.second().box();
+}
 
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
   return impulse.first().moves() ? contact.first.body : contact.second.body;
@@ -37,6 +49,7 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
   island_begin_.clear();
   patches_.clear();
   ordered_.clear();
+  pushers_.clear();
   nodes_.clear();
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto& [body, node, contact] = places_[i];
@@ -49,6 +62,8 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
     patches_.back().is_new |= node != nothing_moves && at(contact) >= first_new;
     patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
+    pushers_.push_back(pusher(contacts[at(contact)], impulses[at(contact)]));
+    patches_.back().is_pushed |= pushers_.back() >= 0;
     nodes_.push_back(nodes_of_contacts_[at(contact)]);
   }
   island_begin_.push_back(patches_.size());
@@ -103,12 +118,23 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+/// The side that is moved, or held by what is soft; or -1.
+int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse) const {
+  const auto pushes = [&](int body, const SweptSide& side) {
+    return body != swept_ground && !side.moves() && bodies_.pushes(body);
+  };
+  if (pushes(contact.first.body, impulse.first())) return contact.first.body;
+  return pushes(contact.second.body, impulse.second()) ? contact.second.body : -1;
+}
+
+bool SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                         double tolerance, std::size_t first_new) {
+  has_let_go_ = false;
   divide(contacts, impulses, first_new);
   for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
     if (patches_[i].is_new) solve_patch(i, tolerance);
   }
+  return !has_let_go_;
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {
@@ -118,10 +144,12 @@ void SweptSolver::solve_island(int island, double tolerance) {
 }
 
 void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
-  const auto& [begin, is_new, has_boxes] = patches_[patch];
+  const auto& [begin, is_new, has_boxes, is_pushed] = patches_[patch];
   const std::size_t size = patches_[patch + 1].begin - begin;
   const std::span<SweptImpulse* const> impulses = std::span(ordered_).subspan(begin, size);
-  if (has_boxes) {
+  if (has_boxes && is_pushed) {
+    solve_pushed(impulses, std::span(pushers_).subspan(begin, size), tolerance);
+  } else if (has_boxes) {
     solve_with_boxes(impulses, tolerance);
   } else {
     const std::span<const ImpulseNodes> nodes = std::span(nodes_).subspan(begin, size);
@@ -129,18 +157,77 @@ void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
   }
 }
 
-void SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
+/// What is pressed by more than can be is let through, and keeps the room that there is.
+void SweptSolver::solve_pushed(std::span<SweptImpulse* const> impulses,
+                               std::span<const int> pushers, double tolerance) {
+  const double enough = enough_for_all(impulses);
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    if (pushers[i] >= 0) impulses[i]->limit(most_of_enough * enough);
+  }
+  for (int i = 0; i <= max_let_go; ++i) {
+    const bool is_solved = solve_with_boxes(impulses, tolerance) <= tolerance;
+    const double most = (is_solved ? most_of_enough : most_of_unsolved) * enough;
+    if (!let_go(impulses, pushers, most)) return;
+    has_let_go_ = true;
+    for (SweptImpulse* impulse : impulses) impulse->replace_given(Vec4d{});
+  }
+}
+
+/// N s, that would give all boxes the greatest speed that is missing.
+double SweptSolver::enough_for_all(std::span<SweptImpulse* const> impulses) {
+  double masses = 0.0, missing = 0.0;
+  boxes_.clear();
+  for (const SweptImpulse* impulse : impulses) {
+    missing = std::max(missing, impulse->parting());
+    for (const BoxChange* box : {impulse->first().box(), impulse->second().box()}) {
+      if (box) boxes_.push_back(box);
+    }
+  }
+  std::ranges::sort(boxes_);
+  const auto repeated = std::ranges::unique(boxes_);
+  boxes_.erase(repeated.begin(), repeated.end());
+  for (const BoxChange* box : boxes_) masses += 1.0 / box->inverse_mass;
+  return masses * missing;
+}
+
+/// Of each two bodies of which one is moved and pushes with `most` (N s) or more, all contacts.
+/// Returns whether there were any.
+bool SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                         double most) {
+  bool any = false;
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    if (pushers[i] < 0 || impulses[i]->given().isZero(0.0)) continue;
+    const auto is_same = [&](std::size_t other) {
+      return pushers[other] == pushers[i] && have_same_bodies(*impulses[other], *impulses[i]);
+    };
+    double sum = 0.0;
+    for (std::size_t other = 0; other < impulses.size(); ++other) {
+      if (is_same(other)) sum += impulses[other]->given().dot(impulses[other]->normal());
+    }
+    if (sum < most) continue;
+    any = true;
+    for (std::size_t other = 0; other < impulses.size(); ++other) {
+      if (is_same(other)) impulses[other]->only_give_back();
+    }
+  }
+  return any;
+}
+
+/// Returns by how much the last correction changed a velocity.
+double SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);
-  if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
+  double left = iterations_.correct(of_boxes, few_iterations);
+  if (left <= of_boxes) return left;
   const bool is_small = newton_.begin(impulses);
   for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
     if (!is_small || !newton_.improve(penalty)) {
-      iterations_.correct(of_boxes, many_iterations - few_iterations);
-      return;
+      return iterations_.correct(of_boxes, many_iterations - few_iterations);
     }
-    if (iterations_.correct(of_boxes, few_iterations) <= of_boxes) return;
+    left = iterations_.correct(of_boxes, few_iterations);
+    if (left <= of_boxes) break;
   }
+  return left;
 }
 
 }  // namespace pneuma::sim

@@ -34,7 +34,8 @@ class SweptSolver {
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
   /// if that can help. Patches without a contact from `first_new` on stay as they are: what springs
   /// bring to them from other patches of their bodies, when the step is done once more, is left.
-  void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+  /// Returns false if there was no room for boxes beside what nothing moves, which some went into.
+  bool solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance, std::size_t first_new = 0);
   /// The same for one of the islands that the last call has found.
   void solve_island(int island, double tolerance);
@@ -64,6 +65,7 @@ class SweptSolver {
     std::size_t begin = 0;   // of its impulses
     bool is_new = false;     // it has a contact that was not yet solved for
     bool has_boxes = false;  // one on another, or on the ground
+    bool is_pushed = false;  // by what is moved
   };
 
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
@@ -72,9 +74,15 @@ class SweptSolver {
   void sort_by_place(std::span<const SweptContact> contacts,
                      std::span<const SweptImpulse> impulses);
   bool is_of_boxes(const SweptContact& contact) const;
+  int pusher(const SweptContact& contact, const SweptImpulse& impulse) const;
   ImpulseNodes nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const;
   void solve_patch(std::size_t patch, double tolerance);
-  void solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
+  void solve_pushed(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                    double tolerance);
+  double enough_for_all(std::span<SweptImpulse* const> impulses);
+  static bool let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                     double most);
+  double solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
 
   const SweptBodies& bodies_;
   base::DisjointSets linked_bodies_;
@@ -85,7 +93,10 @@ class SweptSolver {
   std::vector<ImpulseNodes> nodes_of_contacts_;
   std::vector<Place> places_;
   std::vector<SweptImpulse*> ordered_;  // patch by patch
-  std::vector<ImpulseNodes> nodes_;     // of each of these
+  std::vector<int> pushers_;            // of each of these
+  std::vector<ImpulseNodes> nodes_;
+  std::vector<const BoxChange*> boxes_;  // of a patch
+  bool has_let_go_ = false;
   GaussSeidel gauss_seidel_;
   ConjugateIterations iterations_;
   NewtonSolver newton_;

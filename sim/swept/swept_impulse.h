@@ -7,6 +7,7 @@
 // momentum; friction turns the pair by at most gap times impulse.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -96,6 +97,10 @@ class SweptImpulse {
   void count_from(double normal, const Vec3& friction);
   /// Gives an impulse (N s) at once: what the same contact needed in the last step.
   void warm_start(const Vec3& impulse);
+  /// Gives no more than so much (N s) along the normal, but for what it started from.
+  void limit(double normal) {
+    max_normal_ = std::min(max_normal_, std::max(normal, start_normal_));
+  }
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
 
@@ -130,6 +135,8 @@ class SweptImpulse {
   Vec3 normal() const { return to_vec3(normal_); }
   bool has_friction() const { return friction_ > 0.0; }
 
+  /// m/s, that is wanted along the normal.
+  double parting() const { return parting_; }
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
   Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }

@@ -43,7 +43,8 @@ TEST(Kinematic, AMovedBoxTakesAFreeOneAlongAtItsSpeed) {
 }
 
 /// A press comes down on a cube of 1 m that lies on the ground, until it leaves `room` (m) for it.
-std::optional<Divergence> press_cube(double room) {
+/// `work`: J, of the press.
+std::optional<Divergence> press_cube(double room, double* work = nullptr) {
   World world;
   world.rigid = {make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5}),
                  make_kinematic({3.0, 3.0, 1.0}, {0.0, 0.0, 1.5 + 1.2}, {0.0, 0.0, -1.0})};
@@ -51,9 +52,20 @@ std::optional<Divergence> press_cube(double room) {
   Stepper stepper(world);
   while (world.rigid[1].position.z() - 0.5 > room) {
     if (auto divergence = stepper.step(world)) return divergence;
+    if (work) *work += stepper.driven_work();
   }
   world.rigid[1].velocity.setZero();
   return run(world, 0.5);
+}
+
+/// It comes so near that it keeps its distance by impulses, which the ground gives back.
+TEST(Kinematic, APressThatLeavesRoomDoesNoMoreWorkThanWouldLiftTheBox) {
+  for (const double room : {1.01, 1.004, 1.002}) {
+    double work = 0.0;
+    const auto divergence = press_cube(room, &work);
+    EXPECT_FALSE(divergence) << divergence->what;
+    EXPECT_LT(std::abs(work), 9.81) << room;
+  }
 }
 
 TEST(Kinematic, ABoxWithoutRoomEndsTheRunByName) {
