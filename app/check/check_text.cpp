@@ -305,6 +305,12 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
                                    "each other in a step",
                                    run.touching_frames));
   }
+  if (run.sunk.frames > 0) {
+    text += named_line(
+        "in the ground",
+        fmt::format("boxes in {} of {} frames, at most {:.4f} m at {:.2f} s ({})", run.sunk.frames,
+                    run.frames, run.sunk.depth.value, run.sunk.depth.time, run.sunk.body));
+  }
   if (run.start_overlap.pairs > 0) {
     text += named_line("at the start", start_overlap_text(run.start_overlap));
   }

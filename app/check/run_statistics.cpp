@@ -156,6 +156,7 @@ class Observer {
     if (sim::has_gas_flow(start)) result_.gas_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);
+    has_been_out_.resize(start.rigid.size());
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
       const int index = static_cast<int>(result_.volumes.size());
@@ -196,6 +197,7 @@ class Observer {
     }
     part_start_overlaps(world);
     look_for_crossings(world);
+    look_for_sunk_boxes(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       VolumeRange& range = result_.volumes[b];
       range.least = std::min(range.least, volume(world.soft[b]));
@@ -306,6 +308,26 @@ class Observer {
     add(world, within, result_.self_crossings);
   }
 
+  /// Those that start in the ground count once they have come out of it.
+  void look_for_sunk_boxes(const sim::World& world) {
+    if (!world.settings.ground || world.settings.contact != sim::ContactMethod::swept) return;
+    const int before = result_.sunk.frames;
+    for (std::size_t i = 0; i < world.rigid.size(); ++i) {
+      const sim::RigidBox& box = world.rigid[i];
+      if (box.is_kinematic) continue;
+      const int body = static_cast<int>(world.soft.size() + i);
+      const double depth = -body_bounds(world, body).low.z();
+      const bool is_sunk =
+          depth > std::max(touch_depth(world, body, body), sunk_of_side * box.size.minCoeff());
+      if (!is_sunk) has_been_out_[i] = 1;
+      if (!is_sunk || has_been_out_[i] == 0) continue;
+      result_.sunk.frames = before + 1;
+      if (depth <= result_.sunk.depth.value) continue;
+      result_.sunk.depth = {depth, sim::time(world)};
+      result_.sunk.body = box.name;
+    }
+  }
+
   static void add(const sim::World& world, const std::vector<sim::CrossingPair>& pairs,
                   CrossingStatistics& statistics) {
     if (pairs.empty()) return;
@@ -317,7 +339,10 @@ class Observer {
     statistics.first_bodies = two_bodies(world, pairs[0].first, pairs[0].second);
   }
 
-  std::set<Pair> start_overlaps_;  // that did not come apart yet
+  static constexpr double sunk_of_side = 0.01;
+
+  std::set<Pair> start_overlaps_;           // that did not come apart yet
+  std::vector<std::uint8_t> has_been_out_;  // per box: of the ground
   RunStatistics result_;
   std::int64_t all_steps_;
   std::vector<sim::VertexArray> before_;  // where the soft bodies were in the last frame

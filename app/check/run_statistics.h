@@ -71,6 +71,14 @@ struct CrossingStatistics {
   std::string first_bodies;  // of that moment, "torus and cube 3"; empty: none
 };
 
+/// Free boxes that swept contacts have let into the ground, by more than a touch and by more than a
+/// hundredth of their shortest side.
+struct SunkStatistics {
+  int frames = 0;    // in which some were
+  Peak depth;        // m
+  std::string body;  // of that moment; empty: none
+};
+
 /// Bodies that start in each other.
 struct StartOverlapStatistics {
   int pairs = 0;
@@ -96,6 +104,7 @@ struct RunStatistics {
   int frames = 0;                    // looked at, the start among them
   CrossingStatistics crossings;      // of different bodies, beyond a touch (app/world/touch.h)
   int touching_frames = 0;           // in which bodies cross by no more than a touch
+  SunkStatistics sunk;
   StartOverlapStatistics start_overlap;
   CrossingStatistics self_crossings;  // of bodies with themselves
   double end_overlap = 0.0;           // m, of the pair deepest in each other at the end (overlap.h)

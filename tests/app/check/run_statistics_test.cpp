@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/check/check_report.h"
+#include "app/check/judge_run.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {
@@ -271,6 +272,34 @@ position = [0.0, 0.0, 1.0]
   EXPECT_EQ(run.settled_contacts.steps, 30);
   EXPECT_NEAR(run.start_penetration, 0.0, 1e-15);  // the pole's height is 1 - 1, rounded
   EXPECT_LE(run.penetration.time, 1.0);
+}
+
+/// What is a million times as heavy presses the boxes below it into the ground.
+TEST(RunStatistics, TellBoxesThatAreInTheGround) {
+  constexpr const char* heavy_on_light = R"(
+duration = 1.5
+[[body]]
+kind = "rigid"
+size = [3, 3, 3]
+mass = 10000
+position = [0, 0, 4]
+[[body]]
+name = "under"
+kind = "rigid"
+size = [1, 1, 1]
+mass = 0.01
+position = [-1.2, -1.2, 0.5]
+copies = [2, 2, 2]
+spacing = [2.4, 2.4, 1]
+)";
+  const RunStatistics run = statistics_of(heavy_on_light);
+  EXPECT_GT(run.sunk.frames, 0);
+  EXPECT_GT(run.sunk.depth.value, 0.01);
+  EXPECT_EQ(run.sunk.body.find("under"), 0u) << run.sunk.body;
+  const scenes::Scene scene = scenes::parse_scene(heavy_on_light, "heavy_on_light.toml");
+  EXPECT_EQ(judge_run(scene, run).code, ExitCode::check_failed);
+  const RunStatistics alike = statistics_of(heavy_on_light, {"body.1.mass=0.1"});
+  EXPECT_EQ(alike.sunk.frames, 0);
 }
 
 TEST(RunStatistics, EndWhereTheRunDiverges) {
