@@ -184,8 +184,7 @@ double SweptSolver::enough_for_all(std::span<SweptImpulse* const> impulses) {
     }
   }
   std::ranges::sort(boxes_);
-  const auto repeated = std::ranges::unique(boxes_);
-  boxes_.erase(repeated.begin(), repeated.end());
+  boxes_.erase(std::unique(boxes_.begin(), boxes_.end()), boxes_.end());
   for (const BoxChange* box : boxes_) masses += 1.0 / box->inverse_mass;
   return masses * missing;
 }
