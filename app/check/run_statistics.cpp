@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "app/check/frame_motion.h"
 #include "app/host/interrupt.h"
 #include "app/record/pressed_volume.h"
 #include "app/record/shape_deviation.h"
@@ -25,54 +26,6 @@ namespace {
 
 double volume(const sim::SoftBody& body) {
   return sim::volume(body.mesh->topology, body.positions);
-}
-
-/// Of the soft bodies; none of those that never move, or only as they are told to.
-void keep_positions(const sim::World& world, std::vector<sim::VertexArray>& positions) {
-  positions.resize(world.soft.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!sim::is_kinematic(world.soft[i])) positions[i] = world.soft[i].positions;
-  }
-}
-
-/// Per soft body, then per box, m/s.
-std::vector<double> rest_limits(const sim::World& world) {
-  std::vector<double> limits;
-  for (int i = 0; i < sim::body_count(world); ++i) {
-    limits.push_back(rest_speed * sim::length_of_rest(world, i));
-  }
-  return limits;
-}
-
-/// The fastest of all, and that with the greatest part of its body's limit.
-struct Motion {
-  FastestPoint fastest;
-  FastestPoint liveliest;
-
-  void meet(double speed, const std::string& body, double limit) {
-    if (speed > fastest.speed) fastest = {speed, body, limit};
-    if (speed / limit > liveliest.over_limit()) liveliest = {speed, body, limit};
-  }
-};
-
-/// In the last `duration` (s), at whose start the soft bodies were `before`. The velocity of a
-/// vertex that is pressed holds, at the end of a step, what its forces did since the last impulses.
-Motion motion(const sim::World& world, const std::vector<sim::VertexArray>& before, double duration,
-              const std::vector<double>& limits) {
-  Motion found;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    if (before[i].size() == 0) continue;
-    const sim::SoftBody& body = world.soft[i];
-    found.meet(sim::max_distance(before[i], body.positions) / duration, body.name, limits[i]);
-  }
-  for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    const sim::RigidBox& box = world.rigid[i];
-    if (box.is_kinematic) continue;
-    // No point of a box is farther from its axis of rotation than half the diagonal.
-    const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
-    found.meet(box.velocity.norm() + rim, box.name, limits[world.soft.size() + i]);
-  }
-  return found;
 }
 
 /// What moves as it is told to is not slowed down by it.
@@ -146,7 +99,7 @@ class Observer {
         last_energy_(sim::energy(start).total()),
         least_energy_(last_energy_),
         greatest_energy_(last_energy_) {
-    keep_positions(start, before_);
+    keep_places(start, before_);
     result_.energy_start = sim::energy(start);
     result_.momentum_start = sim::momentum(start);
     result_.start_penetration = look_at_penetration(start);
@@ -205,7 +158,7 @@ class Observer {
       look_at_gas(world.soft[b], result_.gas[b]);
     }
     motion_ = motion(world, before_, sim::time(world) - frame_time_, rest_limits_);
-    keep_positions(world, before_);
+    keep_places(world, before_);
     frame_time_ = sim::time(world);
     if (motion_.liveliest.over_limit() >= 1.0) {
       quiet_from_.reset();
@@ -345,7 +298,7 @@ class Observer {
   std::vector<std::uint8_t> has_been_out_;  // per box: of the ground
   RunStatistics result_;
   std::int64_t all_steps_;
-  std::vector<sim::VertexArray> before_;  // where the soft bodies were in the last frame
+  Places before_;  // in the last frame
   std::vector<double> rest_limits_;
   double frame_time_;                 // s, its
   Motion motion_;                     // up to it
