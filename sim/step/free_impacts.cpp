@@ -13,6 +13,10 @@ namespace {
 /// rad, after an impact: a box that turns further could hit the ground and leave it again. Its
 /// corners' arcs are off their chords by that squared over 8.
 constexpr double allowed_turn = 0.5;
+/// What bounces by less loses most of its motion anyway.
+constexpr double least_restitution = 0.5;
+/// m/s: slower impacts in a heap that comes to rest are not worth parts of a step.
+constexpr double min_approach = 0.1;
 
 class FreeImpacts {
  public:
@@ -177,6 +181,41 @@ class FreeImpacts {
 };
 
 }  // namespace
+
+bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search) {
+  const auto bounces = [&](const SweptContact& contact) {
+    return search.is_rigid(contact) && search.material(contact).restitution > least_restitution;
+  };
+  const auto hits = [&](const SweptContact& contact) {
+    return (is_hit(contact) || !contact.is_near) && contact.approach > min_approach &&
+           bounces(contact);
+  };
+  if (std::ranges::none_of(memory.contacts, hits)) return false;
+  memory.partners.assign(at(memory.bodies.count()), {});
+  const auto each_box = [&](const SweptContact& contact, const auto& visit) {
+    const int first = contact.first.body, second = contact.second.body;
+    for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
+      const bool moves = memory.bodies.is_box(body) && !is_fixed(world, body);
+      if (moves) visit(memory.partners[at(body)], other);
+    }
+  };
+  bool twice = false;
+  for (const SweptContact& contact : memory.contacts) {
+    if (!hits(contact)) continue;
+    each_box(contact, [&](Partner& partner, int other) {
+      twice = twice || (partner.contacts > 0 && partner.body != other);
+      partner.body = other;
+      ++partner.contacts;
+    });
+  }
+  for (const SweptContact& contact : memory.contacts) {
+    if (!contact.is_new || !bounces(contact)) continue;
+    each_box(contact, [&](const Partner& partner, int other) {
+      twice = twice || (partner.contacts > 0 && partner.body != other);
+    });
+  }
+  return twice;
+}
 
 void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
                  double tolerance) {

@@ -19,4 +19,9 @@ namespace pneuma::sim {
 void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
                  double tolerance);
 
+/// Whether a box that moves freely is hit by two others, one after the other in the step, or by one
+/// as it comes near another, and bounces off by more than half of its speed: by one impact of all
+/// it would do otherwise. Of the contacts of the start or of those of the end.
+bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search);
+
 }  // namespace pneuma::sim

@@ -133,6 +133,7 @@ class SweptStep {
       if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
+        if (can_be_halved() && is_hit_twice(world_, m_, search_)) return hit_twice();
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
         return divergence;
@@ -230,6 +231,7 @@ class SweptStep {
       m_.work += lift_sunk_vertices(world_, w_);
     }
     touch_at_end();
+    if (can_be_halved() && is_hit_twice(world_, m_, search_)) return hit_twice();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
     follow_impacts(m_, tolerance());
@@ -342,6 +344,7 @@ class SweptStep {
     SweptImpulse impulse = search_.impulse(*contact, rubs ? both.friction : 0.0);
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
+    contact->is_new = !before.is_known;
     set_parting(before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
@@ -406,6 +409,9 @@ class SweptStep {
                       " J, which is more than their motion against each other can give back";
     return divergence;
   }
+
+  /// Parts of the step tell its impacts apart.
+  Divergence hit_twice() const { return {Stage::resolve_contacts, world_.steps + 1, {}, {}}; }
 
   Divergence blocked() const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};

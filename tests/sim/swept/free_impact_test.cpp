@@ -134,6 +134,24 @@ TEST(FreeImpact, FacesThatMeetDoNotTurn) {
   }
 }
 
+/// Of a row of boxes, with gaps that the first crosses in a part of a step, one after the other is
+/// hit, and the last leaves alone.
+TEST(FreeImpact, ARowIsHitOneAfterTheOther) {
+  for (const double gap : {0.01, 0.02, 0.05, 0.3}) {
+    std::vector<RigidBox> row;
+    for (int box = 0; box < 5; ++box) {
+      row.push_back(make_rigid(Vec3::Ones(), {(1.0 + gap) * box, 0.0, 0.0}, 1.0));
+    }
+    row.push_back(make_rigid(Vec3::Ones(), {-2.0, 0.0, 0.0}, 1.0));
+    row.back().velocity = {3.0, 0.0, 0.0};
+    World world = make_free_boxes(row, 1.0);
+    world.settings.contact = ContactMethod::swept;
+    world.settings.steps_per_second = 60;
+    ASSERT_FALSE(run(world, 1.5));
+    EXPECT_NEAR(world.rigid[4].velocity.x(), 3.0, 1e-3) << gap;
+  }
+}
+
 /// What lands in one step and bounces in the next would do so for ever.
 TEST(FreeImpact, BouncesEnd) {
   for (const double restitution : {0.2, 0.5}) {
