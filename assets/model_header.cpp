@@ -221,8 +221,7 @@ std::string ply_mistake(std::string_view file) {
   return is_text ? first_mistake(words) : std::string();
 }
 
-/// Each "vertex" and "normal" is followed by three numbers, unless the file ends. Names are not
-/// looked at.
+/// Each "vertex" and "normal" is followed by three numbers. Names are not looked at.
 std::string stl_mistake(std::string_view file) {
   if (!file.starts_with("solid")) return {};
   Words words(file);
@@ -231,7 +230,11 @@ std::string stl_mistake(std::string_view file) {
     if (word != "vertex" && word != "normal") continue;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view number = words.next();
-      if (!number.empty() && !is_number(number)) return mistake(words, number);
+      if (number.empty()) {
+        return fmt::format("the file ends within line {}, after a {}; it is cut short",
+                           words.line(), word);
+      }
+      if (!is_number(number)) return mistake(words, number);
     }
   }
   return {};

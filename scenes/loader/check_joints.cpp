@@ -90,7 +90,8 @@ class JointChecks {
     const auto found = std::ranges::find_if(
         scene_.bodies, [&](const BodyScene& body) { return is_copy(body, name); });
     if (found == scene_.bodies.end()) {
-      refuse(name, fmt::format("{} = {} is no soft body{}", key, base::in_quotes(name), all()));
+      refuse(name, fmt::format("{} = {} names no body that has {}{}", key, base::in_quotes(name),
+                               lacking, all()));
       return nullptr;
     }
     if (!is_box(*found)) return &*found;

@@ -79,6 +79,10 @@ std::string noise(std::size_t count) {
 
 const Broken broken_models[] = {
     {"truncated_binary_stl", "a.stl", half(stl_bytes(cube())), {"header announces 12 triangles"}},
+    {"truncated_within_the_text_of_an_stl",
+     "a.stl",
+     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0",
+     {"ends within line 5, after a vertex", "cut short"}},
     {"truncated_within_the_stl_header", "a.stl", stl_bytes(cube()).substr(0, 60), {"cut short"}},
     {"truncated_binary_ply", "a.ply", half(ply_bytes(dented())), {}},
     {"truncated_ply", "a.ply", half(ply_text(dented())), {"cut short"}},

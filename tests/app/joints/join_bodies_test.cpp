@@ -67,7 +67,7 @@ TEST(JoinBodies, RefusesWhatCannotBeJoined) {
       "[[body]]\nname = \"s\"\nkind = \"static\"\nshape = \"sphere\"\n"
       "position = [0, -9, 5]\n";
   expect_in(refusal(balls + "[[valve]]\nfrom = \"a\"\nto = \"b\"\n"),
-            {"joined.toml:16:8", "valve 1", "no soft body", "a.1, a.2, b"});
+            {"joined.toml:16:8", "valve 1", "names no body that has gas", "a.1, a.2, b"});
   expect_in(refusal(balls + "[[valve]]\nfrom = \"b\"\nto = \"cube\"\n"), {"is a box", "no gas"});
   expect_in(refusal(balls + "[[spring]]\nfrom = \"b\"\nto = \"cube\"\nk = 1\n"),
             {"is a box", "no vertices", "icosphere"});
