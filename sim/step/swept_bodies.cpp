@@ -138,18 +138,18 @@ void SweptBodies::set_start(const World& world, const MotionStart& start,
   }
 }
 
-/// Also once it has stopped.
+/// A box also once it has stopped.
 bool SweptBodies::is_moved(const World& world, int body) const {
-  return pushes(body) || moves(world, body) ||
-         (is_rigid(body) && world.rigid[at(box(body))].motion);
+  if (!is_rigid(body)) return never_moves_[at(body)] == 0;
+  return is_kinematic(world, body) &&
+         (pushes(body) || moves(world, body) || world.rigid[at(box(body))].motion);
 }
 
 void SweptBodies::find_what_is_still(const World& world) {
   for (int i = 0; i < count(); ++i) {
     const bool is_still = never_moves_[at(i)] != 0 || is_asleep(world, i);
     is_still_[at(i)] = is_still ? 1 : 0;
-    const bool is_soft = !is_rigid(i) && !is_kinematic(world, i);
-    pushes_[at(i)] = is_soft || (!is_still && is_kinematic(world, i) && is_moved(world, i)) ? 1 : 0;
+    pushes_[at(i)] = is_moved(world, i) ? 1 : 0;
     if (!is_still) is_fitted_[at(i)] = 0;
   }
 }

@@ -44,8 +44,8 @@ class SweptBodies {
   /// Whether a body of this step has a velocity.
   bool moves(const World& world, int body) const;
   bool any_driven_moves() const;
-  /// Whether it moves, or has moved, where impulses do not move it: an obstacle or box that is
-  /// moved, or a soft body, whose pinned vertices are.
+  /// Whether it may move where no impulse moves it: an obstacle or box that is moved, or a soft
+  /// body, whose vertices may be pinned.
   bool pushes(int body) const { return body != swept_ground && pushes_[at(body)] != 0; }
 
   int count() const { return static_cast<int>(surfaces_.size()); }
