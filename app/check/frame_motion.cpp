@@ -10,17 +10,31 @@
 namespace pneuma::app {
 namespace {
 
+constexpr int corner_count = 8;
+
+sim::OrientedBox placed(const sim::RigidBox& box, const sim::RigidState& state) {
+  return {state.position, state.orientation.toRotationMatrix(), 0.5 * box.size};
+}
+
 /// m, of a corner.
 double longest_way(const sim::RigidBox& box, const sim::RigidState& before) {
-  const auto place = [](const sim::Vec3& position, const Eigen::Quaterniond& orientation,
-                        const sim::Vec3& half) {
-    return sim::OrientedBox{position, orientation.toRotationMatrix(), half};
-  };
-  const sim::OrientedBox now = place(box.position, box.orientation, 0.5 * box.size),
-                         then = place(before.position, before.orientation, 0.5 * box.size);
+  const sim::OrientedBox now = placed(box, sim::state_of(box)), then = placed(box, before);
   double longest = 0.0;
-  for (int i = 0; i < 8; ++i) longest = std::max(longest, (now.corner(i) - then.corner(i)).norm());
+  for (int i = 0; i < corner_count; ++i) {
+    longest = std::max(longest, (now.corner(i) - then.corner(i)).norm());
+  }
   return longest;
+}
+
+/// m/s. No point of a box is faster than one of its corners.
+double fastest_corner(const sim::RigidBox& box) {
+  const sim::OrientedBox now = placed(box, sim::state_of(box));
+  double fastest = 0.0;
+  for (int i = 0; i < corner_count; ++i) {
+    const sim::Vec3 arm = now.corner(i) - box.position;
+    fastest = std::max(fastest, (box.velocity + box.angular_velocity.cross(arm)).norm());
+  }
+  return fastest;
 }
 
 }  // namespace
@@ -58,10 +72,8 @@ Motion motion(const sim::World& world, const Places& before, double duration,
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     const sim::RigidBox& box = world.rigid[i];
     if (box.is_kinematic) continue;
-    // No point of a box is farther from its axis of rotation than half the diagonal.
-    const double rim = box.angular_velocity.norm() * 0.5 * box.size.norm();
     const double speed =
-        std::max(box.velocity.norm() + rim, longest_way(box, before.boxes[i]) / duration);
+        std::max(fastest_corner(box), longest_way(box, before.boxes[i]) / duration);
     found.meet(speed, box.name, limits[world.soft.size() + i]);
   }
   return found;

@@ -1,7 +1,9 @@
 #include "sim/rigid/rigid_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "sim/rigid/inertia.h"
 
@@ -18,6 +20,20 @@ namespace {
 constexpr double max_turn = 0.2;
 /// Of these in one step, however fast the box turns.
 constexpr double max_turns = 1000.0;
+
+/// The axis of the top that the body is most like, and the two across it.
+std::array<int, 3> axes_of_top(const Vec3& inverse_inertia) {
+  std::array<int, 3> axes{0, 1, 2};
+  double least = std::numeric_limits<double>::infinity();
+  for (int alone = 0; alone < 3; ++alone) {
+    const int like = (alone + 1) % 3, other = (alone + 2) % 3;
+    const double difference = std::abs(inverse_inertia[like] - inverse_inertia[other]);
+    if (difference >= least) continue;
+    least = difference;
+    axes = {alone, like, other};
+  }
+  return axes;
+}
 
 /// The angular momentum stays, and the angular velocity follows the orientation.
 void rotate_freely(RigidBox& box, double step) {
@@ -43,24 +59,28 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
                                  const Vec3& angular_momentum, double duration) {
   const Vec3 inertia = body_inertia(box);
   if (is_cube(box)) return turned(orientation, duration / inertia.x() * angular_momentum);
-  const Vec3 along = orientation.conjugate() * angular_momentum;
-  const double angle = duration * along.cwiseQuotient(inertia).norm();
-  const double parts = std::clamp(std::ceil(angle / max_turn), 1.0, max_turns);
+  const Vec3 inverse = inertia.cwiseInverse();
+  const auto [alone, like, other] = axes_of_top(inverse);
   Eigen::Quaterniond result = orientation;
   const auto turn = [&](int axis, double time) {
     const Vec3 direction = result * Vec3::Unit(axis);
-    const double rate = angular_momentum.dot(direction) / inertia[axis];
+    const double rate = angular_momentum.dot(direction) * (inverse[axis] - inverse[like]);
     result = turned(result, time * rate * direction);
   };
-  const double part = duration / parts;
-  for (double done = 0.0; done < parts; ++done) {
-    turn(0, 0.5 * part);
-    turn(1, 0.5 * part);
-    turn(2, part);
-    turn(1, 0.5 * part);
-    turn(0, 0.5 * part);
+  if (inverse[like] == inverse[other]) {
+    turn(alone, duration);
+  } else {
+    const Vec3 along = orientation.conjugate() * angular_momentum;
+    const double angle = duration * along.cwiseProduct(inverse).norm();
+    const double parts = std::clamp(std::ceil(angle / max_turn), 1.0, max_turns);
+    const double part = duration / parts;
+    for (double done = 0.0; done < parts; ++done) {
+      turn(other, 0.5 * part);
+      turn(alone, part);
+      turn(other, 0.5 * part);
+    }
   }
-  return result;
+  return turned(result, duration * inverse[like] * angular_momentum);
 }
 
 void move_freely(RigidBox& box, const Vec3& gravity, double step) {

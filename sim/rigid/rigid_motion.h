@@ -15,12 +15,15 @@ Eigen::Quaterniond turned(const Eigen::Quaterniond& orientation, const Vec3& rot
 bool is_cube(const RigidBox& box);
 
 /// The orientation after `duration` s without a torque, of a box with this size and mass and an
-/// angular momentum in world axes, kg m^2/s. The kinetic energy is a sum over the body's axes,
-/// L_x^2 / (2 I_x) and so on, and under one term alone the body turns evenly about that axis, by
-/// t L_x / I_x. These turns, made one after the other and back, are a step of second order that is
+/// angular momentum in world axes, kg m^2/s. The kinetic energy is that of a symmetric top, of the
+/// two moments that are most alike, and L_j^2 (1/I_j - 1/I_i) / 2. The top turns evenly about the
+/// angular momentum and about its own axis; under the rest alone the body turns evenly about its
+/// axis j. These turns, made one after the other and back, are a step of second order that is
 /// symplectic and the same backwards: the error of the energy does not add up (Touma and Wisdom
 /// 1994, "Lie-Poisson integrators for rigid body dynamics in the solar system"), as long as the
-/// body turns by little in each: several are made of a long one. Of a cube exact.
+/// body turns by little in each: several are made of a long one. Of a top, and of a cube, exact.
+/// Turns about the three axes alone would bring a thin rod's angular momentum across it onto the
+/// axis of its least moment.
 Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& orientation,
                                  const Vec3& angular_momentum, double duration);
 
