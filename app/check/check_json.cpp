@@ -64,7 +64,8 @@ json crossings_json(const CrossingStatistics& crossings) {
   return {{"frames", crossings.frames},
           {"max_edges", crossings.edges.value},
           {"at_s", crossings.edges.time},
-          {"bodies", crossings.first_bodies}};
+          {"bodies", crossings.first_bodies},
+          {"more", crossings.more}};
 }
 
 json range_json(const ValueRange& range) {

@@ -98,9 +98,11 @@ std::string gas_text(const std::vector<GasAdvice>& gas) {
 std::string crossings_text(const std::string& name, const CrossingStatistics& crossings,
                            int frames) {
   if (crossings.frames == 0) return named_line(name, "none");
-  return named_line(name, fmt::format("in {} of {} frames, at most {:.0f} edges at {:.2f} s ({})",
+  const std::string more =
+      crossings.more > 0 ? fmt::format("; {} more with them", crossings.more) : "";
+  return named_line(name, fmt::format("in {} of {} frames, at most {:.0f} edges at {:.2f} s ({}{})",
                                       crossings.frames, frames, crossings.edges.value,
-                                      crossings.edges.time, crossings.first_bodies));
+                                      crossings.edges.time, crossings.first_bodies, more));
 }
 
 /// Less than what is written here is a rounding of the positions.
@@ -308,7 +310,7 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
   if (run.sunk.frames > 0) {
     text += named_line(
         "in the ground",
-        fmt::format("boxes in {} of {} frames, at most {:.4f} m at {:.2f} s ({})", run.sunk.frames,
+        fmt::format("bodies in {} of {} frames, at most {:.4f} m at {:.2f} s ({})", run.sunk.frames,
                     run.frames, run.sunk.depth.value, run.sunk.depth.time, run.sunk.body));
   }
   if (run.start_overlap.pairs > 0) {

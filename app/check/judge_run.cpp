@@ -40,7 +40,7 @@ RunVerdict judge_run(const scenes::Scene& scene, const RunStatistics& run) {
   if (run.sunk.frames > 0) {
     verdict.code = ExitCode::check_failed;
     verdict.words += fmt::format(
-        "{}: {} is up to {:.2g} m in the ground, at {:.2f} s, and boxes are in {} of {} frames; a "
+        "{}: {} is up to {:.2g} m in the ground, at {:.2f} s, and bodies are in {} of {} frames; a "
         "greater simulation.steps_per_second, or masses that are less different, keep them out\n",
         scene.name, run.sunk.body, run.sunk.depth.value, run.sunk.depth.time, run.sunk.frames,
         run.frames);

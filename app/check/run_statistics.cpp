@@ -109,7 +109,7 @@ class Observer {
     if (sim::has_gas_flow(start)) result_.gas_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);
-    has_been_out_.resize(start.rigid.size());
+    has_been_out_.resize(sim::at(sim::body_count(start)));
     for (const sim::SoftBody& body : start.soft) {
       const double now = volume(body);
       const int index = static_cast<int>(result_.volumes.size());
@@ -150,7 +150,7 @@ class Observer {
     }
     part_start_overlaps(world);
     look_for_crossings(world);
-    look_for_sunk_boxes(world);
+    look_for_sunk_bodies(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
       VolumeRange& range = result_.volumes[b];
       range.least = std::min(range.least, volume(world.soft[b]));
@@ -262,23 +262,28 @@ class Observer {
   }
 
   /// Those that start in the ground count once they have come out of it.
-  void look_for_sunk_boxes(const sim::World& world) {
+  void look_for_sunk_bodies(const sim::World& world) {
     if (!world.settings.ground || world.settings.contact != sim::ContactMethod::swept) return;
     const int before = result_.sunk.frames;
-    for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-      const sim::RigidBox& box = world.rigid[i];
-      if (box.is_kinematic) continue;
-      const int body = static_cast<int>(world.soft.size() + i);
+    for (int body = 0; body < sim::body_count(world); ++body) {
+      if (sim::is_kinematic(world, body)) continue;
       const double depth = -body_bounds(world, body).low.z();
-      const bool is_sunk =
-          depth > std::max(touch_depth(world, body, body), sunk_of_side * box.size.minCoeff());
-      if (!is_sunk) has_been_out_[i] = 1;
-      if (!is_sunk || has_been_out_[i] == 0) continue;
+      const bool is_sunk = depth > sunk_depth(world, body);
+      if (!is_sunk) has_been_out_[sim::at(body)] = 1;
+      if (!is_sunk || has_been_out_[sim::at(body)] == 0) continue;
       result_.sunk.frames = before + 1;
       if (depth <= result_.sunk.depth.value) continue;
       result_.sunk.depth = {depth, sim::time(world)};
-      result_.sunk.body = box.name;
+      result_.sunk.body = sim::body_name(world, body);
     }
+  }
+
+  /// m: no touch. Vertices that other bodies hold give way to them, within a step.
+  static double sunk_depth(const sim::World& world, int body) {
+    constexpr double of_boxes = 0.01, of_soft = 0.02;
+    const bool is_soft = sim::at(body) < world.soft.size();
+    const double of_extent = (is_soft ? of_soft : of_boxes) * least_extent(world, body);
+    return std::max(touch_depth(world, body, body), of_extent);
   }
 
   static void add(const sim::World& world, const std::vector<sim::CrossingPair>& pairs,
@@ -290,12 +295,11 @@ class Observer {
     if (edges <= statistics.edges.value) return;
     statistics.edges = {static_cast<double>(edges), sim::time(world)};
     statistics.first_bodies = two_bodies(world, pairs[0].first, pairs[0].second);
+    statistics.more = static_cast<int>(pairs.size()) - 1;
   }
 
-  static constexpr double sunk_of_side = 0.01;
-
   std::set<Pair> start_overlaps_;           // that did not come apart yet
-  std::vector<std::uint8_t> has_been_out_;  // per box: of the ground
+  std::vector<std::uint8_t> has_been_out_;  // per body: of the ground
   RunStatistics result_;
   std::int64_t all_steps_;
   Places before_;  // in the last frame

@@ -69,10 +69,11 @@ struct CrossingStatistics {
   int frames = 0;            // in which some did
   Peak edges;                // that passed through another surface at once
   std::string first_bodies;  // of that moment, "torus and cube 3"; empty: none
+  int more = 0;              // pairs of bodies, or bodies, of that moment beside these
 };
 
-/// Free boxes that swept contacts have let into the ground, by more than a touch and by more than a
-/// hundredth of their shortest side.
+/// Bodies that swept contacts have let into the ground, by more than a touch: boxes by more than a
+/// hundredth of their shortest side, soft bodies by more than a fiftieth of their least extent.
 struct SunkStatistics {
   int frames = 0;    // in which some were
   Peak depth;        // m

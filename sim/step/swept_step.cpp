@@ -203,7 +203,9 @@ class SweptStep {
       const double room = is_held ? -missing_distance(contact) : contact.distance - least;
       return closer - std::max(0.0, room);
     }
-    return closer + made_up_per_step * std::max(0.0, missing_distance(contact));
+    // Springs take back most of what holds up a vertex that others press into the ground.
+    const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
+    return closer + made_up * std::max(0.0, missing_distance(contact));
   }
 
   bool is_carried(const SurfacePoint& box) const {

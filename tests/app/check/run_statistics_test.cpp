@@ -77,6 +77,15 @@ TEST(RunStatistics, CallSmallBodiesAtRestByTheirSize) {
   EXPECT_FALSE(rests("0.01", "0.0006"));
 }
 
+/// A rod about its own axis, and a cube about one of its axes: by the distance of a corner from it.
+TEST(RunStatistics, GiveTheSpeedOfACorner) {
+  const RunStatistics run =
+      statistics_of(drifting("[[body]]\nkind = \"rigid\"\nsize = [0.06, 4, 0.08]\nrho_g = 0\n"
+                             "angular_velocity = [0, 100, 0]\n")
+                        .c_str());
+  EXPECT_NEAR(run.at_end.speed, 100.0 * 0.05, 1e-9);
+}
+
 /// Boxes that touch are moved apart by two millimetres each, without a velocity.
 TEST(RunStatistics, SeeBoxesMoveWithoutAVelocity) {
   const RunStatistics run = statistics_of(
