@@ -24,8 +24,8 @@ Vec3f rounded_position(std::span<const Vec3f> positions, std::span<const Vec3f> 
 float bulge_bound(const Triangle& triangle, std::span<const Vec3f> positions,
                   std::span<const Vec3f> normals);
 
-/// The share at each vertex, such that no triangle bulges by more than its `room` (m): a vertex
-/// takes the least of its triangles.
+/// The share at each vertex, such that no triangle bulges by more than its `room` (m), nor by much
+/// of its shortest edge: a vertex takes the least of its triangles.
 std::vector<float> bulge_shares(const std::vector<Triangle>& triangles,
                                 std::span<const Vec3f> positions, std::span<const Vec3f> normals,
                                 std::span<const float> room);

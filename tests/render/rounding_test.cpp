@@ -62,6 +62,23 @@ TEST(BulgeShares, KeepEveryPointWithinTheRoomOfItsTriangle) {
   EXPECT_GT(moved_most, 0.0f);
 }
 
+/// A triangle along a cone, whose normal at the rim leans outwards as that of the base has a part
+/// in it. As much room as there may be.
+TEST(BulgeShares, LeaveLongTrianglesNearlyStraight) {
+  const std::vector<Vec3f> positions = {
+      {0.0f, 0.0f, 4.0f}, {1.0f, -0.25f, 0.0f}, {1.0f, 0.25f, 0.0f}};
+  const std::vector<Vec3f> normals = {Vec3f::UnitZ(), Vec3f(1.0f, -0.25f, -0.4f).normalized(),
+                                      Vec3f(1.0f, 0.25f, -0.4f).normalized()};
+  const Triangle triangle = {0, 1, 2};
+  const std::vector<Triangle> triangles = {triangle};
+  const std::vector<float> room = {100.0f};
+  EXPECT_GT(bulge_bound(triangle, positions, normals), 0.5f);
+  const std::vector<float> share = bulge_shares(triangles, positions, normals, room);
+  const SurfacePoint middle = {triangle, {0.5f, 0.25f, 0.25f}};
+  const Vec3f flat = 0.5f * positions[0] + 0.25f * (positions[1] + positions[2]);
+  EXPECT_LT((rounded_position(positions, normals, share, middle) - flat).norm(), 0.4f * 0.5f);
+}
+
 TEST(Refine, LeavesAClosedSurfaceClosed) {
   const Mesh ring = make_ring({0, 0, 0}, 2.0f, 0.7f, {1, 0, 0}, {1, 0, 0});
   std::mt19937 random(5);
