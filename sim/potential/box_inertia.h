@@ -14,6 +14,7 @@
 
 #include "sim/potential/box_frame.h"
 #include "sim/rigid/given_motion.h"
+#include "sim/rigid/inertia.h"
 #include "sim/rigid/rigid_state.h"
 
 namespace pneuma::sim {
@@ -42,6 +43,8 @@ class BoxInertia {
   RigidState extrapolate(const RigidState& middle, double factor) const;
 
   double per_length() const { return scale_ * box_.mass; }  // N/m
+  /// N m per rad about each of its axes, of turns from where it would be without forces.
+  Vec3 turning_inertia() const { return scale_ * body_inertia(box_); }
   /// m^2: the mean of the squares of r from the centre along an axis, which compares turns with
   /// ways.
   double squared_radius() const { return box_.size.squaredNorm() / 36.0; }

@@ -190,13 +190,16 @@ void WorldEnergy::add_boxes(const WorldPoint& point, WorldMatrix& matrix) const 
     const BoxInertia& inertia = boxes_[i].energy;
     const BoxFrame frame = frame_of(point, i);
     Mat6 own = inertia.hessian(point.boxes[i]);
-    const double min_turning =
-        min_turning_fraction * inertia.per_length() * inertia.squared_radius();
+    // Measured by the roots of the moments of inertia, so that no axis is as stiff as a longer one.
+    const Mat3 roots = inertia.turning_inertia().cwiseSqrt().asDiagonal();
+    const Mat3 axes = point.boxes[i].orientation * roots;
+    const Mat3 measures = point.boxes[i].orientation * Mat3(roots.inverse());
     const Mat3 turning = own.bottomRightCorner<3, 3>() + turning_hessian(frame, slopes_);
-    const Eigen::SelfAdjointEigenSolver<Mat3> parts(turning);
-    own.bottomRightCorner<3, 3>() = parts.eigenvectors() *
-                                    parts.eigenvalues().cwiseMax(min_turning).asDiagonal() *
-                                    parts.eigenvectors().transpose();
+    const Eigen::SelfAdjointEigenSolver<Mat3> parts(measures.transpose() * turning * measures);
+    const Mat3 directions = axes * parts.eigenvectors();
+    own.bottomRightCorner<3, 3>() =
+        directions * parts.eigenvalues().cwiseMax(min_turning_fraction).asDiagonal() *
+        directions.transpose();
     matrix.add_box(frame, own, inertia.squared_radius());
   }
 }

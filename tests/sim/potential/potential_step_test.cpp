@@ -68,6 +68,19 @@ TEST(PotentialStep, BoxesThatBounceKeepMomentum) {
   EXPECT_LT((about_boxes(after) - about_boxes(before)).norm(), 1e-3 * 5.0);  // order of the step
 }
 
+/// Its moment about its own axis is a six thousandth of the others.
+TEST(PotentialStep, AThinRodGoesOnSpinning) {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::sdirk2}) {
+    World world = potential_world(integrator, 60);
+    world.settings.gravity.setZero();
+    world.rigid = {make_rigid({0.05, 4.0, 0.05}, {0.0, 0.0, 50.0}, 2.0)};
+    world.rigid[0].rho_g = 0.0;
+    world.rigid[0].angular_velocity = {0.0, 10.0, 0.0};
+    ASSERT_FALSE(run(world, 1.0));
+    EXPECT_NEAR(world.rigid[0].angular_velocity.y(), 10.0, 1e-4);  // the minimiser's tolerance
+  }
+}
+
 // Whatever is between bodies pushes both alike.
 TEST(PotentialStep, ContactsKeepMomentum) {
   for (const Integrator integrator : {Integrator::rk4, Integrator::implicit_euler}) {
