@@ -1,7 +1,6 @@
 #include "sim/rigid/rigid_motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,8 +21,14 @@ constexpr double max_turn = 0.2;
 constexpr double max_turns = 1000.0;
 
 /// The axis of the top that the body is most like, and the two across it.
-std::array<int, 3> axes_of_top(const Vec3& inverse_inertia) {
-  std::array<int, 3> axes{0, 1, 2};
+struct TopAxes {
+  int alone = 0;
+  int like = 1;
+  int other = 2;
+};
+
+TopAxes axes_of_top(const Vec3& inverse_inertia) {
+  TopAxes axes;
   double least = std::numeric_limits<double>::infinity();
   for (int alone = 0; alone < 3; ++alone) {
     const int like = (alone + 1) % 3, other = (alone + 2) % 3;
@@ -60,27 +65,27 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
   const Vec3 inertia = body_inertia(box);
   if (is_cube(box)) return turned(orientation, duration / inertia.x() * angular_momentum);
   const Vec3 inverse = inertia.cwiseInverse();
-  const auto [alone, like, other] = axes_of_top(inverse);
+  const TopAxes top = axes_of_top(inverse);
   Eigen::Quaterniond result = orientation;
   const auto turn = [&](int axis, double time) {
     const Vec3 direction = result * Vec3::Unit(axis);
-    const double rate = angular_momentum.dot(direction) * (inverse[axis] - inverse[like]);
+    const double rate = angular_momentum.dot(direction) * (inverse[axis] - inverse[top.like]);
     result = turned(result, time * rate * direction);
   };
-  if (inverse[like] == inverse[other]) {
-    turn(alone, duration);
+  if (inverse[top.like] == inverse[top.other]) {
+    turn(top.alone, duration);
   } else {
     const Vec3 along = orientation.conjugate() * angular_momentum;
     const double angle = duration * along.cwiseProduct(inverse).norm();
     const double parts = std::clamp(std::ceil(angle / max_turn), 1.0, max_turns);
     const double part = duration / parts;
     for (double done = 0.0; done < parts; ++done) {
-      turn(other, 0.5 * part);
-      turn(alone, part);
-      turn(other, 0.5 * part);
+      turn(top.other, 0.5 * part);
+      turn(top.alone, part);
+      turn(top.other, 0.5 * part);
     }
   }
-  return turned(result, duration * inverse[like] * angular_momentum);
+  return turned(result, duration * inverse[top.like] * angular_momentum);
 }
 
 void move_freely(RigidBox& box, const Vec3& gravity, double step) {
