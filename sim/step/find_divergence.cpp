@@ -36,6 +36,8 @@ constexpr double slow_falls = 10.0;
 /// Of the shortest side of a box that something moved presses on, and no less than the distance
 /// that it keeps: it gives way before that if it can.
 constexpr double squeezed_depth = 0.02;
+/// Cosine of the angle between directions that are against each other.
+constexpr double against = -0.5;
 
 Divergence failure(const World& world, Stage stage, const SoftBody& body, int vertex,
                    const std::string& what) {
@@ -284,7 +286,7 @@ class SqueezedBoxes {
       const RigidBox& box = world_.rigid[at(bodies_.box(body))];
       const double depth = -contact.distance;
       const double least = std::max(squeezed_depth * box.size.minCoeff(), contact.wanted);
-      if (depth <= least || !is_pressed(body)) continue;
+      if (depth <= least || !is_pressed(body) || !is_held(body, contact)) continue;
       return Divergence{Stage::find_contacts, world_.steps + 1, box.name,
                         "it has no room left: it is pressed " + base::text(depth) + " m into " +
                             name(other) + ". Let what is moved leave more room"};
@@ -302,6 +304,18 @@ class SqueezedBoxes {
       return (contact.first.body == box && is_moved(contact.second.body)) ||
              (contact.second.body == box && is_moved(contact.first.body));
     });
+  }
+  /// On the other side. What only starts in another gets out of it.
+  bool is_held(int box, const SweptContact& pressed) const {
+    const Vec3 pushed = direction(pressed, box);
+    return std::ranges::any_of(contacts_, [&](const SweptContact& contact) {
+      const bool is_of_box = contact.first.body == box || contact.second.body == box;
+      return is_of_box && contact.is_near && direction(contact, box).dot(pushed) < against;
+    });
+  }
+  /// In which the contact pushes the box.
+  static Vec3 direction(const SweptContact& contact, int box) {
+    return contact.first.body == box ? contact.normal : Vec3(-contact.normal);
   }
   std::string name(int body) const {
     return body == swept_ground ? "the ground" : world_.rigid[at(bodies_.box(body))].name;

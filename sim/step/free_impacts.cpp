@@ -17,6 +17,10 @@ constexpr double allowed_turn = 0.5;
 constexpr double least_restitution = 0.5;
 /// m/s: slower impacts in a heap that comes to rest are not worth parts of a step.
 constexpr double min_approach = 0.1;
+/// Of a heap of more boxes that bounce at once each step would be halved, for little.
+constexpr int most_boxes = 12;
+/// Of a step: impacts are told apart down to such parts.
+constexpr double least_part = 1.0 / 32.0;
 
 class FreeImpacts {
  public:
@@ -182,7 +186,9 @@ class FreeImpacts {
 
 }  // namespace
 
-bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search) {
+bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search,
+                  double fraction) {
+  if (fraction <= least_part) return false;
   const auto bounces = [&](const SweptContact& contact) {
     return search.is_rigid(contact) && search.material(contact).restitution > least_restitution;
   };
@@ -200,14 +206,17 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& se
     }
   };
   bool twice = false;
+  int boxes = 0;
   for (const SweptContact& contact : memory.contacts) {
     if (!hits(contact)) continue;
     each_box(contact, [&](Partner& partner, int other) {
+      if (partner.contacts == 0) ++boxes;
       twice = twice || (partner.contacts > 0 && partner.body != other);
       partner.body = other;
       ++partner.contacts;
     });
   }
+  if (boxes > most_boxes) return false;
   for (const SweptContact& contact : memory.contacts) {
     if (!contact.is_new || !bounces(contact)) continue;
     each_box(contact, [&](const Partner& partner, int other) {

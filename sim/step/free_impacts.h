@@ -21,7 +21,9 @@ void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const M
 
 /// Whether a box that moves freely is hit by two others, one after the other in the step, or by one
 /// as it comes near another, and bounces off by more than half of its speed: by one impact of all
-/// it would do otherwise. Of the contacts of the start or of those of the end.
-bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search);
+/// it would do otherwise. Of the contacts of the start or of those of the end; not of heaps,
+/// nor in a `fraction` of a step that is too short for it.
+bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& search,
+                  double fraction);
 
 }  // namespace pneuma::sim

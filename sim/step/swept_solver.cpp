@@ -17,9 +17,13 @@ constexpr double last_penalty = 1e9;
 constexpr double penalty_growth = 30.0;
 
 /// What has no mass, and what leaves no room, is not kept apart by any impulse. An impulse may be
-/// so many times what would give all boxes of the patch the speed that is missing, and no more than
-/// the lesser where they have not been solved for.
-constexpr double most_of_enough = 100.0, most_of_unsolved = 3.0;
+/// so many times what would give all that the patch moves the speed that is missing: levers and
+/// wedges ask for some hundred times as much.
+constexpr double most_of_enough = 1000.0;
+/// Impulses of more than so many times are iterated on, so many times more, where they have not
+/// been solved for: without room they grow.
+constexpr double few_of_enough = 3.0, most_of_unsolved = 30.0;
+constexpr int more_iterations = 500;
 /// How often what pushes with more is let go.
 constexpr int max_let_go = 4;
 
@@ -161,26 +165,37 @@ void SweptSolver::solve_patch(std::size_t patch, double tolerance) {
 void SweptSolver::solve_pushed(std::span<SweptImpulse* const> impulses,
                                std::span<const int> pushers, double tolerance) {
   const double enough = enough_for_all(impulses);
+  if (enough == 0.0) {
+    solve_with_boxes(impulses, tolerance);
+    return;
+  }
   for (std::size_t i = 0; i < impulses.size(); ++i) {
     if (pushers[i] >= 0) impulses[i]->limit(most_of_enough * enough);
   }
-  for (int i = 0; i <= max_let_go; ++i) {
-    const bool is_solved = solve_with_boxes(impulses, tolerance) <= tolerance;
-    const double most = (is_solved ? most_of_enough : most_of_unsolved) * enough;
-    if (!let_go(impulses, pushers, most)) return;
-    has_let_go_ = true;
+  for (int i = 0;; ++i) {
+    double left = solve_with_boxes(impulses, tolerance);
+    if (left > tolerance && any_pushes(impulses, pushers, few_of_enough * enough)) {
+      left = iterations_.correct(tolerance_of_boxes * tolerance, more_iterations);
+    }
+    const double most = (left > tolerance ? most_of_unsolved : most_of_enough) * enough;
+    if (i == max_let_go || !any_pushes(impulses, pushers, most)) return;
+    let_go(impulses, pushers, most);
     for (SweptImpulse* impulse : impulses) impulse->replace_given(Vec4d{});
   }
 }
 
-/// N s, that would give all boxes the greatest speed that is missing.
+/// N s, that would give all boxes and vertices the greatest speed that is missing.
 double SweptSolver::enough_for_all(std::span<SweptImpulse* const> impulses) {
   double masses = 0.0, missing = 0.0;
   boxes_.clear();
   for (const SweptImpulse* impulse : impulses) {
     missing = std::max(missing, impulse->parting());
-    for (const BoxChange* box : {impulse->first().box(), impulse->second().box()}) {
-      if (box) boxes_.push_back(box);
+    for (const SweptSide* side : {&impulse->first(), &impulse->second()}) {
+      if (side->box()) {
+        boxes_.push_back(side->box());
+      } else if (side->moves()) {
+        masses += side->vertex_mass() * static_cast<double>(side->vertices().size());
+      }
     }
   }
   std::ranges::sort(boxes_);
@@ -189,27 +204,44 @@ double SweptSolver::enough_for_all(std::span<SweptImpulse* const> impulses) {
   return masses * missing;
 }
 
-/// Of each two bodies of which one is moved and pushes with `most` (N s) or more, all contacts.
-/// Returns whether there were any.
-bool SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
-                         double most) {
-  bool any = false;
+/// N s, of all contacts of the same two bodies.
+double SweptSolver::push(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                         std::size_t one) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < impulses.size(); ++i) {
-    if (pushers[i] < 0 || impulses[i]->given().isZero(0.0)) continue;
-    const auto is_same = [&](std::size_t other) {
-      return pushers[other] == pushers[i] && have_same_bodies(*impulses[other], *impulses[i]);
-    };
-    double sum = 0.0;
+    const bool is_same =
+        pushers[i] == pushers[one] && have_same_bodies(*impulses[i], *impulses[one]);
+    if (is_same) sum += impulses[i]->given().dot(impulses[i]->normal());
+  }
+  return sum;
+}
+
+bool SweptSolver::any_pushes(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                             double most) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    if (pushers[i] >= 0) sum += impulses[i]->given().dot(impulses[i]->normal());
+  }
+  if (sum < most) return false;
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    const bool pushes = pushers[i] >= 0 && !impulses[i]->given().isZero(0.0);
+    if (pushes && push(impulses, pushers, i) >= most) return true;
+  }
+  return false;
+}
+
+/// Of each two bodies of which one is moved and pushes with `most` (N s) or more, all contacts.
+void SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                         double most) {
+  has_let_go_ = true;
+  for (std::size_t i = 0; i < impulses.size(); ++i) {
+    if (pushers[i] < 0 || push(impulses, pushers, i) < most) continue;
     for (std::size_t other = 0; other < impulses.size(); ++other) {
-      if (is_same(other)) sum += impulses[other]->given().dot(impulses[other]->normal());
-    }
-    if (sum < most) continue;
-    any = true;
-    for (std::size_t other = 0; other < impulses.size(); ++other) {
-      if (is_same(other)) impulses[other]->only_give_back();
+      const bool is_same =
+          pushers[other] == pushers[i] && have_same_bodies(*impulses[other], *impulses[i]);
+      if (is_same) impulses[other]->only_give_back();
     }
   }
-  return any;
 }
 
 /// Returns by how much the last correction changed a velocity.

@@ -34,7 +34,8 @@ class SweptSolver {
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
   /// if that can help. Patches without a contact from `first_new` on stay as they are: what springs
   /// bring to them from other patches of their bodies, when the step is done once more, is left.
-  /// Returns false if there was no room for boxes beside what nothing moves, which some went into.
+  /// Returns false if something was let go that boxes are pressed against: what is moved or, where
+  /// they are shifted, what is soft.
   bool solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance, std::size_t first_new = 0);
   /// The same for one of the islands that the last call has found.
@@ -65,7 +66,7 @@ class SweptSolver {
     std::size_t begin = 0;   // of its impulses
     bool is_new = false;     // it has a contact that was not yet solved for
     bool has_boxes = false;  // one on another, or on the ground
-    bool is_pushed = false;  // by what is moved
+    bool is_pushed = false;  // it has a contact with what does not give way, but is no ground
   };
 
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
@@ -80,8 +81,11 @@ class SweptSolver {
   void solve_pushed(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
                     double tolerance);
   double enough_for_all(std::span<SweptImpulse* const> impulses);
-  static bool let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
-                     double most);
+  static double push(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                     std::size_t one);
+  static bool any_pushes(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                         double most);
+  void let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers, double most);
   double solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
 
   const SweptBodies& bodies_;

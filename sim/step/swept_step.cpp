@@ -133,7 +133,7 @@ class SweptStep {
       if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
-        if (can_be_halved() && is_hit_twice(world_, m_, search_)) return hit_twice();
+        if (is_hit_twice(world_, m_, search_, fraction_)) return hit_twice();
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
         return divergence;
@@ -233,7 +233,7 @@ class SweptStep {
       m_.work += lift_sunk_vertices(world_, w_);
     }
     touch_at_end();
-    if (can_be_halved() && is_hit_twice(world_, m_, search_)) return hit_twice();
+    if (is_hit_twice(world_, m_, search_, fraction_)) return hit_twice();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
     follow_impacts(m_, tolerance());

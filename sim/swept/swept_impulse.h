@@ -97,9 +97,10 @@ class SweptImpulse {
   void count_from(double normal, const Vec3& friction);
   /// Gives an impulse (N s) at once: what the same contact needed in the last step.
   void warm_start(const Vec3& impulse);
-  /// Gives no more than so much (N s) along the normal, but for what it started from.
+  /// From now on gives no more than so much (N s) along the normal, besides what it started from;
+  /// nothing, if it only gives back.
   void limit(double normal) {
-    max_normal_ = std::min(max_normal_, std::max(normal, start_normal_));
+    if (max_normal_ > start_normal_) max_normal_ = start_normal_ + normal;
   }
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
