@@ -65,7 +65,9 @@ class SweptStep {
       w_.contacts.resize(contacts);
     };
     fraction_ = std::ldexp(1.0, -halvings);
+    was_hit_twice_ = false;
     auto failure = try_step();
+    const bool would_do = was_hit_twice_;
     if (!failure) {
       m_.parts_done.push_back(fraction_);
       if (w_.options.after_part) w_.options.after_part(world_);
@@ -80,7 +82,9 @@ class SweptStep {
     if (!half) half = advance(halvings + 1);
     world_.settings.steps_per_second /= 2;
     if (half) take_all_back();
-    return half;
+    if (!half || !would_do) return half;
+    tells_hits_apart_ = false;  // as it cannot
+    return advance(halvings);
   }
 
   /// Of the whole step, once it is done.
@@ -133,7 +137,7 @@ class SweptStep {
       if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == max_rounds;
       if (!collides || (was_last && !search_.blocked())) {
-        if (is_hit_twice(world_, m_, search_, fraction_)) return hit_twice();
+        if (hits_twice()) return hit_twice();
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
         return divergence;
@@ -233,7 +237,7 @@ class SweptStep {
       m_.work += lift_sunk_vertices(world_, w_);
     }
     touch_at_end();
-    if (is_hit_twice(world_, m_, search_, fraction_)) return hit_twice();
+    if (hits_twice()) return hit_twice();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
     follow_impacts(m_, tolerance());
@@ -413,7 +417,13 @@ class SweptStep {
   }
 
   /// Parts of the step tell its impacts apart.
-  Divergence hit_twice() const { return {Stage::resolve_contacts, world_.steps + 1, {}, {}}; }
+  Divergence hit_twice() {
+    was_hit_twice_ = true;
+    return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
+  }
+  bool hits_twice() const {
+    return tells_hits_apart_ && is_hit_twice(world_, m_, search_, fraction_);
+  }
 
   Divergence blocked() const {
     Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
@@ -434,27 +444,9 @@ class SweptStep {
   StageRunner run_;
   double fraction_ = 1.0;  // of a whole step
   bool was_halved_ = false;
+  bool tells_hits_apart_ = true;  // by parts of the step
+  bool was_hit_twice_ = false;    // in the last try
 };
-
-/// Of a world whose bodies were others, nothing is known.
-void forget_other_bodies(World& world) {
-  const auto is_of = [](std::size_t bodies, const auto& known) {
-    return known.empty() || known.size() == bodies;
-  };
-  const auto boxes = static_cast<int>(world.rigid.size());
-  const bool knows_its_boxes =
-      std::ranges::all_of(world.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
-        return std::max(impulse.first, impulse.second) < boxes;
-      });
-  if (knows_its_boxes && is_of(at(body_count(world)), world.rest) &&
-      is_of(world.soft.size(), world.lost_energy)) {
-    return;
-  }
-  world.rest.clear();
-  world.lost_energy.clear();
-  world.friction_slips.clear();
-  world.warm_start_impulses.clear();
-}
 
 /// Returns whether there were any.
 bool wake_what_was_touched(World& world, SweptMemory& memory) {

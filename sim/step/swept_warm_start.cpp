@@ -175,4 +175,23 @@ void SweptWarmStart::remember_held_boxes(const SweptSearch& search, double toler
   std::swap(slips, world_.friction_slips);
 }
 
+void forget_other_bodies(World& world) {
+  const auto is_of = [](std::size_t bodies, const auto& known) {
+    return known.empty() || known.size() == bodies;
+  };
+  const auto boxes = static_cast<int>(world.rigid.size());
+  const bool knows_its_boxes =
+      std::ranges::all_of(world.warm_start_impulses, [&](const WarmStartImpulse& impulse) {
+        return std::max(impulse.first, impulse.second) < boxes;
+      });
+  if (knows_its_boxes && is_of(at(body_count(world)), world.rest) &&
+      is_of(world.soft.size(), world.lost_energy)) {
+    return;
+  }
+  world.rest.clear();
+  world.lost_energy.clear();
+  world.friction_slips.clear();
+  world.warm_start_impulses.clear();
+}
+
 }  // namespace pneuma::sim

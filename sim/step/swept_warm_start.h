@@ -54,4 +54,7 @@ class SweptWarmStart {
   std::size_t first_of_pair_ = 0;  // contact of the pair that was last looked for
 };
 
+/// Of a world whose bodies were others in the step before, nothing is known.
+void forget_other_bodies(World& world);
+
 }  // namespace pneuma::sim
