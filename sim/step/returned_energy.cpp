@@ -323,6 +323,7 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   const Holder holder = due.holder;
   if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
+  const double whole = motion.energy();  // also of what all have in common
   if (holder == Holder::none) {
     motion.leave_out_common();
   } else if (motion.has_soft_bodies()) {
@@ -331,8 +332,9 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   const double taken = motion.take(due.of(motion.energy())), left = due.must - taken;
   if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
   const double of_solution = 0.5 * motion.mass() * tolerance * tolerance;
-  const double all = taken + motion.energy() + spring_energy_of_island(world, memory, island);
-  return {.taken = taken, .left = left > max_added_work * all + of_solution ? left : 0.0};
+  const double all = whole + spring_energy_of_island(world, memory, island);
+  const double allowed = max_added_work * all + of_solution;
+  return {.taken = taken, .left = left > allowed ? left : 0.0};
 }
 
 }  // namespace
