@@ -1,6 +1,7 @@
 #include "app/check/frame_motion.h"
 
 #include <algorithm>
+#include <array>
 
 #include "sim/collision/oriented_box.h"
 #include "sim/mesh/measure.h"
@@ -10,29 +11,18 @@
 namespace pneuma::app {
 namespace {
 
-constexpr int corner_count = 8;
-
-sim::OrientedBox placed(const sim::RigidBox& box, const sim::RigidState& state) {
-  return {state.position, state.orientation.toRotationMatrix(), 0.5 * box.size};
+std::array<sim::Vec3, 8> corners(const sim::RigidBox& box, const sim::RigidState& state) {
+  return sim::corners({state.position, state.orientation.toRotationMatrix(), 0.5 * box.size});
 }
 
-/// m, of a corner.
-double longest_way(const sim::RigidBox& box, const sim::RigidState& before) {
-  const sim::OrientedBox now = placed(box, sim::state_of(box)), then = placed(box, before);
-  double longest = 0.0;
-  for (int i = 0; i < corner_count; ++i) {
-    longest = std::max(longest, (now.corner(i) - then.corner(i)).norm());
-  }
-  return longest;
-}
-
-/// m/s. No point of a box is faster than one of its corners.
-double fastest_corner(const sim::RigidBox& box) {
-  const sim::OrientedBox now = placed(box, sim::state_of(box));
+/// m/s, over the `duration` (s) since it was there: of a corner, which no point is faster than; the
+/// greater of its way and of its velocity now.
+double fastest_corner(const sim::RigidBox& box, const sim::RigidState& before, double duration) {
+  const auto now = corners(box, sim::state_of(box)), then = corners(box, before);
   double fastest = 0.0;
-  for (int i = 0; i < corner_count; ++i) {
-    const sim::Vec3 arm = now.corner(i) - box.position;
-    fastest = std::max(fastest, (box.velocity + box.angular_velocity.cross(arm)).norm());
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const sim::Vec3 velocity = box.velocity + box.angular_velocity.cross(now[i] - box.position);
+    fastest = std::max({fastest, velocity.norm(), (now[i] - then[i]).norm() / duration});
   }
   return fastest;
 }
@@ -72,8 +62,7 @@ Motion motion(const sim::World& world, const Places& before, double duration,
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
     const sim::RigidBox& box = world.rigid[i];
     if (box.is_kinematic) continue;
-    const double speed =
-        std::max(fastest_corner(box), longest_way(box, before.boxes[i]) / duration);
+    const double speed = fastest_corner(box, before.boxes[i], duration);
     found.meet(speed, box.name, limits[world.soft.size() + i]);
   }
   return found;

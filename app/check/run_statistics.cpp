@@ -268,7 +268,7 @@ class Observer {
     for (int body = 0; body < sim::body_count(world); ++body) {
       if (sim::is_kinematic(world, body)) continue;
       const double depth = -body_bounds(world, body).low.z();
-      const bool is_sunk = depth > sunk_depth(world, body);
+      const bool is_sunk = depth > 0.0 && depth > sunk_depth(world, body);
       if (!is_sunk) has_been_out_[sim::at(body)] = 1;
       if (!is_sunk || has_been_out_[sim::at(body)] == 0) continue;
       result_.sunk.frames = before + 1;

@@ -30,9 +30,12 @@ constexpr int max_let_go = 4;
 /// In place of a node: of contacts with what sleeps, which will be woken and the step done again.
 constexpr int nothing_moves = -1;
 
-/// Of two bodies of which one is moved.
-bool have_same_bodies(const SweptImpulse& one, const SweptImpulse& other) {
-  return one.first().box() == other.first().box() && one.second().box() == other.second().box();
+/// Of two impulses with what pushes in them, or -1.
+bool have_same_bodies(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
+                      std::size_t one, std::size_t other) {
+  const SweptImpulse &a = *impulses[one], &b = *impulses[other];
+  return pushers[one] == pushers[other] && a.first().box() == b.first().box() &&
+         a.second().box() == b.second().box();
 }
 
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
@@ -122,7 +125,7 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-/// The side that is moved, or held by what is soft; or -1.
+/// The body on the side that no impulse moves, if it may push; or -1.
 int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse) const {
   const auto pushes = [&](int body, const SweptSide& side) {
     return body != swept_ground && !side.moves() && bodies_.pushes(body);
@@ -209,9 +212,8 @@ double SweptSolver::push(std::span<SweptImpulse* const> impulses, std::span<cons
                          std::size_t one) {
   double sum = 0.0;
   for (std::size_t i = 0; i < impulses.size(); ++i) {
-    const bool is_same =
-        pushers[i] == pushers[one] && have_same_bodies(*impulses[i], *impulses[one]);
-    if (is_same) sum += impulses[i]->given().dot(impulses[i]->normal());
+    if (have_same_bodies(impulses, pushers, one, i))
+      sum += impulses[i]->given().dot(impulses[i]->normal());
   }
   return sum;
 }
@@ -237,9 +239,7 @@ void SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<cons
   for (std::size_t i = 0; i < impulses.size(); ++i) {
     if (pushers[i] < 0 || push(impulses, pushers, i) < most) continue;
     for (std::size_t other = 0; other < impulses.size(); ++other) {
-      const bool is_same =
-          pushers[other] == pushers[i] && have_same_bodies(*impulses[other], *impulses[i]);
-      if (is_same) impulses[other]->only_give_back();
+      if (have_same_bodies(impulses, pushers, i, other)) impulses[other]->only_give_back();
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"
 #include "sim/step/stepper.h"
+#include "tests/support/worlds.h"
 
 namespace pneuma::app {
 namespace {
@@ -109,11 +110,8 @@ motion.path = [[0, 0, 0, 0], [0.2, 0, 0, -0.03], [1, 0, 0, -0.2]]
 )",
                     length + 1.3, 0.5 * (length - 1.3), length - 0.6, length - 0.5);
     sim::World world = build_world(scenes::parse_scene(text, "lever.toml"));
-    sim::Stepper stepper(world);
-    while (sim::time(world) < 1.0) {
-      const auto divergence = stepper.step(world);
-      ASSERT_FALSE(divergence) << divergence->what;
-    }
+    const auto divergence = sim::run(world, 1.0);
+    ASSERT_FALSE(divergence) << divergence->what;
     const auto load = std::ranges::find(world.rigid, std::string("load"), &sim::RigidBox::name);
     EXPECT_GT(load->position.z(), 1.905 + 0.1 * length);
   }
@@ -143,11 +141,8 @@ position = [0, 0, 4.7]
                                          k);
     sim::World world = build_world(scenes::parse_scene(text, "ball_on_boxes.toml"));
     const std::vector<sim::RigidBox> start = world.rigid;
-    sim::Stepper stepper(world);
-    while (sim::time(world) < 1.0) {
-      const auto divergence = stepper.step(world);
-      ASSERT_FALSE(divergence) << divergence->what;
-    }
+    const auto divergence = sim::run(world, 1.0);
+    ASSERT_FALSE(divergence) << divergence->what;
     for (std::size_t i = 0; i < start.size(); ++i) {
       const double distance = (world.rigid[i].position - start[i].position).norm();
       EXPECT_LT(distance, 0.006) << world.rigid[i].name << ", k = " << k;
