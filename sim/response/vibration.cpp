@@ -53,12 +53,19 @@ double energy_of_vibration(const SoftBody& body, const RigidMotion& rigid) {
   return 0.5 * body.material.vertex_mass * sum;
 }
 
-void slow_vibration(SoftBody& body, const RigidMotion& rigid, double factor) {
+/// Returns what was taken, J.
+double slow_vibration(SoftBody& body, const RigidMotion& rigid, double factor, bool on_ground) {
   const VertexReader x(body.positions);
+  double taken = 0.0;  // for masses of 2 kg
   for (int i = 0; i < body.positions.size(); ++i) {
+    const Vec3 before = body.velocities[i];
+    if (on_ground && before.isZero(0.0)) continue;
     const Vec3 of_rigid = to_vec3(rigid.at_point(x[i]));
-    body.velocities[i] = of_rigid + factor * (body.velocities[i] - of_rigid);
+    const Vec3 after = of_rigid + factor * (before - of_rigid);
+    taken += before.squaredNorm() - after.squaredNorm();
+    body.velocities[i] = after;
   }
+  return 0.5 * body.material.vertex_mass * taken;
 }
 
 }  // namespace
@@ -67,8 +74,8 @@ double energy_of_vibration(const SoftBody& body) {
   return energy_of_vibration(body, RigidMotion(body));
 }
 
-void slow_vibration(SoftBody& body, double factor) {
-  slow_vibration(body, RigidMotion(body), factor);
+double slow_vibration(SoftBody& body, double factor, bool on_ground) {
+  return slow_vibration(body, RigidMotion(body), factor, on_ground);
 }
 
 double take_from_vibration(SoftBody& body, double energy) {
@@ -77,8 +84,7 @@ double take_from_vibration(SoftBody& body, double energy) {
   const double there_is = energy_of_vibration(body, rigid);
   const double taken = std::min(energy, there_is);
   if (!(taken > 0.0)) return 0.0;
-  slow_vibration(body, rigid, std::sqrt(1.0 - taken / there_is));
-  return taken;
+  return slow_vibration(body, rigid, std::sqrt(1.0 - taken / there_is), false);
 }
 
 }  // namespace pneuma::sim

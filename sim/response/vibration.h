@@ -9,8 +9,9 @@ namespace pneuma::sim {
 /// J.
 double energy_of_vibration(const SoftBody& body);
 
-/// Multiplies its velocities by a factor.
-void slow_vibration(SoftBody& body, double factor);
+/// Multiplies its velocities by a factor. Of a body `on_ground` that bears it the ground keeps what
+/// stands, with a velocity of zero, where it is, and takes the momentum. Returns what was taken, J.
+double slow_vibration(SoftBody& body, double factor, bool on_ground);
 
 /// Takes so much energy (J) from it, or all that there is; nothing if `energy` is not above 0.
 /// Returns what was taken.

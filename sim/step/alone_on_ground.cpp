@@ -41,10 +41,21 @@ class AloneOnGround {
       const int v = contact.first.feature.index;
       const Vec3 wanted = body.positions[v];
       body.positions[v] = m_.bodies.within_allowance(soft, v, contact.point, wanted);
-      const double given = contact.impulse.squaredNorm() / body.material.vertex_mass;
-      on_ground.work += contact.impulse.dot(body.velocities[v]) - 0.5 * given;
+      on_ground.work += work(soft, start, contact);
       on_ground.is_held = true;
     }
+  }
+
+  /// J. The mean force of the step (N), which has sped a vertex up, has moved it too: to put it
+  /// back takes what the ground took to stop it, so that none is left at rest.
+  double work(int soft, const SoftState& start, const Contact& contact) const {
+    const SoftBody& body = world_.soft[at(soft)];
+    const double mass = body.material.vertex_mass;
+    const int v = contact.first.feature.index;
+    const Vec3 after = body.velocities[v], before = after - contact.impulse / mass;
+    const Vec3 force = mass / time_step(world_.settings) * (before - Vec3(start.velocities[v]));
+    const Vec3 put_back = Vec3(body.positions[v]) - contact.point;
+    return 0.5 * contact.impulse.dot(before + after) - force.dot(put_back);
   }
 
   std::span<Contact> find_alone(int soft) {

@@ -194,16 +194,19 @@ void for_each_soft_body(const World& world, SweptMemory& memory, int island, con
   }
 }
 
-/// Returns what was taken, J: no more than there is.
+/// Returns what was taken, J.
 double slow_vibrations(World& world, SweptMemory& memory, int island, const Due& due) {
   double there_is = 0.0;
   for_each_soft_body(world, memory, island,
                      [&](std::size_t i) { there_is += energy_of_vibration(world.soft[i]); });
-  const double taken = due.of_vibration(there_is);
-  if (!(taken > 0.0)) return 0.0;
-  const double factor = std::sqrt(1.0 - taken / there_is);
-  for_each_soft_body(world, memory, island,
-                     [&](std::size_t i) { slow_vibration(world.soft[i], factor); });
+  const double asked_for = due.of_vibration(there_is);
+  if (!(asked_for > 0.0)) return 0.0;
+  const double factor = std::sqrt(1.0 - asked_for / there_is);
+  double taken = 0.0;
+  for_each_soft_body(world, memory, island, [&](std::size_t i) {
+    const bool on_ground = due.holder == Holder::at_rest && memory.on_ground[i].is_held;
+    taken += slow_vibration(world.soft[i], factor, on_ground);
+  });
   return taken;
 }
 

@@ -76,7 +76,7 @@ struct MetFreely {
 struct OnGround {
   bool meets_alone = false;  // it has such vertices
   bool is_held = false;      // one of them has met the ground
-  double work = 0.0;         // J, of what the ground changed their velocities by
+  double work = 0.0;         // J, of the ground on these
 };
 
 /// A vertex that has a part in a candidate and ends below the ground.
