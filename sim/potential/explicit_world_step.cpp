@@ -227,6 +227,7 @@ ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState
   for (const ContactSurface& surface : surfaces_.all()) reach = std::max(reach, surface.reach);
   const double speed = std::sqrt(start.velocities.rows().colwise().squaredNorm().maxCoeff());
   acceleration_.set_margin(std::max(reaches_around * reach, ways_around * h * speed));
+  acceleration_.take_gas(world);
   ExplicitWorldReport report;
   start_.positions.rows() = start.positions.rows();
   start_.velocities.rows() = start.velocities.rows();

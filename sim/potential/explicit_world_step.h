@@ -44,6 +44,10 @@ class WorldAcceleration {
     return boxes_.empty() ? positions : corners_;
   }
 
+  /// The gas that its bodies hold now.
+  void take_gas(const World& world) {
+    for (Body& body : bodies_) body.equation.set_gas(world.soft[at(body.soft)].material);
+  }
   /// m, around every vertex, from the next search on.
   void set_margin(double margin) { margin_ = margin; }
   /// All pairs that may meet on straight ways of all vertices, those of boxes included.

@@ -63,6 +63,9 @@ class SoftAcceleration {
   SoftAcceleration(const SoftMesh& mesh, const SoftMaterial& material, const Vec3& gravity,
                    AccelerationScratch& scratch);
 
+  /// Of gas that comes and goes between steps.
+  void set_gas(const SoftMaterial& material) { gas_ = gas_law(material); }
+
   /// The scratch holds what the result reads.
   Accelerations evaluate(const VertexArray& positions, const VertexArray& velocities) const;
 
