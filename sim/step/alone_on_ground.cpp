@@ -191,4 +191,22 @@ double lift_sunk_vertices(World& world, StepWorkspace& workspace) {
   return energy(world).total() - before;
 }
 
+void list_held_on_ground(const World& world, const SweptMemory& memory,
+                         std::vector<Contact>& contacts) {
+  const bool holds = world.settings.ground && is_implicit(world.settings.integrator);
+  for (int i = 0; holds && i < static_cast<int>(world.soft.size()); ++i) {
+    if (is_fixed(world, i) || memory.bodies.is_lone(i)) continue;
+    const auto pressing = static_cast<std::ptrdiff_t>(contacts.size());
+    find_soft_ground(world, i, contacts);
+    const auto held = contacts.begin() + pressing;
+    const auto presses = [&](const Contact& contact) {
+      return std::any_of(contacts.begin(), held, [&](const Contact& other) {
+        return other.second.kind == SideKind::ground && other.first.kind == SideKind::soft &&
+               other.first.body == i && other.first.feature == contact.first.feature;
+      });
+    };
+    contacts.erase(std::remove_if(held, contacts.end(), presses), contacts.end());
+  }
+}
+
 }  // namespace pneuma::sim

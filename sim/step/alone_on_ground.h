@@ -19,4 +19,9 @@ double resolve_alone_on_ground(World& world, SweptSearch& search, StepWorkspace&
 /// that does to the energy, J, if that is measured.
 double lift_sunk_vertices(World& world, StepWorkspace& workspace);
 
+/// Appends to `contacts`, which have all that contacts press, the vertices that an implicit
+/// integrator holds on the ground itself, of bodies that do not meet it alone: without an impulse.
+void list_held_on_ground(const World& world, const SweptMemory& memory,
+                         std::vector<Contact>& contacts);
+
 }  // namespace pneuma::sim

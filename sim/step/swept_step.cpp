@@ -253,6 +253,7 @@ class SweptStep {
     warm_start_.remember(fraction_);
     warm_start_.remember_held_boxes(search_, tolerance());
     list_pressing(m_, w_.contacts);
+    list_held_on_ground(world_, m_, w_.contacts);
     if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
     return find_first_divergence(world_, w_.resolve_contacts.outcomes, w_.workers);
   }

@@ -2,8 +2,10 @@
 // contacts do to the energy is the work of their impulses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "sim/equilibrium/held_shape.h"
 #include "sim/inspect/crossings.h"
@@ -56,6 +58,34 @@ void expect_apart(World& world, double seconds) {
     for (const SoftBody& body : world.soft) {
       ASSERT_GT(volume(body.mesh->topology, body.positions), 0.0) << "after step " << i;
     }
+  }
+}
+
+/// Implicit integrators hold vertices on the ground themselves, without an impulse.
+TEST(Swept, WhatStandsOnTheGroundBesideOthersIsListed) {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::sdirk2}) {
+    World world = make_swept_world();
+    world.settings.integrator = integrator;
+    world.soft.push_back(make_ball({0.0, 0.0, 3.1}));
+    world.soft.push_back(make_ball({0.5, 0.0, 9.3}));
+    Stepper stepper(world);
+    int standing_beside_others = 0;
+    for (int i = 0; i < 120; ++i) {
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->what;
+      std::vector<int> listed;
+      for (const Contact& contact : stepper.contacts()) {
+        if (contact.second.kind == SideKind::ground) listed.push_back(contact.first.feature.index);
+      }
+      const bool is_beside_others = stepper.contacts().size() > listed.size();
+      const VertexArray& positions = world.soft[0].positions;
+      for (int v = 0; v < positions.size(); ++v) {
+        if (Vec3(positions[v]).z() > 0.0) continue;
+        EXPECT_EQ(std::ranges::count(listed, v), 1) << "vertex " << v << " after step " << i;
+        standing_beside_others += is_beside_others ? 1 : 0;
+      }
+    }
+    EXPECT_GT(standing_beside_others, 100);
   }
 }
 
