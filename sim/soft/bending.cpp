@@ -4,32 +4,48 @@
 #include <cmath>
 
 #include "sim/soft/bent_hinge.h"
+#include "sim/soft/four_hinges.h"
 
 namespace pneuma::sim {
 namespace {
 
+/// Adds `factor` times a gradient to the forces of a hinge's corners.
+class ForceSums {
+ public:
+  ForceSums(int stride, VertexArray& forces) : stride_(stride), force_(forces), out_(forces) {}
+
+  void add(const HingeTable::Corners& corners, double factor, const HingeGradient& along) const {
+    const std::array rows = {along.a, along.b, along.c, along.d};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int row = stride_ * corners[i];
+      out_.put(row, fma(factor, rows[i], force_[row]));
+    }
+  }
+
+ private:
+  int stride_;
+  VertexReader force_;
+  VertexWriter out_;
+};
+
 /// `damping`: of a hinge, its place in the table, and dt/dx: f tau dt/dt.
 template <class Damping>
-void add_torques(const HingeTable& hinges, const VertexArray& positions, double rigidity,
-                 int stride, VertexArray& forces, const Damping& damping) {
-  const VertexReader x(positions), force(forces);
-  const VertexWriter out(forces);
-  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
-    const HingeTable::Corners& corners = hinges.corners[e];
-    const BentHinge bent = bend(hinges, e, x);
-    if (bent.is_flat()) continue;
-    const HingeGradient gradient = angle_gradient(bent);
-    const double scale = -rigidity * hinges.weights[e];
-    const auto add = [&](double factor, const HingeGradient& along) {
-      const std::array rows = {along.a, along.b, along.c, along.d};
-      for (std::size_t i = 0; i < 4; ++i) {
-        const int row = stride * corners[i];
-        out.put(row, fma(factor, rows[i], force[row]));
-      }
-    };
-    add(scale * (bent.weight() * bent.sine + damping(bent, e, gradient)), gradient);
-    if (bent.weight() < 1.0) add(-scale * bent.cosine, weight_gradient(bent));
-  }
+void add_torque(const HingeTable& hinges, std::size_t e, const VertexReader& x, double rigidity,
+                const ForceSums& sums, const Damping& damping) {
+  const BentHinge bent = bend(hinges, e, x);
+  if (bent.is_flat()) return;
+  const HingeTable::Corners& corners = hinges.corners[e];
+  const HingeGradient gradient = angle_gradient(bent);
+  const double scale = -rigidity * hinges.weights[e];
+  sums.add(corners, scale * (bent.weight() * bent.sine + damping(bent, e, gradient)), gradient);
+  if (bent.weight() < 1.0) sums.add(corners, -scale * bent.cosine, weight_gradient(bent));
+}
+
+void add_four_torques(const HingeTable& hinges, std::size_t e, const FourHinges& four,
+                      double rigidity, const ForceSums& sums) {
+  const Vec4d factors = -rigidity * load_vec4d(&hinges.weights[e]) * four.sines(hinges, e);
+  const std::array<HingeGradient, 4> gradients = four.gradients();
+  for (std::size_t i = 0; i < 4; ++i) sums.add(hinges.corners[e + i], factors[i], gradients[i]);
 }
 
 }  // namespace
@@ -55,22 +71,38 @@ double bending_energy(const HingeTable& hinges, const VertexArray& positions, do
 void add_bending_forces(const HingeTable& hinges, const VertexArray& positions, double rigidity,
                         int stride, VertexArray& forces) {
   if (rigidity == 0.0) return;
-  add_torques(hinges, positions, rigidity, stride, forces,
-              [](const BentHinge&, std::size_t, const HingeGradient&) { return 0.0; });
+  const VertexReader x(positions);
+  const ForceSums sums(stride, forces);
+  const auto add_one = [&](std::size_t e) {
+    add_torque(hinges, e, x, rigidity, sums,
+               [](const BentHinge&, std::size_t, const HingeGradient&) { return 0.0; });
+  };
+  const std::size_t count = hinges.corners.size(), end = count - count % 4;
+  for (std::size_t e = 0; e < end; e += 4) {
+    const FourHinges four(hinges, e, x);
+    if (four.have_whole_normals(hinges, e)) {
+      add_four_torques(hinges, e, four, rigidity, sums);
+    } else {
+      for (std::size_t i = 0; i < 4; ++i) add_one(e + i);
+    }
+  }
+  for (std::size_t e = end; e < count; ++e) add_one(e);
 }
 
 void add_damped_bending_forces(const HingeTable& hinges, const VertexArray& positions,
                                const VertexArray& velocities, double rigidity,
                                double relaxation_time, int stride, VertexArray& forces) {
-  const VertexReader v(velocities);
-  add_torques(hinges, positions, rigidity, stride, forces,
-              [&](const BentHinge& bent, std::size_t e, const HingeGradient& gradient) {
-                const HingeTable::Corners& corners = hinges.corners[e];
-                const double rate = dot(gradient.a, v[corners[0]]) +
-                                    dot(gradient.b, v[corners[1]]) +
-                                    dot(gradient.c, v[corners[2]]) + dot(gradient.d, v[corners[3]]);
-                return relaxation_time * dashpot_fraction(bent) * rate;
-              });
+  const VertexReader x(positions), v(velocities);
+  const ForceSums sums(stride, forces);
+  const auto damping = [&](const BentHinge& bent, std::size_t e, const HingeGradient& gradient) {
+    const HingeTable::Corners& corners = hinges.corners[e];
+    const double rate = dot(gradient.a, v[corners[0]]) + dot(gradient.b, v[corners[1]]) +
+                        dot(gradient.c, v[corners[2]]) + dot(gradient.d, v[corners[3]]);
+    return relaxation_time * dashpot_fraction(bent) * rate;
+  };
+  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
+    add_torque(hinges, e, x, rigidity, sums, damping);
+  }
 }
 
 void hinge_states(const HingeTable& hinges, const VertexArray& positions,
