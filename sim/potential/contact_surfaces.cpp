@@ -79,6 +79,9 @@ void ContactSurfaces::add_box(const RigidBox& box, double distance) {
   box_topologies_.push_back(
       std::make_unique<const MeshTopology>(static_cast<int>(mesh.vertices.size()), mesh.triangles));
   add(*box_topologies_.back(), corners_.back(), true, box.surface, distance);
+  // Its diagonals are those of faces that are drawn: corners differ in the triangles they have.
+  ContactSurface& surface = surfaces_.back();
+  surface.areas.assign(surface.areas.size(), surface.area / static_cast<double>(box_corners));
   is_mobile_.resize(is_mobile_.size() + mesh.vertices.size(), box.is_kinematic ? 0 : 1);
   surfaces_.back().is_mobile = !box.is_kinematic;
 }
