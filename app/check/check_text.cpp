@@ -133,6 +133,9 @@ std::string self_crossings_text(const RunStatistics& run) {
   std::string text = crossings_text("self-crossings", run.self_crossings, run.frames);
   if (run.self_crossings.frames > 0) {
     text += named_line("", "a surface folds through itself; the check does not fail for it");
+    text += named_line("",
+                       "with simulation.contact = \"potential\" it cannot, soonest done with "
+                       "integrator = \"implicit_euler\"");
   }
   return text;
 }
@@ -253,7 +256,7 @@ std::string rest_text(const RunStatistics& run) {
                        liveliest.limit, rest_time, *run.rests_from);
   }
   if (liveliest.over_limit() < 1.0) {
-    return fmt::format("not at rest yet (that is below {:g} m/s for {:g} s)", liveliest.limit,
+    return fmt::format("not at rest yet: below {:g} m/s for less than {:g} s", liveliest.limit,
                        rest_time);
   }
   const std::string whose =

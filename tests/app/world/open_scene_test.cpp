@@ -88,6 +88,11 @@ TEST_F(OpenScene, BendingStiffnessHoldsFlatFaces) {
   EXPECT_LT(deviation({}), 0.02);
 }
 
+/// Faces of many triangles crumple like paper without it.
+TEST_F(OpenScene, AFineModelHasBendingStiffnessToo) {
+  EXPECT_GT(open(sim::make_box({1.0, 1.0, 1.0}, 60)).bodies.at(0).material.bending, 0.01);
+}
+
 TEST_F(OpenScene, ItsTextIsAFileToKeep) {
   const scenes::Scene scene = open(assets::cube(), {"body.k=900"});
   EXPECT_EQ(scene.bodies[0].material.k, 900.0);
