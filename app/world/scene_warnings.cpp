@@ -117,6 +117,21 @@ void add_lost_bounce(const scenes::Scene& scene, std::vector<std::string>& warni
                   body->name, body->surface.restitution, sim::time_step(settings))));
 }
 
+/// Its error of first order is energy: kept in steps of one length, won in each bounce in which
+/// steps are divided while contacts press.
+void add_won_energy(const scenes::Scene& scene, std::vector<std::string>& warnings) {
+  if (scene.settings.contact != sim::ContactMethod::potential ||
+      scene.settings.integrator != sim::Integrator::symplectic_euler) {
+    return;
+  }
+  scenes::Place place;  // the file as a whole
+  if (!scene.bodies.empty()) place.file = scene.bodies.front().place.file;
+  warnings.push_back(to_string(scenes::diagnostic_at(
+      place,
+      "warning: simulation.integrator = \"symplectic_euler\" may gain energy where "
+      "simulation.contact = \"potential\" divides its steps; \"velocity_verlet\" keeps it")));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::World& start,
@@ -137,6 +152,7 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
   }
   add_loaded_start(scene, start, warnings);
   add_lost_bounce(scene, warnings);
+  add_won_energy(scene, warnings);
   return warnings;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/host/interrupt.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pressure_force.h"
 #include "sim/soft/stability_limit.h"
@@ -90,6 +91,7 @@ std::optional<sim::SoftBody> find_settled(const sim::SoftBody& body) {
   double last = volume_of(world);
   sim::Stepper stepper(world);
   for (int i = 0; i < most_steps; ++i) {
+    throw_if_interrupted();
     if (stepper.step(world)) return std::nullopt;
     const double now = volume_of(world);
     if (std::abs(now - last) < settled_change * now) return std::move(world.soft.front());
@@ -126,6 +128,7 @@ std::optional<sim::SoftBody> find_settled_by_short_steps(const sim::SoftBody& bo
   for (int swing = 0; swing < most_swings; ++swing) {
     double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
     for (int i = 0; i < steps; ++i) {
+      throw_if_interrupted();
       if (stepper.step(world)) return std::nullopt;
       const double now = volume_of(world);
       least = std::min(least, now);

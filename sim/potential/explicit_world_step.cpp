@@ -9,9 +9,8 @@ namespace {
 /// Of a pair's distance, or of its reach, that a step leaves at least: the barrier must be met
 /// several times before it grows beyond what a step can follow.
 constexpr double kept_by_explicit_step = 0.3;
-/// Of h^2 K / m: explicit integrators are stable up to some 4. symplectic_euler's errors of first
-/// order are energy.
-constexpr double max_contact_stiffness = 1.0, max_stiffness_of_euler = 0.1;
+/// Of h^2 K / m: explicit integrators are stable up to some 4.
+constexpr double max_contact_stiffness = 1.0;
 /// Of the way of a step, that pairs are looked for around vertices.
 constexpr double ways_around = 2.0;
 /// Of the reach, likewise at least.
@@ -103,22 +102,16 @@ void WorldAcceleration::place_boxes(const VertexArray& positions,
   }
 }
 
-void WorldAcceleration::find_contacts(const VertexArray& positions,
-                                      const VertexArray& velocities) const {
-  if (!boxes_.empty()) place_boxes(positions, velocities);
-  const VertexArray& x = vertices(positions);
-  if (!kept_.cover(x)) kept_.find(x, x, margin_);
-  find_active(surfaces_, x, kept_.pairs(), active_);
-}
-
 double WorldAcceleration::operator()(const VertexArray& positions, const VertexArray& velocities,
                                      VertexArray& acceleration) const {
   acceleration.rows().setZero();
   MinVolume min_volume;
   min_volume.meet(1.0);
-  find_contacts(positions, velocities);
+  if (!boxes_.empty()) place_boxes(positions, velocities);
   const VertexArray& x = vertices(positions);
   const VertexArray& v = boxes_.empty() ? velocities : corner_velocities_;
+  if (!kept_.cover(x)) kept_.find(x, x, margin_);
+  find_active(surfaces_, x, kept_.pairs(), active_);
   forces_.rows().setZero();
   add_forces(active_, x, v, surfaces_.regularisation_speed(), forces_);
   for (Body& body : bodies_) {
@@ -186,28 +179,21 @@ namespace {
 class WatchedStages {
  public:
   WatchedStages(const ContactSurfaces& surfaces, const WorldAcceleration& acceleration,
-                const VertexArray& start, const Settings& settings, ExplicitWorldReport& report)
+                const VertexArray& start, double step, ExplicitWorldReport& report)
       : surfaces_(surfaces),
         acceleration_(acceleration),
         start_(start),
-        step_(time_step(settings)),
-        max_stiffness_(settings.integrator == Integrator::symplectic_euler ? max_stiffness_of_euler
-                                                                           : max_contact_stiffness),
+        step_(step),
         report_(report) {}
 
   double operator()(const VertexArray& positions, const VertexArray& velocities,
                     VertexArray& result) const {
     const double volume = acceleration_(positions, velocities, result);
-    limit_stiffness();
+    report_.is_too_stiff |= acceleration_.contact_stiffness(step_) > max_contact_stiffness;
     const VertexArray& reached = acceleration_.vertices(positions);
     const bool is_start = reached.rows() == start_.rows();
     if (!is_start && std::isfinite(reached.rows().sum())) limit_way(reached, 0.0);
     return volume;
-  }
-
-  /// Of the contacts found last.
-  void limit_stiffness() const {
-    report_.is_too_stiff |= acceleration_.contact_stiffness(step_) > max_stiffness_;
   }
 
   /// Of the straight ways from the start of the step.
@@ -223,7 +209,6 @@ class WatchedStages {
   const WorldAcceleration& acceleration_;
   const VertexArray& start_;
   double step_;
-  double max_stiffness_;
   ExplicitWorldReport& report_;
 };
 
@@ -235,25 +220,8 @@ ExplicitWorldStep::ExplicitWorldStep(const World& world, const ContactSurfaces& 
       scratch_(surfaces.vertex_count(), world.settings.integrator),
       start_{VertexArray(surfaces.vertex_count()), VertexArray(surfaces.vertex_count())} {}
 
-namespace {
-
-/// Where steps of a method of first order are divided only while contacts press, the errors of its
-/// parts add up at both ends of a bounce: of symplectic_euler they are energy. Its adjoint makes
-/// the opposite ones.
-template <class Equation>
-double step_part(Integrator integrator, bool is_second_half, const Equation& equation, double step,
-                 const SoftState& start, VertexArray& positions, VertexArray& velocities,
-                 ExplicitScratch& scratch) {
-  if (is_second_half && integrator == Integrator::symplectic_euler) {
-    return adjoint_symplectic_euler(equation, step, start, positions, velocities, scratch);
-  }
-  return explicit_step(integrator, equation, step, start, positions, velocities, scratch);
-}
-
-}  // namespace
-
 ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState& start,
-                                            bool is_second_half, WorldState& end) {
+                                            WorldState& end) {
   const double h = time_step(world.settings);
   double reach = 0.0;
   for (const ContactSurface& surface : surfaces_.all()) reach = std::max(reach, surface.reach);
@@ -264,14 +232,9 @@ ExplicitWorldReport ExplicitWorldStep::step(const World& world, const WorldState
   start_.positions.rows() = start.positions.rows();
   start_.velocities.rows() = start.velocities.rows();
   acceleration_.start_boxes(start.boxes, start_.positions, start_.velocities);
-  const WatchedStages stages(surfaces_, acceleration_, start.positions, world.settings, report);
-  report.min_volume = step_part(world.settings.integrator, is_second_half, stages, h, start_,
-                                end.positions, end.velocities, scratch_);
-  const bool has_not_seen_end = world.settings.integrator == Integrator::symplectic_euler;
-  if (has_not_seen_end && std::isfinite(end.positions.rows().sum())) {
-    acceleration_.find_contacts(end.positions, end.velocities);
-    stages.limit_stiffness();
-  }
+  const WatchedStages stages(surfaces_, acceleration_, start.positions, h, report);
+  report.min_volume = explicit_step(world.settings.integrator, stages, h, start_, end.positions,
+                                    end.velocities, scratch_);
   acceleration_.end_boxes(end.positions, end.velocities, end.boxes);
   for (int v = 0; v < end.positions.size(); ++v) {
     if (surfaces_.is_mobile(v)) continue;

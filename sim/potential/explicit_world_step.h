@@ -31,9 +31,6 @@ class WorldAcceleration {
   double operator()(const VertexArray& positions, const VertexArray& velocities,
                     VertexArray& acceleration) const;
 
-  /// Finds the contacts of a state: for contact_stiffness(), as an evaluation does.
-  void find_contacts(const VertexArray& positions, const VertexArray& velocities) const;
-
   /// The coordinates of free boxes, in the order of the world's.
   void start_boxes(const std::vector<RigidState>& boxes, VertexArray& positions,
                    VertexArray& velocities);
@@ -56,7 +53,7 @@ class WorldAcceleration {
   /// All pairs that may meet on straight ways of all vertices, those of boxes included.
   const std::vector<ContactPair>& pairs_between(const VertexArray& from,
                                                 const VertexArray& to) const;
-  /// The greatest of h^2 K / m over the contacts found last, K their stiffness.
+  /// The greatest of h^2 K / m over the contacts of the last evaluation, K their stiffness.
   double contact_stiffness(double step) const;
 
  private:
@@ -103,9 +100,8 @@ class ExplicitWorldStep {
   ExplicitWorldStep(const World& world, const ContactSurfaces& surfaces);
 
   /// One step of the world's settings. `end` is to be used only if nothing is limited and nothing
-  /// too stiff: else the step is to be divided, in two of which one `is_second_half`.
-  ExplicitWorldReport step(const World& world, const WorldState& start, bool is_second_half,
-                           WorldState& end);
+  /// too stiff: else the step is to be divided.
+  ExplicitWorldReport step(const World& world, const WorldState& start, WorldState& end);
 
  private:
   const ContactSurfaces& surfaces_;

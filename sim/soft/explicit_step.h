@@ -110,19 +110,6 @@ double symplectic_euler(const Acceleration& acceleration, double h, const SoftSt
                                });
 }
 
-/// The adjoint of symplectic_euler: the drift comes first. One after the other they are symmetric,
-/// of second order.
-template <class Acceleration>
-double adjoint_symplectic_euler(const Acceleration& acceleration, double h, const SoftState& start,
-                                VertexArray& positions, VertexArray& velocities,
-                                ExplicitScratch& s) {
-  const VertexReader x0(start.positions), v0(start.velocities);
-  const VertexWriter x(positions), v(velocities);
-  for (int i = 0; i < start.positions.size(); ++i) x.put(i, fma(h, v0[i], x0[i]));
-  return for_each_acceleration(acceleration, positions, start.velocities, s,
-                               [=](int i, Vec4d a) { v.put(i, fma(h, a, v0[i])); });
-}
-
 /// Kick, drift, kick. Damping makes the force depend on the velocity at the end of the step, which
 /// is predicted with the first force, p = v0 + h a0: an error of order h^2 in it leaves the method
 /// second order. The end, v0 + h/2 (a0 + a1), is (v0 + p + h a1) / 2.

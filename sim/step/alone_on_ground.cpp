@@ -5,6 +5,7 @@
 
 #include "sim/collision/find_body_contacts.h"
 #include "sim/inspect/inspect.h"
+#include "sim/response/carried_boxes.h"
 #include "sim/response/ground_contact.h"
 #include "sim/soft/pins.h"
 
@@ -47,14 +48,17 @@ class AloneOnGround {
   }
 
   /// J. The mean force of the step (N), which has sped a vertex up, has moved it too: to put it
-  /// back takes what the ground took to stop it, so that none is left at rest.
+  /// back takes what the ground took to stop it, so that none is left at rest. Where the velocity
+  /// at the end of a step moves it in all of it, half of that way is no work of the force.
   double work(int soft, const SoftState& start, const Contact& contact) const {
     const SoftBody& body = world_.soft[at(soft)];
-    const double mass = body.material.vertex_mass;
+    const double mass = body.material.vertex_mass, step = time_step(world_.settings);
     const int v = contact.first.feature.index;
     const Vec3 after = body.velocities[v], before = after - contact.impulse / mass;
-    const Vec3 force = mass / time_step(world_.settings) * (before - Vec3(start.velocities[v]));
-    const Vec3 put_back = Vec3(body.positions[v]) - contact.point;
+    const Vec3 sped_up = before - Vec3(start.velocities[v]);
+    Vec3 put_back = Vec3(body.positions[v]) - contact.point;
+    if (moves_by_new_velocity(world_.settings.integrator)) put_back += 0.5 * step * sped_up;
+    const Vec3 force = mass / step * sped_up;
     return 0.5 * contact.impulse.dot(before + after) - force.dot(put_back);
   }
 

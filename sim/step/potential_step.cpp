@@ -21,12 +21,11 @@ class PotentialStep {
       : world_(world), w_(workspace), m_(*workspace.potential), run_(workspace) {}
 
   /// Half steps, if the whole one fails.
-  std::optional<Divergence> advance(int halvings, bool is_second_half = false) {
+  std::optional<Divergence> advance(int halvings) {
     keep(m_.starts[at(halvings)]);
     std::optional<Divergence> failure;
     bool may_be_halved = false;
-    run_(Stage::integrate_soft,
-         [&] { failure = try_step(halvings, is_second_half, may_be_halved); });
+    run_(Stage::integrate_soft, [&] { failure = try_step(halvings, may_be_halved); });
     if (!failure) {
       if (w_.options.after_part) w_.options.after_part(world_);
       return std::nullopt;
@@ -35,7 +34,7 @@ class PotentialStep {
     if (!may_be_halved || halvings == max_halvings()) return failure;
     world_.settings.steps_per_second *= 2;
     auto half = advance(halvings + 1);
-    if (!half) half = advance(halvings + 1, true);
+    if (!half) half = advance(halvings + 1);
     world_.settings.steps_per_second /= 2;
     if (half) take_back(m_.starts[at(halvings)]);
     return half;
@@ -101,11 +100,11 @@ class PotentialStep {
     return std::nullopt;
   }
 
-  std::optional<Divergence> try_step(int halvings, bool is_second_half, bool& may_be_halved) {
+  std::optional<Divergence> try_step(int halvings, bool& may_be_halved) {
     excess_ = 0.0;
     if (auto failure = gather_start()) return failure;
     auto failure = m_.implicit_step ? step_implicitly(halvings, may_be_halved)
-                                    : step_explicitly(halvings, is_second_half, may_be_halved);
+                                    : step_explicitly(halvings, may_be_halved);
     if (failure) return failure;
     m_.driven_work += driven_work();
     scatter(m_.end);
@@ -234,10 +233,8 @@ class PotentialStep {
     return blocked(report.blocked, report.blocked_pair, "", halvings);
   }
 
-  std::optional<Divergence> step_explicitly(int halvings, bool is_second_half,
-                                            bool& may_be_halved) {
-    const ExplicitWorldReport report =
-        m_.explicit_step->step(world_, m_.start, is_second_half, m_.end);
+  std::optional<Divergence> step_explicitly(int halvings, bool& may_be_halved) {
+    const ExplicitWorldReport report = m_.explicit_step->step(world_, m_.start, m_.end);
     if (report.fast_box >= 0) {
       may_be_halved = true;
       return spinning(m_.free_boxes[at(report.fast_box)], halvings);

@@ -112,7 +112,7 @@ TEST(SceneWarnings, SayThatThePotentialWouldThrowBodiesApart) {
   EXPECT_EQ(warnings("2"), std::vector<std::string>());
 }
 
-TEST(SceneWarnings, SayThatImplicitEulerDampsBounces) {
+TEST(SceneWarnings, SayWhichIntegratorsDampBouncesOrGainEnergy) {
   const auto warnings = [](const std::string& integrator, const std::string& restitution) {
     const scenes::Scene scene = scenes::parse_scene(
         "simulation.contact = \"potential\"\nsimulation.integrator = \"" + integrator +
@@ -127,6 +127,9 @@ TEST(SceneWarnings, SayThatImplicitEulerDampsBounces) {
             std::string::npos);
   EXPECT_EQ(warnings("implicit_euler", "0.2"), std::vector<std::string>());
   EXPECT_EQ(warnings("sdirk2", "0.9"), std::vector<std::string>());
+  EXPECT_EQ(warnings("velocity_verlet", "0.9"), std::vector<std::string>());
+  ASSERT_EQ(warnings("symplectic_euler", "0.2").size(), 1U);
+  EXPECT_NE(warnings("symplectic_euler", "0.2")[0].find("may gain energy"), std::string::npos);
 }
 
 TEST(StartOverlap, NamesAWayThatParts) {
