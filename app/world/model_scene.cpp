@@ -108,7 +108,7 @@ bool hold(Choice& choice) {
 /// The fastest motion of the hinges over that of the springs: so slow, they cost no step. Walls of
 /// many triangles may fold until some lose their height, where hinges are stiffer than at rest.
 double hinge_speed(int vertices) {
-  constexpr double coarse = 0.5, fine = 0.2, coarse_vertices = 1'500.0;
+  constexpr double coarse = 0.5, fine = 0.4, coarse_vertices = 1'500.0;
   return std::clamp(coarse * coarse_vertices / vertices, fine, coarse);
 }
 
