@@ -42,7 +42,7 @@ constexpr const char* slow_turn = "[0.05, 0.03, 0.0]";
 constexpr int max_held_vertices = 5'000;
 /// Of the diagonal, by which gas may bend a shape that tensions hold.
 constexpr double max_deviation = 0.03;
-/// Below, springs along the edges hold what there is of faces. Above, runs take hours in any case.
+/// Below, springs along the edges hold what there is of faces. Above, runs would be too long.
 constexpr int min_bending_vertices = 50, max_bending_vertices = 100'000;
 
 /// Finer meshes come to rest no later, but take longer: s.

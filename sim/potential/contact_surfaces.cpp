@@ -83,7 +83,7 @@ void ContactSurfaces::add_box(const RigidBox& box, double distance) {
   ContactSurface& surface = surfaces_.back();
   surface.areas.assign(surface.areas.size(), surface.area / static_cast<double>(box_corners));
   is_mobile_.resize(is_mobile_.size() + mesh.vertices.size(), box.is_kinematic ? 0 : 1);
-  surfaces_.back().is_mobile = !box.is_kinematic;
+  surface.is_mobile = !box.is_kinematic;
 }
 
 /// Features of one surface that are near each other at rest do not push each other there.

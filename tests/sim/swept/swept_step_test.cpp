@@ -2,41 +2,24 @@
 // contacts do to the energy is the work of their impulses.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "sim/equilibrium/held_shape.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/rotation.h"
-#include "sim/step/swept_bodies.h"
+#include "tests/sim/swept/swept_worlds.h"
 #include "tests/support/count_allocations.h"
-#include "tests/support/worlds.h"
 
 namespace pneuma::sim {
 namespace {
-
-World make_swept_world() {
-  World world;
-  world.settings.contact = ContactMethod::swept;
-  return world;
-}
 
 World make_free_swept_world() {
   World world = make_swept_world();
   world.settings.ground.reset();
   world.settings.gravity.setZero();
   return world;
-}
-
-/// The paper's sphere, soft, with little gas.
-SoftBody make_ball(const Vec3& position, const Vec3& velocity = Vec3::Zero()) {
-  SoftBody ball = make_body(make_sphere(3.0, 8, 8), position);
-  ball.material.n = 0.5;
-  for (int v = 0; v < ball.velocities.size(); ++v) ball.velocities[v] = velocity;
-  return ball;
 }
 
 SoftBody make_smooth_ball(const Vec3& position, const Vec3& velocity) {
@@ -58,34 +41,6 @@ void expect_apart(World& world, double seconds) {
     for (const SoftBody& body : world.soft) {
       ASSERT_GT(volume(body.mesh->topology, body.positions), 0.0) << "after step " << i;
     }
-  }
-}
-
-/// Implicit integrators hold vertices on the ground themselves, without an impulse.
-TEST(Swept, WhatStandsOnTheGroundBesideOthersIsListed) {
-  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::sdirk2}) {
-    World world = make_swept_world();
-    world.settings.integrator = integrator;
-    world.soft.push_back(make_ball({0.0, 0.0, 3.1}));
-    world.soft.push_back(make_ball({0.5, 0.0, 9.3}));
-    Stepper stepper(world);
-    int standing_beside_others = 0;
-    for (int i = 0; i < 120; ++i) {
-      const auto divergence = stepper.step(world);
-      ASSERT_FALSE(divergence) << divergence->what;
-      std::vector<int> listed;
-      for (const Contact& contact : stepper.contacts()) {
-        if (contact.second.kind == SideKind::ground) listed.push_back(contact.first.feature.index);
-      }
-      const bool is_beside_others = stepper.contacts().size() > listed.size();
-      const VertexArray& positions = world.soft[0].positions;
-      for (int v = 0; v < positions.size(); ++v) {
-        if (Vec3(positions[v]).z() > 0.0) continue;
-        EXPECT_EQ(std::ranges::count(listed, v), 1) << "vertex " << v << " after step " << i;
-        standing_beside_others += is_beside_others ? 1 : 0;
-      }
-    }
-    EXPECT_GT(standing_beside_others, 100);
   }
 }
 
@@ -115,50 +70,6 @@ TEST(Swept, AHeavyBoxPressesABallFlatAndDoesNotEnterIt) {
   world.rigid.push_back(make_rigid({2.0, 2.0, 2.0}, {0.0, 0.0, 8.0}, 200.0));
   expect_apart(world, 4.0);
   EXPECT_GT(world.rigid[0].position.z(), 1.005) << "nothing is left between it and the ground";
-}
-
-/// What meets the ground beside what it carries: exactly, and without creeping.
-TEST(Swept, APressedBodyStandsStillOnTheGround) {
-  World world = make_swept_world();
-  world.settings.sleep_speed = 0.0;
-  world.soft.push_back(make_body(make_torus(7.0, 2.2, 16, 16), {0.0, 0.0, 2.2}));
-  world.soft[0].material.k = 200.0;
-  world.soft[0].material.n = 4.0;
-  world.rigid.push_back(make_rigid({18.0, 18.0, 1.0}, {0.0, 0.0, 5.5}, 10.0));
-  ASSERT_FALSE(run(world, 12.0));
-  const VertexArray before = world.soft[0].positions;
-  ASSERT_FALSE(run(world, 1.0));
-  int standing = 0;
-  for (int v = 0; v < before.size(); ++v) {
-    const Vec3 now = world.soft[0].positions[v];
-    EXPECT_GE(now.z(), 0.0) << v;
-    if (now.z() > 0.0 || before[v].z() > 0.0) continue;
-    EXPECT_LT((now - before[v]).norm(), 1e-5) << v;
-    ++standing;
-  }
-  EXPECT_GT(standing, 30);
-}
-
-/// Wherever it is put then, nothing that was not searched for comes near it.
-TEST(Swept, AVertexIsPutOntoTheGroundWithinItsAllowance) {
-  World world = make_swept_world();
-  world.soft = {make_ball({0.0, 0.0, 3.0}), make_ball({6.02, 0.0, 3.0})};
-  SweptBodies bodies(world);
-  MotionStart start;
-  for (const SoftBody& body : world.soft) start.soft.push_back({body.positions, body.velocities});
-  bodies.set_start(world, start, {}, 1.0);
-  std::vector<BodyPair> near;
-  bodies.find_near_bodies(world, start, near);
-  ASSERT_EQ(near.size(), 1u);
-  const double allowance = bodies.allowance(0);
-  ASSERT_GT(allowance, 0.0);
-  const Vec3 searched = world.soft[0].positions[0];
-  const Vec3 end = searched + Vec3(0.6 * allowance, 0.0, 0.0);
-  const Vec3 inside = searched + Vec3(0.0, 0.0, 0.9 * allowance);
-  EXPECT_EQ(bodies.within_allowance(0, 0, end, inside), inside);
-  const Vec3 beyond = end + Vec3(0.0, 0.0, 3.0 * allowance);
-  const Vec3 put = bodies.within_allowance(0, 0, end, beyond);
-  EXPECT_LT((put - (end + Vec3(0.0, 0.0, 0.8 * allowance))).norm(), 1e-12);
 }
 
 TEST(Swept, BallsShotAtEachOtherBounceApart) {
