@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/bench/bench_report.h"
+#include "app/files/scene_catalogue.h"
 #include "app/host/errors.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
@@ -17,7 +18,6 @@
 #include "app/terminal/common_options.h"
 #include "app/terminal/grid_size.h"
 #include "app/world/open_scene.h"
-#include "app/world/scene_catalogue.h"
 
 namespace pneuma::app {
 namespace {

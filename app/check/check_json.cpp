@@ -53,6 +53,7 @@ json gas_json(const std::vector<GasAdvice>& gas) {
                       {"volume_m3", advice.volume},
                       {"settled_volume_m3", number(advice.settled)},
                       {"blown_up", advice.blown_up()},
+                      {"bursts", advice.bursts()},
                       {"crushed", advice.crushed()},
                       {"max_held_mol", number(advice.max_held)}});
     if (advice.filled_at) result.back()["filled_at_s"] = *advice.filled_at;

@@ -9,6 +9,7 @@
 #include "app/record/pressed_volume.h"
 #include "app/record/world_json.h"
 #include "app/terminal/table.h"
+#include "app/world/gas_warnings.h"
 #include "scenes/loader/print_scene.h"
 
 namespace pneuma::app {

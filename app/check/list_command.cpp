@@ -7,10 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/files/scene_catalogue.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/table.h"
-#include "app/world/scene_catalogue.h"
 
 namespace pneuma::app {
 namespace {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/files/find_scene.h"
 #include "app/host/find_program.h"
 #include "app/host/machine.h"
 #include "app/host/timing_conditions.h"
 #include "app/host/version.h"
-#include "app/world/find_scene.h"
 #include "render/context/context.h"
 #include "render/image/png.h"
 #include "render/renderer.h"

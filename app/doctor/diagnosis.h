@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/files/scene_catalogue.h"
 #include "app/host/exit_code.h"
-#include "app/world/scene_catalogue.h"
 #include "render/context/backend.h"
 
 namespace pneuma::app {

@@ -14,13 +14,13 @@
 #include <mutex>
 #include <utility>
 
+#include "app/files/scene_catalogue.h"
 #include "app/host/clock.h"
 #include "app/host/errors.h"
 #include "app/host/version.h"
 #include "app/python/scripted_world.h"
 #include "app/record/contact_tally.h"
 #include "app/record/world_json.h"
-#include "app/world/scene_catalogue.h"
 #include "assets/model.h"
 #include "render/context/context.h"
 #include "scenes/loader/load_scene.h"

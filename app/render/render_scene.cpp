@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/accuracy/choose_step.h"
+#include "app/files/find_model.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/find_program.h"
@@ -23,7 +24,7 @@
 #include "app/render/turntable.h"
 #include "app/render/video.h"
 #include "app/world/build_world.h"
-#include "app/world/find_model.h"
+#include "app/world/gas_warnings.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"

@@ -7,11 +7,11 @@
 #include <optional>
 #include <system_error>
 
+#include "app/files/data_folders.h"
 #include "app/host/errors.h"
 #include "app/sweep/read_parameter.h"
 #include "app/sweep/sweep_values.h"
 #include "app/terminal/grid_size.h"
-#include "app/world/data_folders.h"
 #include "app/world/open_scene.h"
 #include "assets/model.h"
 #include "scenes/loader/load_scene.h"

@@ -7,12 +7,12 @@
 #include <numbers>
 #include <random>
 
+#include "app/files/find_model.h"
+#include "app/files/refuse_body.h"
 #include "app/joints/check_turns.h"
 #include "app/joints/join_bodies.h"
 #include "app/world/fill_body.h"
-#include "app/world/find_model.h"
 #include "app/world/pin_body.h"
-#include "app/world/refuse_body.h"
 #include "app/world/step_advice.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/world/refuse_body.h"
+#include "app/files/refuse_body.h"
 #include "app/world/settled_volume.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/gas_law.h"

@@ -1,7 +1,5 @@
 #include "app/world/gas_advice.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,7 +8,6 @@
 #include "app/world/distinct_bodies.h"
 #include "app/world/fill_body.h"
 #include "app/world/settled_volume.h"
-#include "sim/base/text.h"
 #include "sim/equilibrium/held_shape.h"
 #include "sim/mesh/measure.h"
 #include "sim/rigid/given_motion.h"
@@ -26,9 +23,10 @@ constexpr double most_growth = 2.0;
 constexpr double least_share = 0.5;
 /// Times its volume: what is advised for.
 constexpr double carried_share = 0.8;
-/// Times the gas that there is: if a body needs more, it has next to none, as where flat faces have
-/// given way before the springs were stretched.
-constexpr double far_too_little_gas = 10.0;
+
+/// Of the energy that stretches all springs to twice their length: a start that sets free more
+/// leaves nothing of the shape. That of inflation = 2 without ambient pressure is half of this.
+constexpr double most_set_free = 0.1;
 
 /// Of the volume at the start: what is left unbalanced moves a held body by less.
 constexpr double held_change = 0.1;
@@ -167,11 +165,30 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
     held.n = *advice.max_held;
     advice.held_mass = carried_mass(sim::gas_law(held), advice.volume, area, gravity);
   }
-  const double pressure = sim::gauge_pressure(law, advice.volume);
+  advice.ambient_pressure = law.ambient_pressure;
+  advice.pressure_at_start = sim::gauge_pressure(law, advice.volume);
   // Beside an ambient pressure gas is not in proportion to what springs hold.
-  if (pressure > 0.0 && law.ambient_pressure == 0.0) {
-    advice.strengthened = advice.carrying_pressure / pressure;
+  if (advice.pressure_at_start > 0.0 && law.ambient_pressure == 0.0) {
+    advice.strengthened = advice.carrying_pressure / advice.pressure_at_start;
   }
+}
+
+/// J, that would stretch all springs to twice their length.
+double energy_of_twice_the_length(const sim::SoftBody& body) {
+  double squares = 0.0;
+  for (const double length : body.mesh->rest_lengths) squares += length * length;
+  return 0.5 * body.material.k * squares;
+}
+
+/// Of the gas less half of what it does against springs that in the end hold its pressure.
+void predict_start(const sim::SoftBody& body, GasAdvice& advice) {
+  if (!advice.settled || !std::isfinite(*advice.settled) || advice.filled_at) return;
+  if (*advice.settled <= advice.volume) return;
+  const sim::GasLaw law = sim::gas_law(body.material);
+  advice.settled_pressure = sim::gauge_pressure(law, *advice.settled);
+  advice.set_free = sim::gas_energy(law, advice.volume) - sim::gas_energy(law, *advice.settled) -
+                    0.5 * advice.settled_pressure * (*advice.settled - advice.volume);
+  advice.shatters = advice.set_free > most_set_free * energy_of_twice_the_length(body);
 }
 
 GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int max_vertices) {
@@ -187,6 +204,7 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
   advice.bending = body.material.bending;
   advice.n = body.material.n;
   advice.temperature = body.material.temperature;
+  predict_start(body, advice);
   predict_folding(body, advice);
   const bool leaves_by_itself = advice.leaves_shape() && !advice.steady_k;
   if (advice.blown_up() || leaves_by_itself) advice.max_held = max_held(body);
@@ -200,6 +218,8 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
 bool GasAdvice::crushed() const { return limp || (pressed && *pressed < least_share * volume); }
 
 bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
+
+bool GasAdvice::bursts() const { return shatters && !blown_up(); }
 
 bool GasAdvice::leaves_shape() const {
   if (!held || filled_at || blown_up()) return false;
@@ -216,96 +236,6 @@ std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices) {
     if (!advices.back().left_out) max_vertices -= advices.back().vertices;
   }
   return advices;
-}
-
-std::string volumes_text(const GasAdvice& advice) {
-  const std::string start =
-      base::text(advice.volume) + " m^3 at the start, " +
-      (advice.filled_at ? fmt::format("with its gas of {:g} s, {:g} mol at {:g} K, ",
-                                      *advice.filled_at, advice.n, advice.temperature)
-                        : "");
-  if (advice.left_out) {
-    return fmt::format("{}at rest not predicted: with {} vertices that takes long", start,
-                       advice.vertices);
-  }
-  if (!advice.settled) return start + "no balance of springs and gas was found";
-  if (std::isinf(*advice.settled)) return start + "growing for ever: its gas meets no springs";
-  const std::string times = fmt::format("{:.3g}", *advice.settled / advice.volume);
-  return fmt::format("{}{} m^3{} at rest without weight", start, base::text(*advice.settled),
-                     times == "1" ? "" : fmt::format(" ({} times)", times));
-}
-
-std::string gas_warning(const GasAdvice& advice) {
-  const std::string grows =
-      fmt::format("{}: gas blows {} up: {}", body_and_alike(advice.body, advice.count),
-                  advice.count > 1 ? "them" : "it", volumes_text(advice));
-  if (advice.k == 0.0) return grows + "; springs need a k above 0 N/m, or the body n = 0";
-  if (advice.filled_at) return grows + "; let its keys give it less, or give it a greater k";
-  if (!advice.max_held) return grows + "; inflation = 1.5 alone would make it 1.5 times";
-  const bool carries = !advice.held_mass || *advice.held_mass >= advice.mass;
-  return fmt::format(
-      "{}; to keep its size use rest = \"equilibrium\" with n of at most {} mol, which is what "
-      "springs of k = {:g} N/m hold{}",
-      grows, base::text_below(*advice.max_held), advice.k,
-      carries
-          ? ""
-          : fmt::format(", and mass = {} kg, which that carries (now {:.3g} kg), or a greater k",
-                        base::text_below(*advice.held_mass), advice.mass));
-}
-
-std::string shape_warning(const GasAdvice& advice) {
-  const std::string body = body_and_alike(advice.body, advice.count);
-  if (!advice.steady_k) {
-    const bool is_much = advice.gas_over_held() > 1.0;
-    return fmt::format(
-        "{}: with rest = \"equilibrium\" springs of {} leave a part of the pressure unbalanced: "
-        "{}; {} keeps its shape better",
-        body, is_much ? fmt::format("k = {:g} N/m", advice.k) : "this mesh", volumes_text(advice),
-        is_much ? fmt::format("n of at most {} mol, or a greater k,",
-                              base::text_below(*advice.max_held))
-                : "a greater k or a coarser mesh");
-  }
-  const std::string folds = fmt::format(
-      "{}: with rest = \"equilibrium\" springs of k = {:g} N/m balance its gas, but the slightest "
-      "push folds it; ",
-      body, advice.k);
-  if (std::isinf(*advice.steady_k)) return folds + "give it bending, or a rounder shape";
-  return fmt::format("{}use at least k = {} N/m", folds, base::text_above(*advice.steady_k));
-}
-
-std::string weight_warning(const GasAdvice& advice) {
-  if (advice.limp) {
-    return fmt::format(
-        "{}: without gas (n = 0) its springs of k = {:g} N/m hardly carry its weight of {:.3g} N: "
-        "it falls flat; give it gauge_pressure = {:.3g} Pa and rest = \"equilibrium\", or bending",
-        body_and_alike(advice.body, advice.count), advice.k, advice.weight,
-        advice.carrying_pressure);
-  }
-  const std::string crushed = fmt::format(
-      "{}: too heavy for its gas, which would carry its weight in {:.3g} m^3 of its {:.3g} m^3; ",
-      body_and_alike(advice.body, advice.count), *advice.pressed, advice.volume);
-  const std::string lighter =
-      advice.light_mass > 0.0
-          ? fmt::format("make it lighter, with a mass of at most {} kg in place of {:.3g} kg, or ",
-                        base::text_below(advice.light_mass), advice.mass)
-          : "";
-  if (!advice.strengthened || advice.k == 0.0) {
-    return fmt::format("{}{}give it gauge_pressure = {:.3g} Pa, and springs that hold that",
-                       crushed, lighter, advice.carrying_pressure);
-  }
-  // Springs that leave their shape already must be stronger than the gas.
-  const double stronger = *advice.strengthened * advice.gas_over_held();
-  const double k = stronger * advice.k;
-  const std::string hinges =
-      advice.bending > 0.0 ? fmt::format(", bending = {:.3g}", stronger * advice.bending) : "";
-  const std::string more_gas =
-      *advice.strengthened > far_too_little_gas ? "; a greater inflation may do as well" : "";
-  return fmt::format(
-      "{}{}give it springs {:.3g} times as strong, k = {:.3g} N/m (stiffness = {:.3g} N/m){}, and "
-      "{:.3g} times the gas, n = {:.4g} mol, or gauge_pressure = {:.3g} Pa, or the inflation that "
-      "it has{}",
-      crushed, lighter, stronger, k, k / k_per_stiffness, hinges, *advice.strengthened,
-      *advice.strengthened * advice.n, advice.carrying_pressure, more_gas);
 }
 
 }  // namespace pneuma::app

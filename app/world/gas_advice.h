@@ -21,6 +21,9 @@ struct GasAdvice {
   bool held = false;                // its springs balance its gas in its shape, or nearly
   std::optional<double> steady_k;   // N/m: from there on they do without folding at a push; none:
                                     // they do, or it is not known
+  double settled_pressure = 0.0;    // Pa above the ambient pressure, at rest
+  double set_free = 0.0;            // J, from the start to rest; 0: not known, or it shrinks
+  bool shatters = false;            // by that energy
   double mass = 0.0;                // kg in all
   std::optional<double> held_mass;  // kg in all, that such gas carries; none: any, or no weight
   // s: when keys of supply give it the most gas, with which all of this is; none: at the start.
@@ -34,6 +37,8 @@ struct GasAdvice {
   // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
   // it, or no weight.
   std::optional<double> pressed;
+  double pressure_at_start = 0.0;  // Pa above the ambient pressure; of a body that has weight
+  double ambient_pressure = 0.0;   // Pa
   // What would make that nearly its volume:
   double light_mass = 0.0;             // kg in all
   double carrying_pressure = 0.0;      // Pa above the ambient pressure, at the start
@@ -41,6 +46,7 @@ struct GasAdvice {
                                        // none: its gas does not press, or air does too
 
   bool blown_up() const;      // to more than twice its volume
+  bool bursts() const;        // it starts so far from rest that its shape is lost on the way
   bool crushed() const;       // by its weight, to less than half its volume, or being limp
   bool leaves_shape() const;  // being held: it folds, or rests at another volume
   /// Times the gas with which springs keep the shape, if it has more; 1: it does not, or no gas
@@ -55,17 +61,5 @@ inline constexpr int quick_advice = 3'000, patient_advice = 100'000;
 /// Of one body for each mesh and material, up to so many vertices in all. There is no advice
 /// against bodies that contacts press together.
 std::vector<GasAdvice> gas_advices(const sim::World& world, int max_vertices = patient_advice);
-
-/// "27.7 m^3 at the start, 94.1 m^3 (3.4 times) at rest without weight".
-std::string volumes_text(const GasAdvice& advice);
-
-/// A line about a body that is blown up, with what keeps its size.
-std::string gas_warning(const GasAdvice& advice);
-
-/// A line about a body that its springs do not hold, with what would.
-std::string shape_warning(const GasAdvice& advice);
-
-/// A line about a body that its weight crushes, with what would carry it.
-std::string weight_warning(const GasAdvice& advice);
 
 }  // namespace pneuma::app

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/files/find_model.h"
+#include "app/files/find_scene.h"
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
-#include "app/world/find_model.h"
-#include "app/world/find_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/step_advice.h"
 #include "assets/model.h"

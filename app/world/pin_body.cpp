@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "app/files/refuse_body.h"
 #include "app/joints/regions.h"
-#include "app/world/refuse_body.h"
 #include "sim/mesh/measure.h"
 #include "sim/soft/pins.h"
 

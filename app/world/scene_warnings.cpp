@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/world/gas_warnings.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/closed_surface.h"
 #include "sim/inspect/inspect.h"
@@ -145,6 +146,7 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
     const std::string inflation = inflation_warning(scene, advice);
     if (!inflation.empty()) warnings.push_back(warning_at(scene, advice.body, inflation));
     if (advice.blown_up()) warnings.push_back(warning_at(scene, advice.body, gas_warning(advice)));
+    if (advice.bursts()) warnings.push_back(warning_at(scene, advice.body, start_warning(advice)));
     if (advice.leaves_shape())
       warnings.push_back(warning_at(scene, advice.body, shape_warning(advice)));
     if (advice.crushed())

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/world/refuse_body.h"
+#include "app/files/refuse_body.h"
 #include "app/world/touch.h"
 #include "sim/base/text.h"
 #include "sim/inspect/closed_surface.h"

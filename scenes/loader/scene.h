@@ -41,7 +41,7 @@ enum class Rest {
 
 /// A triangle model from a file of anyone's.
 struct ModelScene {
-  std::string file;              // beside the scene file, or as app/world/find_model.h says
+  std::string file;              // beside the scene file, or as app/files/find_model.h says
   std::string component;         // which, by name or number from 1; empty: the only closed one
   double scale = 1.0;            // m per unit of the file
   Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z: how the model is set up

@@ -190,6 +190,7 @@ void SweptSearch::follow_ends() {
 
 bool SweptSearch::find_collisions() {
   blocked_.reset();
+  for (SweptContact& contact : m_.contacts) contact.is_missed = false;
   follow_ends();
   bool collided = false;
   const auto all = std::span(m_.candidates);
@@ -264,11 +265,17 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
   return true;
 }
 
-/// A vertex that other impulses pushed, and that was not yet held up.
+/// A vertex that other impulses pushed, and that was not yet held up; or one of a box that is held
+/// up as if it moved along a line, and turns.
 bool SweptSearch::goes_into_ground(SweptCandidate& candidate) {
-  if (candidate.contact >= 0) return false;
   const MovingSurface& surface = bodies_.surface(candidate.bodies.first);
   const double height = surface.end[candidate.features.first.index].z();
+  if (candidate.contact >= 0) {
+    SweptContact& contact = m_.contacts[at(candidate.contact)];
+    contact.is_missed = is_rigid(contact) &&
+                        height < std::min(0.0, contact.distance) - bodies_.skin(contact.first.body);
+    return contact.is_missed;
+  }
   if (height >= -near_distance(candidate.bodies.first, swept_ground)) return false;
   blocked_ = candidate.bodies;
   return add_if_it_meets(candidate);

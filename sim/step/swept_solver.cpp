@@ -66,7 +66,8 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
       island_begin_.push_back(patches_.size());
     }
     if (begins_island || node != places_[i - 1].node) patches_.push_back({.begin = i});
-    patches_.back().is_new |= node != nothing_moves && at(contact) >= first_new;
+    patches_.back().is_new |=
+        node != nothing_moves && (at(contact) >= first_new || contacts[at(contact)].is_missed);
     patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
     pushers_.push_back(pusher(contacts[at(contact)], impulses[at(contact)]));

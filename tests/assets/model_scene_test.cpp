@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/files/find_model.h"
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_model.h"
-#include "app/world/find_scene.h"
 #include "assets/model.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/files/find_scene.h"
 #include "app/record/provenance.h"
 #include "app/study/stability/contact_stability.h"
 #include "app/study/stability/stability_parts.h"
@@ -18,7 +19,6 @@
 #include "app/study/study_parts.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/progress.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {

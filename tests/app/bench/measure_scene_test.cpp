@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "app/files/find_scene.h"
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "app/world/replay.h"
 #include "render/context/context.h"
 #include "scenes/loader/load_scene.h"

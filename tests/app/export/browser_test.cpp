@@ -1,7 +1,7 @@
 // The replay page in a real browser: it draws what the program's own renderer draws, and nothing
 // goes wrong.
+#include "app/files/scene_catalogue.h"
 #include "app/host/find_program.h"
-#include "app/world/scene_catalogue.h"
 #include "render/image/compare.h"
 #include "tests/app/export/read_replay.h"
 #include "tests/app/render/rendered_run.h"

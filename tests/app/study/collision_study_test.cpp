@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/files/find_scene.h"
 #include "app/study/collision/collision_report.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/mesh/primitives.h"
 #include "tests/support/worlds.h"

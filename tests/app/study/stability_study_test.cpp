@@ -7,10 +7,10 @@
 #include <array>
 #include <cmath>
 
+#include "app/files/find_scene.h"
 #include "app/study/stability/contact_stability.h"
 #include "app/study/stability/stability_report.h"
 #include "app/study/stability/step_cost.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/soft/stability_limit.h"
 #include "tests/support/run_pneuma.h"

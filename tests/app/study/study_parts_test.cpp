@@ -8,10 +8,10 @@
 #include <CLI/Formatter.hpp>
 #include <filesystem>
 
+#include "app/files/find_scene.h"
 #include "app/host/errors.h"
 #include "app/study/stability/stability_parts.h"
 #include "app/study/stability/stability_report.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/file.h"
 #include "tests/support/run_pneuma.h"

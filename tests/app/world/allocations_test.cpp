@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/step/stepper.h"
 #include "tests/support/count_allocations.h"

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/world/build_world.h"
+#include "app/world/gas_warnings.h"
 #include "app/world/scene_warnings.h"
 #include "scenes/loader/load_scene.h"
+#include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"
 #include "sim/step/stepper.h"
 
@@ -157,6 +162,52 @@ TEST(GasAdvice, BesideAnAmbientPressureTooHeavyBodiesAreCarriedByTheGasThatItNam
       ball("gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n");
   EXPECT_FALSE(advices_on(carried).at(0).crushed()) << warning;
   EXPECT_GT(volume_after(carried, 4.0), 0.75 * heavy.volume) << warning;
+}
+
+TEST(GasAdvice, WhatTheAmbientPressureCrushesIsNotCalledTooHeavy) {
+  const auto ball = [](const std::string& gas) {
+    return "simulation.ambient_pressure = 2000\nsimulation.steps_per_second = 960\n"
+           "[[body]]\nposition = [0, 0, 3.1]\nmass = 5\nk = 400\n" +
+           gas;
+  };
+  const GasAdvice crushed = advices_on(ball("n = 1\n")).at(0);
+  ASSERT_TRUE(crushed.crushed());
+  const std::string warning = weight_warning(crushed);
+  EXPECT_EQ(warning.find("too heavy"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("ambient_pressure with 2000 Pa"), std::string::npos) << warning;
+  for (const std::string key : {"inflation", "gauge_pressure"}) {
+    const std::string gas = key + " = " + number_after(warning, key + " = ") + "\n";
+    EXPECT_FALSE(advices_on(ball(gas)).at(0).crushed()) << warning;
+    EXPECT_GT(volume_after(ball(gas), 4.0), 0.75 * crushed.volume) << warning;
+  }
+}
+
+TEST(GasAdvice, WhatStartsFarFromRestInAirBursts) {
+  const auto ball = [](const std::string& gas) {
+    return "simulation.ambient_pressure = 101325\nsimulation.steps_per_second = 3840\n"
+           "simulation.gravity = [0, 0, 0]\n[[body]]\nposition = [0, 0, 9]\nradius = 1\nmass = 1\n"
+           "k = 40\nrho_g = 0\n" +
+           gas;
+  };
+  const auto speed = [&](const std::string& gas) {
+    sim::World world = build_world(scenes::parse_scene(ball(gas), "test.toml"));
+    sim::Stepper stepper(world);
+    double kinetic = 0.0;
+    while (sim::time(world) < 0.02) {
+      EXPECT_FALSE(stepper.step(world));
+      kinetic = std::max(kinetic, sim::energy(world).kinetic);
+    }
+    return std::sqrt(2.0 * kinetic);  // of 1 kg
+  };
+  const GasAdvice advice = advices_on(ball("inflation = 1.1\n")).at(0);
+  ASSERT_TRUE(advice.bursts());
+  const std::string warning = start_warning(advice);
+  const double told = std::stod(number_after(warning, "kg at "));
+  EXPECT_NEAR(speed("inflation = 1.1\n"), told, 0.1 * told) << warning;
+  const std::string quiet = "gauge_pressure = " + number_after(warning, "gauge_pressure = ") + "\n";
+  EXPECT_FALSE(advices_on(ball(quiet)).at(0).bursts()) << warning;
+  EXPECT_LT(speed(quiet), 0.01 * told) << warning;
+  EXPECT_FALSE(advices_on("[[body]]\nposition = [0, 0, 9]\ninflation = 1.9\n").at(0).bursts());
 }
 
 TEST(GasAdvice, SpringsWithoutGasAreLimpOrHold) {

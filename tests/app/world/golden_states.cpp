@@ -9,9 +9,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "app/files/find_scene.h"
 #include "app/record/world_json.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/integrator_names.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "app/check/run_statistics.h"
+#include "app/files/find_model.h"
 #include "app/host/errors.h"
 #include "app/record/shape_deviation.h"
 #include "app/world/build_world.h"
-#include "app/world/find_model.h"
 #include "app/world/model_scene.h"
 #include "app/world/settled_volume.h"
 #include "assets/model.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/measure.h"

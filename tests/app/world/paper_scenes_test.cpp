@@ -8,9 +8,9 @@
 #include <set>
 
 #include "app/check/run_statistics.h"
+#include "app/files/find_scene.h"
 #include "app/picture/build_frame.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "render/renderer.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/inspect.h"

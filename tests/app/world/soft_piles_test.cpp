@@ -6,8 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/step/stepper.h"
 

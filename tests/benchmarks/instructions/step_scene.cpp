@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <exception>
 
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "app/world/replay.h"
 #include "scenes/loader/load_scene.h"
 

@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <exception>
 
+#include "app/files/find_scene.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
 #include "app/terminal/table.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "benchmarks/peer/bullet_settings.h"
 #include "benchmarks/peer/equal_quality.h"
 #include "benchmarks/peer/paired_run.h"

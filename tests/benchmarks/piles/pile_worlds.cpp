@@ -7,8 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "app/files/find_scene.h"
 #include "app/world/build_world.h"
-#include "app/world/find_scene.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::benchmarks {

@@ -1,4 +1,4 @@
-#include "app/world/find_model.h"
+#include "app/files/find_model.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,9 +9,9 @@
 #include <system_error>
 #include <vector>
 
+#include "app/files/data_folders.h"
+#include "app/files/refuse_body.h"
 #include "app/host/interrupt.h"
-#include "app/world/data_folders.h"
-#include "app/world/refuse_body.h"
 #include "assets/load_model.h"
 #include "assets/model_file.h"
 #include "scenes/loader/text_checks.h"

@@ -1,4 +1,4 @@
-#include "app/world/scene_catalogue.h"
+#include "app/files/scene_catalogue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/world/data_folders.h"
+#include "app/files/data_folders.h"
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-#include "app/world/data_folders.h"
+#include "app/files/data_folders.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

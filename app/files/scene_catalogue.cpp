@@ -1,10 +1,10 @@
-#include "app/world/scene_catalogue.h"
+#include "app/files/scene_catalogue.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "app/world/find_scene.h"
+#include "app/files/find_scene.h"
 #include "scenes/loader/load_scene.h"
 
 namespace pneuma::app {

@@ -1,11 +1,11 @@
-#include "app/world/find_scene.h"
+#include "app/files/find_scene.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <system_error>
 
-#include "app/world/data_folders.h"
+#include "app/files/data_folders.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/nearest.h"

@@ -1,4 +1,4 @@
-#include "app/world/refuse_body.h"
+#include "app/files/refuse_body.h"
 
 #include <fmt/format.h>
 
