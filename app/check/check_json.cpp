@@ -81,6 +81,7 @@ json range_json(const ValueRange& range) {
 json run_statistics_json(const RunStatistics& run) {
   json volumes = json::array();
   for (const VolumeRange& range : run.volumes) {
+    if (range.is_obstacle) continue;
     volumes.push_back({{"body", range.body},
                        {"start", range.start},
                        {"least", range.least},

@@ -38,12 +38,13 @@ RunVerdict judge_run(const scenes::Scene& scene, const RunStatistics& run) {
   }
   if (start.left > 0 || crossings.frames > 0) verdict.code = ExitCode::check_failed;
   if (run.sunk.frames > 0) {
+    const bool is_swept = scene.settings.contact == sim::ContactMethod::swept;
     verdict.code = ExitCode::check_failed;
     verdict.words += fmt::format(
         "{}: {} is up to {:.2g} m in the ground, at {:.2f} s, and bodies are in {} of {} frames; a "
-        "greater simulation.steps_per_second, or masses that are less different, keep them out\n",
+        "greater simulation.steps_per_second, or masses that are less different, keep them out{}\n",
         scene.name, run.sunk.body, run.sunk.depth.value, run.sunk.depth.time, run.sunk.frames,
-        run.frames);
+        run.frames, is_swept ? "" : ", or --set simulation.contact=swept");
   }
   if (crossings.frames == 0) return verdict;
   verdict.words += fmt::format(

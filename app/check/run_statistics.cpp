@@ -263,7 +263,7 @@ class Observer {
 
   /// Those that start in the ground count once they have come out of it.
   void look_for_sunk_bodies(const sim::World& world) {
-    if (!world.settings.ground || world.settings.contact != sim::ContactMethod::swept) return;
+    if (!world.settings.ground || world.settings.contact == sim::ContactMethod::potential) return;
     const int before = result_.sunk.frames;
     for (int body = 0; body < sim::body_count(world); ++body) {
       if (sim::is_kinematic(world, body)) continue;
@@ -278,12 +278,14 @@ class Observer {
     }
   }
 
-  /// m: no touch. Vertices that other bodies hold give way to them, within a step.
+  /// m: no touch. Vertices that other bodies hold give way to them, within a step; contacts by
+  /// impulses let all that is pressed sink in.
   static double sunk_depth(const sim::World& world, int body) {
-    constexpr double of_boxes = 0.01, of_soft = 0.02;
+    constexpr double of_boxes = 0.01, of_soft = 0.02, by_impulses = 0.25;
     const bool is_soft = sim::at(body) < world.soft.size();
-    const double of_extent = (is_soft ? of_soft : of_boxes) * least_extent(world, body);
-    return std::max(touch_depth(world, body, body), of_extent);
+    const bool is_swept = world.settings.contact == sim::ContactMethod::swept;
+    const double share = !is_swept ? by_impulses : is_soft ? of_soft : of_boxes;
+    return std::max(touch_depth(world, body, body), share * least_extent(world, body));
   }
 
   static void add(const sim::World& world, const std::vector<sim::CrossingPair>& pairs,

@@ -21,6 +21,8 @@ struct DivergenceError : std::runtime_error {
   bool tried_parts = false;    // of the step, which diverged too
   bool is_crushed = false;     // the body, between others: no step helps
   bool is_of_contact = false;  // what failed
+  bool has_no_room = false;    // a box, beside what is moved: no step helps either
+  int steps_per_second = 0;    // of which steps would do, if these are too long
 };
 
 struct Interrupted : std::runtime_error {

@@ -92,18 +92,21 @@ bool has_moved_bodies(const scenes::Scene& scene) {
 }
 
 /// What may help a run that diverged. Once shorter steps have failed, steps of another kind.
-std::string other_steps(const scenes::Scene& scene, bool tried_parts) {
+std::string other_steps(const scenes::Scene& scene, const DivergenceError& error) {
   const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
-  if (tried_parts && is_explicit) return "--set simulation.integrator=implicit_euler";
-  return fmt::format("--set simulation.steps_per_second={}{}", 2 * scene.settings.steps_per_second,
-                     tried_parts ? "" : " or --on-divergence substep");
+  if (error.tried_parts && is_explicit) return "--set simulation.integrator=implicit_euler";
+  const int steps = std::max(2 * scene.settings.steps_per_second, error.steps_per_second);
+  return fmt::format("--set simulation.steps_per_second={}{}", steps,
+                     error.tried_parts ? "" : " or --on-divergence substep");
 }
 
 /// What may help where a run that goes on stays as it is: to begin again.
 std::string other_beginning(const scenes::Scene& scene, const DivergenceError& error) {
-  if (error.is_crushed || has_moved_bodies(scene)) {
-    return fmt::format("{} motion.path end where there is room, and begin again with --overwrite",
-                       error.is_crushed ? "Let" : "Shorter steps do not help: let");
+  const bool is_short_of_room = error.is_crushed || error.has_no_room;
+  if (is_short_of_room || has_moved_bodies(scene)) {
+    return fmt::format(
+        "{} motion.path or motion.rotation leave more room, and begin again with --overwrite",
+        is_short_of_room ? "Let" : "Shorter steps do not help: let");
   }
   const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
   return fmt::format(
@@ -120,11 +123,11 @@ DivergenceError with_advice(const DivergenceError& error, const RenderRequest& r
       error.tried_parts &&
       (has_moved_bodies(scene) ||
        (error.is_of_contact && scene.settings.contact == sim::ContactMethod::swept));
-  const std::string advice = error.is_crushed || is_stuck
-                                 ? other_beginning(scene, error)
-                                 : fmt::format("To go on from the last of them, add {} to: {}",
-                                               other_steps(scene, error.tried_parts),
-                                               resume_command(request.command_line));
+  const std::string advice =
+      error.is_crushed || error.has_no_room || is_stuck
+          ? other_beginning(scene, error)
+          : fmt::format("To go on from the last of them, add {} to: {}", other_steps(scene, error),
+                        resume_command(request.command_line));
   return DivergenceError(fmt::format("{}\nThe frames so far are whole. {}", error.what(), advice));
 }
 

@@ -42,16 +42,17 @@ std::string without_comment(const std::string& line) {
   return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
-/// The effective scene as "section, key = value" and where its camera was in a frame; bodies are
-/// numbered.
+/// The effective scene as "section, key = value" and where its camera was in a frame; bodies,
+/// springs and valves are numbered.
 std::vector<std::string> settings_of(const Json& record, const Json& frame) {
   std::vector<std::string> settings;
   std::istringstream text(record["scene_toml"].get<std::string>());
   std::string section;
-  int bodies = 0;
+  std::map<std::string, int> counts;
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with("[[")) {
-      section = fmt::format("body {}, ", ++bodies);
+      const std::string kind = line.substr(2, line.find(']') - 2);
+      section = fmt::format("{} {}, ", kind, ++counts[kind]);
     } else if (line.starts_with('[')) {
       section = line.substr(1, line.find(']') - 1) + ", ";
     } else if (line.find(" = ") != std::string::npos) {

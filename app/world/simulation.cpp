@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "app/world/build_world.h"
@@ -25,27 +26,30 @@ bool shorter_steps_failed(const sim::World& world, const sim::Divergence& diverg
          divergence.stage == sim::Stage::resolve_contacts;
 }
 
-/// Empty for a box, for an implicit integrator, whose steps are too long for springs between bodies
+/// None for a box, for an implicit integrator, whose steps are too long for springs between bodies
 /// alone, and where shorter steps have failed.
-std::string cause_and_remedy(const sim::World& world, const sim::Divergence& divergence) {
-  if (shorter_steps_failed(world, divergence)) return "";
+std::optional<StepAdvice> advice_for(const sim::World& world, const sim::Divergence& divergence) {
+  if (shorter_steps_failed(world, divergence)) return std::nullopt;
   for (const sim::SoftBody& body : world.soft) {
     if (body.name != divergence.body) continue;
     const StepAdvice advice = step_advice_in_contact(world, body);
-    if (sim::is_implicit(world.settings.integrator) && !advice.too_long()) continue;
-    const std::string cause =
-        advice.too_long()
-            ? fmt::format("the step of {:.3g} s is too long: {} stay stable up to {:.3g} s",
-                          advice.step,
-                          advice.of_contact ? "small motions of what touches" : "its small motions",
-                          advice.limit)
-            : fmt::format(
-                  "the step of {:.3g} s would do for small motions, but it was hit, "
-                  "stretched or pressed too hard for it",
-                  advice.step);
-    return fmt::format(". Likely {}. Use {}", cause, remedy(advice));
+    if (!sim::is_implicit(world.settings.integrator) || advice.too_long()) return advice;
   }
-  return "";
+  return std::nullopt;
+}
+
+std::string cause_and_remedy(const StepAdvice& advice) {
+  const std::string cause =
+      advice.too_long()
+          ? fmt::format("the step of {:.3g} s is too long: {} stay stable up to {:.3g} s",
+                        advice.step,
+                        advice.of_contact ? "small motions of what touches" : "its small motions",
+                        advice.limit)
+          : fmt::format(
+                "the step of {:.3g} s would do for small motions, but it was hit, "
+                "stretched or pressed too hard for it",
+                advice.step);
+  return fmt::format(". Likely {}. Use {}", cause, remedy(advice));
 }
 
 /// "; near it are left, right and the ground"; empty for a body that is near nothing, or not named.
@@ -80,13 +84,14 @@ std::string what_is_crushed(const sim::World& world, const sim::Divergence& dive
 
 /// No step helps a body that has no room, and after parts of the step no shorter one of that size.
 std::string what_to_do(const sim::World& world, const sim::Divergence& divergence,
-                       const std::string& crushed, bool tried_parts) {
+                       const std::optional<StepAdvice>& advice, const std::string& crushed,
+                       bool tried_parts) {
   if (!crushed.empty()) {
     return fmt::format(". {}: let what is moved stop earlier, so that it leaves it room", crushed);
   }
   const bool names_shorter_step = sim::is_implicit(world.settings.integrator);
   const bool has_remedy = !divergence.remedy.empty() && !(tried_parts && names_shorter_step);
-  return (has_remedy ? "; " + divergence.remedy : "") + cause_and_remedy(world, divergence);
+  return (has_remedy ? "; " + divergence.remedy : "") + (advice ? cause_and_remedy(*advice) : "");
 }
 
 }  // namespace
@@ -95,12 +100,16 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
                                  const sim::World& world, bool tried_parts) {
   const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
   const std::string crushed = what_is_crushed(world, divergence);
-  DivergenceError error(fmt::format(
-      "{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name, divergence.step, time,
-      sim::to_string(divergence.stage), divergence.body, divergence.what,
-      what_is_near(world, divergence.body), what_to_do(world, divergence, crushed, tried_parts)));
+  const std::optional<StepAdvice> advice = advice_for(world, divergence);
+  DivergenceError error(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name,
+                                    divergence.step, time, sim::to_string(divergence.stage),
+                                    divergence.body, divergence.what,
+                                    what_is_near(world, divergence.body),
+                                    what_to_do(world, divergence, advice, crushed, tried_parts)));
   error.is_crushed = !crushed.empty();
   error.is_of_contact = divergence.stage == sim::Stage::resolve_contacts;
+  error.has_no_room = divergence.stage == sim::Stage::find_contacts;
+  if (advice && advice->too_long()) error.steps_per_second = advice->steps_per_second;
   return error;
 }
 
@@ -149,6 +158,7 @@ void Simulation::step() {
   of_parts.tried_parts = true;
   of_parts.is_crushed = error.is_crushed;
   of_parts.is_of_contact = error.is_of_contact;
+  of_parts.steps_per_second = error.steps_per_second;
   throw of_parts;
 }
 

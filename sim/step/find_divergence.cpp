@@ -401,4 +401,18 @@ std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodie
   return std::nullopt;
 }
 
+Divergence of_blocked_bodies(const World& world, const SweptBodies& bodies, const BodyPair& pair) {
+  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, pair.first),
+          "it cannot be kept from passing through " + bodies.name(world, pair.second) +
+              " in parts of the step either"};
+}
+
+Divergence of_added_energy(const World& world, const SweptBodies& bodies,
+                           const SweptContact& contact, double energy) {
+  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, contact.first.body),
+          "its contacts with " + bodies.name(world, contact.second.body) + " add " +
+              base::text(energy) +
+              " J, which is more than their motion against each other can give back"};
+}
+
 }  // namespace pneuma::sim

@@ -49,4 +49,10 @@ std::optional<Divergence> find_first_divergence(const World& world,
 std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
                                             std::span<const SweptContact> contacts);
 
+/// Of bodies that no part of a step keeps from passing through each other.
+Divergence of_blocked_bodies(const World& world, const SweptBodies& bodies, const BodyPair& pair);
+/// Of contacts that add `energy` (J), of which this has given most.
+Divergence of_added_energy(const World& world, const SweptBodies& bodies,
+                           const SweptContact& contact, double energy);
+
 }  // namespace pneuma::sim

@@ -36,6 +36,9 @@ class FreeImpacts {
     }
   }
 
+  /// An impact that bounces, of few boxes, was left as it is.
+  bool would_gain_by_parts() const { return bounces_left_ && boxes_ <= most_boxes; }
+
  private:
   bool moves_freely(int body) const { return m_.bodies.is_box(body) && !is_fixed(world_, body); }
   bool stands(int body) const {
@@ -59,6 +62,8 @@ class FreeImpacts {
       if (moves_freely(first)) add_contact(i, second, m_.partners[at(first)]);
       if (moves_freely(second)) add_contact(i, first, m_.partners[at(second)]);
     }
+    boxes_ = static_cast<int>(
+        std::ranges::count_if(m_.partners, [](const Partner& one) { return one.contacts > 0; }));
   }
   void add_contact(std::size_t number, int body, Partner& partner) const {
     const bool hits = may_hit(m_.contacts[number]);
@@ -91,61 +96,89 @@ class FreeImpacts {
                       time_step(world_.settings), world_.settings.gravity);
     switch (impact.find_time()) {
       case FreeImpact::Result::none:
-        return;
+        return leave(contact);
       case FreeImpact::Result::hit:
-        if (!bounce(impact, search_.material(contact))) return;
-        break;
+        if (bounce(impact, search_.material(contact))) break;
+        if (m_.impact_points.empty()) leave(contact);  // corners that pass beside each other
+        return;
       case FreeImpact::Result::pass:
         m_.impact_points.clear();
         break;
     }
     impact.finish(m_.impact_points);
-    if (!leaves_all_apart(impact, bodies)) return;
+    const bool is_among_others = meets_others(impact, bodies);
+    if (is_among_others || impact.meets_again(search_.near_distance(bodies[0], bodies[1]))) {
+      if (is_among_others || has_acted(bodies[0])) leave(contact);
+      return;
+    }
     book(impact, bodies);
     for (std::size_t i = 0; i < 2; ++i) {
       if (sides[i].moves()) move(impact, bodies, i);
     }
   }
 
-  /// Solves for the impulses. False if the sides do not bounce in all points. Without friction each
-  /// of several points bounces by itself.
+  /// Solves for the impulses. False if the sides do not bounce in all points.
   bool bounce(FreeImpact& impact, const ContactMaterial& material) {
     if (!impact.find_points(material, m_.of_impact, m_.impact_points)) return false;
-    if (material.friction == 0.0 && m_.impact_points.size() > 1) return false;
-    m_.impact_path.follow(m_.impact_points, material.restitution, tolerance_);
+    if (material.friction > 0.0) {
+      m_.impact_path.follow(m_.impact_points, material.restitution, tolerance_);
+    } else {
+      m_.impact_path.part_at_once(m_.impact_points, material.restitution, tolerance_);
+    }
     return true;
   }
 
   void book(const FreeImpact& impact, const std::array<int, 2>& bodies) {
     m_.work += impact.work();
-    const Partner& partner = m_.partners[at(bodies[0])];
-    std::size_t i = partner.first_contact;
-    for (int left = partner.contacts; left > 0; ++i) {
-      SweptContact& contact = m_.contacts[i];
-      if (contact.first.body != bodies[0] && contact.second.body != bodies[0]) continue;
-      --left;
-      contact.has_met = true;
+    for_each_contact(bodies[0], [&](std::size_t i) {
+      m_.contacts[i].has_met = true;
       m_.work -= m_.work_of_start[i];
       m_.work_of_start[i] = 0.0;
-    }
+    });
     for (const ImpactPoint& point : m_.impact_points) {
       m_.met_freely.push_back(
           {bodies[0], bodies[1], point.at, point.impulse->normal(), point.impulse->given()});
     }
   }
 
-  /// Whether what follows the impact meets nothing in the rest of the step.
-  bool leaves_all_apart(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
+  /// Of a box that has contacts with one other body.
+  template <class Visit>
+  void for_each_contact(int body, const Visit& visit) const {
+    const Partner& partner = m_.partners[at(body)];
+    std::size_t i = partner.first_contact;
+    for (int left = partner.contacts; left > 0; ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      if (contact.first.body != body && contact.second.body != body) continue;
+      --left;
+      visit(i);
+    }
+  }
+
+  /// Whether impulses of the start have. Without them, what comes near by the end of the step is
+  /// met there.
+  bool has_acted(int body) const {
+    bool has = false;
+    for_each_contact(body, [&](std::size_t i) { has |= m_.impulses[i].normal_impulse() > 0.0; });
+    return has;
+  }
+
+  void leave(const SweptContact& contact) {
+    if (search_.material(contact).restitution <= least_restitution) return;
+    bounces_left_ = bounces_left_ || contact.approach > min_approach;
+  }
+
+  /// Whether the sides may meet others in the step, or turn far.
+  bool meets_others(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
     const bool reaches_ground = world_.settings.ground && bodies[1] != swept_ground;
     for (std::size_t i = 0; i < 2; ++i) {
       const ImpactSide& side = impact.sides()[i];
       if (!side.moves()) continue;
       const double turn = impact.time_left() * impact.at_end(i).angular_velocity.norm();
-      if (turn > allowed_turn) return false;
-      if (reaches_ground && side.bounds(impact.at_end(i)).low.z() < 0.0) return false;
-      if (m_.bodies.may_meet_others(way(bodies, impact, i), {bodies[0], bodies[1]})) return false;
+      if (turn > allowed_turn) return true;
+      if (reaches_ground && side.bounds(impact.at_end(i)).low.z() < 0.0) return true;
+      if (m_.bodies.may_meet_others(way(bodies, impact, i), {bodies[0], bodies[1]})) return true;
     }
-    return !impact.meets_again(search_.near_distance(bodies[0], bodies[1]));
+    return false;
   }
 
   /// In the whole step, with the skin, what corners on arcs leave and how far a parabola bulges.
@@ -182,6 +215,8 @@ class FreeImpacts {
   SweptSearch& search_;
   const MotionStart& start_;
   double tolerance_;  // m/s
+  int boxes_ = 0;     // that have contacts
+  bool bounces_left_ = false;
 };
 
 }  // namespace
@@ -226,11 +261,13 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& se
   return twice;
 }
 
-void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
-                 double tolerance) {
+bool meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
+                 double tolerance, double fraction) {
   memory.met_freely.clear();
-  if (world.rigid.empty()) return;
-  FreeImpacts(world, memory, search, start, tolerance).meet();
+  if (world.rigid.empty()) return true;
+  FreeImpacts impacts(world, memory, search, start, tolerance);
+  impacts.meet();
+  return fraction <= least_part || !impacts.would_gain_by_parts();
 }
 
 }  // namespace pneuma::sim

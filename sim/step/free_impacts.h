@@ -15,9 +15,10 @@ namespace pneuma::sim {
 /// and of boxes that only pass each other; gives the boxes what the impacts give, books their work,
 /// lists them in `memory.met_freely` and says of the contacts that they have met. Where that would
 /// bring a box too near anything it leaves all as it is. Solves for velocities to `tolerance`
-/// (m/s).
-void meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
-                 double tolerance);
+/// (m/s). Returns false if it has left an impact that bounces off by more than half of its speed
+/// and that would be found in parts of this `fraction` of a step.
+bool meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
+                 double tolerance, double fraction);
 
 /// Whether a box that moves freely is hit by two others, one after the other in the step, or by one
 /// as it comes near another, and bounces off by more than half of its speed: by one impact of all

@@ -312,6 +312,15 @@ class EnergyAccount {
 /// Of an island's energy of motion and springs, what rounding may leave in a step.
 constexpr double max_added_work = 1e-9;
 
+/// N s, of the impulses of an island at both ends of the step, without their directions.
+double size_of_impulses(const SweptMemory& memory, int island) {
+  double sum = 0.0;
+  for (const SweptImpulse* impulse : memory.solver.impulses_of(island)) {
+    sum += memory.given_at_start[contact_of(memory, impulse)].norm() + impulse->given().norm();
+  }
+  return sum;
+}
+
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
 /// body at rest, holds the island it takes from all motion, whose momentum the holder gets. Loads
@@ -334,7 +343,10 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   }
   const double taken = motion.take(due.of(motion.energy())), left = due.must - taken;
   if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
-  const double of_solution = 0.5 * motion.mass() * tolerance * tolerance;
+  // What is left at each contact adds up from body to body.
+  const double bodies = static_cast<double>(memory.members.size());
+  const double of_solution = 0.5 * motion.mass() * bodies * tolerance * tolerance +
+                             tolerance_of_boxes * tolerance * size_of_impulses(memory, island);
   const double all = whole + spring_energy_of_island(world, memory, island);
   const double allowed = max_added_work * all + of_solution;
   return {.taken = taken, .left = left > allowed ? left : 0.0};

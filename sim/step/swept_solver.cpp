@@ -9,8 +9,6 @@ namespace {
 /// whose loads are carried through the bodies and not from contact to contact.
 constexpr int few_iterations = 20;
 constexpr int many_iterations = 50;
-/// What is left makes a stack tremble, and a heap creep.
-constexpr double tolerance_of_boxes = 0.01;
 /// Each call to Newton's method with so many times the penalty of the one before.
 constexpr double first_penalty = 1e3;
 constexpr double last_penalty = 1e9;

@@ -20,6 +20,10 @@
 
 namespace pneuma::sim {
 
+/// Of the tolerance that is asked for, where boxes are on boxes or the ground: what is left makes a
+/// stack tremble, and a heap creep.
+inline constexpr double tolerance_of_boxes = 0.01;
+
 class SweptSolver {
  public:
   /// Refers to the bodies.

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "sim/base/text.h"
 #include "sim/soft/pins.h"
 #include "sim/step/alone_on_ground.h"
 #include "sim/step/find_divergence.h"
@@ -21,7 +19,7 @@ namespace {
 
 /// How often impulses at the start are computed before the step is halved.
 constexpr int max_rounds = 4;
-/// Of the thinnest skin, per step: velocities are solved for to this.
+/// Of the thinnest skin, per whole step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
 /// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
 /// than it is solved for, so that they do not cross.
@@ -174,8 +172,10 @@ class SweptStep {
     m_.solver.solve(m_.contacts, m_.impulses, tolerance(), first_new);
   }
 
-  /// m/s.
-  double tolerance() const { return solver_tolerance * bodies_.thinnest_skin() / step(); }
+  /// m/s. In parts of a step no more: impulses that shift what is near grow as these get shorter.
+  double tolerance() const {
+    return solver_tolerance * bodies_.thinnest_skin() * fraction_ / step();
+  }
   MotionStart& start() { return w_.motion_start; }
   double step() const { return time_step(world_.settings); }
 
@@ -224,7 +224,8 @@ class SweptStep {
     count_work_of_start();
     warm_start_.remember_slips(search_);
     m_.work += keep_angular_momentum(world_, m_);
-    meet_freely(world_, m_, search_, start(), tolerance());
+    const bool met = meet_freely(world_, m_, search_, start(), tolerance(), fraction_);
+    if (!met && tells_hits_apart_) return hit_twice();
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
@@ -247,7 +248,7 @@ class SweptStep {
       m_.driven_work += driven_work(i, Moment::end);
     }
     bodies_.add_changes(world_);
-    const Excess excess = take_back_excess_work(world_, start(), m_, fraction_ * tolerance());
+    const Excess excess = take_back_excess_work(world_, start(), m_, tolerance());
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
@@ -289,10 +290,11 @@ class SweptStep {
   /// What a pair of features has been given at the start.
   struct Given {
     bool is_known = false;
-    bool is_near = false;   // of the first contact that they made
-    double approach = 0.0;  // m/s, of that
-    double drift = 0.0;     // m/s, of that
-    double normal = 0.0;    // N s, of all
+    bool is_of_end = false;  // the speed with which they meet
+    bool is_near = false;    // of the first contact that they made
+    double approach = 0.0;   // m/s, of that
+    double drift = 0.0;      // m/s, of that
+    double normal = 0.0;     // N s, of all
     Vec3 friction = Vec3::Zero();
     Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
   };
@@ -352,8 +354,15 @@ class SweptStep {
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
-    set_parting(before, both.restitution, *contact);
+    const bool arrives = !acted && search_.is_rigid(*contact);
+    set_parting(arrives ? as_hit(*contact) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
+  }
+
+  /// Of what the step has brought together as it ends: nothing has acted on it.
+  Given as_hit(const SweptContact& contact) const {
+    const double approach = -contact.normal.dot(search_.end_velocity(contact));
+    return {.is_known = true, .is_of_end = true, .approach = approach};
   }
 
   void hit_as_well(const SweptCandidate& candidate) {
@@ -361,8 +370,7 @@ class SweptStep {
     auto contact = search_.place_beside_hit(candidate);
     if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
-    const double approach = -contact->normal.dot(search_.end_velocity(*contact));
-    set_parting({.is_known = true, .approach = approach}, both.restitution, *contact);
+    set_parting(as_hit(*contact), both.restitution, *contact);
     if (!is_hit(*contact)) return;
     add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
   }
@@ -379,10 +387,17 @@ class SweptStep {
   }
 
   /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
-  /// ways as it leaves and as it comes back, and bounce for ever.
-  double least_bounce(const SweptContact& contact) const {
+  /// ways as it leaves and as it comes back, and bounce for ever. What falls anew in each step has
+  /// all that gravity gives in one at its end.
+  double least_bounce(const Given& before, const SweptContact& contact) const {
     if (!search_.is_rigid(contact)) return min_bounce_speed;
-    return std::max(min_bounce_speed, 0.5 * step() * world_.settings.gravity.norm());
+    const double fallen = step() * world_.settings.gravity.norm();
+    return std::max(min_bounce_speed, before.is_of_end ? fallen : 0.5 * fallen);
+  }
+
+  /// Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
+  bool may_bounce(const Given& before, const SweptContact& contact) const {
+    return !before.is_near || search_.is_rigid(contact);
   }
 
   void set_parting(const Given& before, double restitution, SweptContact& contact) const {
@@ -390,7 +405,8 @@ class SweptStep {
     if (!contact.is_near) {
       contact.parting = -before.approach;
       contact.returns_energy = true;
-    } else if (before.is_known && !before.is_near && bounce >= least_bounce(contact)) {
+    } else if (before.is_known && may_bounce(before, contact) &&
+               bounce >= least_bounce(before, contact)) {
       contact.approach = before.approach;
       contact.drift = before.drift;
       contact.restitution = restitution;
@@ -402,19 +418,14 @@ class SweptStep {
   /// Words, which need memory, are for steps that cannot.
   bool can_be_halved() const { return fraction_ > std::ldexp(1.0, -max_halvings); }
 
-  /// Names the sides of the contact that has given most.
+  /// Of the contact that has given most.
   Divergence added_energy(const Excess& excess) const {
-    Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
-    if (can_be_halved()) return divergence;
+    if (can_be_halved()) return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
     const auto impulses = m_.solver.impulses_of(excess.island);
     const SweptImpulse* most = std::ranges::max(
         impulses, {}, [](const SweptImpulse* impulse) { return impulse->normal_impulse(); });
     const SweptContact& contact = m_.contacts[at(static_cast<int>(most - m_.impulses.data()))];
-    divergence.body = bodies_.name(world_, contact.first.body);
-    divergence.what = "its contacts with " + bodies_.name(world_, contact.second.body) + " add " +
-                      base::text(excess.left) +
-                      " J, which is more than their motion against each other can give back";
-    return divergence;
+    return of_added_energy(world_, bodies_, contact, excess.left);
   }
 
   /// Parts of the step tell its impacts apart.
@@ -427,13 +438,8 @@ class SweptStep {
   }
 
   Divergence blocked() const {
-    Divergence divergence{Stage::resolve_contacts, world_.steps + 1, {}, {}};
-    if (can_be_halved()) return divergence;
-    divergence.body = bodies_.name(world_, search_.blocked()->first);
-    divergence.what = "it cannot be kept from passing through " +
-                      bodies_.name(world_, search_.blocked()->second) +
-                      " in parts of the step either";
-    return divergence;
+    if (can_be_halved()) return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
+    return of_blocked_bodies(world_, bodies_, *search_.blocked());
   }
 
   World& world_;

@@ -58,37 +58,37 @@ OrientedBox ImpactSide::placed(const RigidState& state) const {
   return {state.position, state.orientation.toRotationMatrix(), 0.5 * box_->size};
 }
 
-/// m, of the sides in free motion: of boxes along the axis that separates them most.
-double FreeImpact::separation(double time) const {
+/// Of the sides in free motion: of boxes along the axis that separates them most.
+FreeImpact::Separation FreeImpact::separation(double time) const {
   const RigidState first = sides_[0].after(time);
-  if (sides_[1].is_ground()) return sides_[0].bounds(first).low.z();
+  if (sides_[1].is_ground()) return {sides_[0].bounds(first).low.z(), Vec3::UnitZ()};
   const OrientedBox second = sides_[1].placed(sides_[1].after(time));
-  return -find_min_overlap(sides_[0].placed(first), second, any_distance)->overlap;
+  const auto found = find_min_overlap(sides_[0].placed(first), second, any_distance);
+  return {-found->overlap, found->normal};
 }
 
-/// m/s, by which the separation changes, at most: an axis between boxes turns with either of them.
-double FreeImpact::fastest() const {
+/// m/s, at which the sides come nearer to each other along an axis, at most.
+double FreeImpact::fastest(const Vec3& axis) const {
   const auto& [first, second] = sides_;
   Vec3 velocity = first.start().velocity;
-  double turn = first.fastest_turn(), arm = first.half_diagonal();
-  const double gained = step_ * gravity_.norm();
-  if (second.is_ground()) return std::abs(velocity.z()) + gained + turn * arm;
-  if (second.moves()) velocity -= second.start().velocity;
-  const double speed = velocity.norm() + gained;
-  turn += second.fastest_turn();
-  arm += second.half_diagonal() + step_ * speed +
-         (first.start().position - second.start().position).norm();
-  return speed + turn * arm;
+  double turning = first.fastest_turn() * first.half_diagonal();
+  if (second.moves()) {
+    velocity -= second.start().velocity;
+    turning += second.fastest_turn() * second.half_diagonal();
+  }
+  return std::max(0.0, -axis.dot(velocity)) + step_ * gravity_.norm() + turning;
 }
 
 /// By conservative advancement: to where the sides cannot meet before (Mirtich 1996).
 FreeImpact::Result FreeImpact::find_time() {
-  const double tolerance = time_tolerance * together_, speed = fastest();
-  double apart = separation(0.0) - wanted_;
+  const double tolerance = time_tolerance * together_;
+  Separation between = separation(0.0);
+  double apart = between.distance - wanted_;
   if (apart < 0.0) return Result::none;
   for (int i = 0; i < max_tries && apart > tolerance && time_ < step_; ++i) {
-    time_ = std::min(step_, time_ + apart / speed);
-    apart = separation(time_) - wanted_;
+    time_ = std::min(step_, time_ + apart / fastest(between.axis));
+    between = separation(time_);
+    apart = between.distance - wanted_;
   }
   for (std::size_t i = 0; i < 2; ++i) {
     if (!sides_[i].is_ground()) states_[i] = sides_[i].after(time_);

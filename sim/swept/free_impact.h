@@ -84,8 +84,12 @@ class FreeImpact {
   bool meets_again(double near) const;
 
  private:
-  double separation(double time) const;
-  double fastest() const;
+  struct Separation {
+    double distance = 0.0;      // m
+    Vec3 axis = Vec3::UnitZ();  // unit, from the second side to the first
+  };
+  Separation separation(double time) const;
+  double fastest(const Vec3& axis) const;
   double motion_left() const;
   bool overlap_after(double duration) const;
   template <class Visit>

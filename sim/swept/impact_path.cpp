@@ -12,6 +12,7 @@ constexpr int parts = 16;
 constexpr int max_returning_parts = 4 * parts;
 constexpr int max_iterations = 200;
 constexpr double tolerance_of_part = 1e-3;  // of its change of velocity
+constexpr double tolerance_at_once = 1e-9;  // of the greatest approach
 
 double speed(const ImpactPoint& point) {
   return point.speed + point.impulse->normal().dot(point.impulse->change());
@@ -46,6 +47,13 @@ void ImpactPath::follow(std::span<const ImpactPoint> points, double restitution,
     to_return -= returned;
   }
   end(points);
+}
+
+void ImpactPath::part_at_once(std::span<const ImpactPoint> points, double restitution,
+                              double max_tolerance) {
+  const double tolerance = std::min(max_tolerance, tolerance_at_once * max_approach(points));
+  begin(points);
+  add_part(points, restitution, tolerance);
 }
 
 void ImpactPath::begin(std::span<const ImpactPoint> points) {

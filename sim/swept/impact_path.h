@@ -31,6 +31,9 @@ class ImpactPath {
   /// Replaces the impulses, also what they were started from; solves for velocities to
   /// `max_tolerance` (m/s) or better. Allocates nothing once the number of points has peaked.
   void follow(std::span<const ImpactPoint> points, double restitution, double max_tolerance);
+  /// The same of points that do not rub: each by itself parts with `restitution` times the speed
+  /// with which it is hit, as Newton has it, which then adds no energy.
+  void part_at_once(std::span<const ImpactPoint> points, double restitution, double max_tolerance);
 
  private:
   /// Of one point.

@@ -108,7 +108,7 @@ TEST_F(RenderTest, ABodyWithoutRoomIsNotAdvisedOtherSteps) {
   const ProgramResult result = render("--set ball.n=0.1");
   EXPECT_EQ(result.exit_code, 5);
   expect_words(result, {"is crushed between plate and the ground", "let what is moved stop earlier",
-                        "Let motion.path end where there is room", "--overwrite"});
+                        "Let motion.path or motion.rotation leave more room", "--overwrite"});
   EXPECT_EQ(result.output.find("--set"), std::string::npos) << result.output;
 }
 
