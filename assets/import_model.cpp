@@ -290,6 +290,12 @@ Model import_apart(const std::filesystem::path& path, Format format, const std::
   }
 }
 
+/// "6:7: f names vertex 9 of 4".
+bool begins_with_place(const std::string& what) {
+  const std::size_t end = what.find_first_not_of("0123456789");
+  return end != what.npos && end > 0 && what[end] == ':';
+}
+
 }  // namespace
 
 Model import_model(const std::filesystem::path& path, const ImportLimits& limits) {
@@ -308,7 +314,9 @@ Model import_model(const std::filesystem::path& path, const ImportLimits& limits
     if (model.mesh.triangles.empty()) throw ModelError("the model has no triangles");
     return model;
   } catch (const ModelError& error) {
-    throw ModelError(fmt::format("{}: {}", path.string(), error.what()));
+    const std::string what = error.what();
+    const char* behind_path = begins_with_place(what) ? ":" : ": ";
+    throw ModelError(path.string() + behind_path + what);
   }
 }
 

@@ -47,9 +47,9 @@ std::string without_comments(std::string_view off);
 void check_model_header(Format format, std::string_view bytes, std::size_t max_vertices,
                         std::size_t max_triangles);
 
-/// "line 12: 'q' is not a number", of the first such word where an OFF file, or a PLY or STL file
-/// of text, must have numbers; empty: none was found, or it is of another format. The importer does
-/// not tell the line.
+/// "12:5: 'q' is not a number", by line and column, of the first such word where an OFF file, or a
+/// PLY or STL file of text, must have numbers; empty: none was found, or it is of another format.
+/// The importer does not tell the line.
 std::string number_mistake(Format format, std::string_view file);
 
 }  // namespace pneuma::assets

@@ -168,7 +168,7 @@ bool is_number(std::string_view word) {
   return error != std::errc::invalid_argument && end == word.data() + word.size();
 }
 
-/// Goes through the words of a file, and knows the line.
+/// Goes through the words of a file, and knows where it is.
 class Words {
  public:
   explicit Words(std::string_view file) : left_(file) {}
@@ -181,25 +181,33 @@ class Words {
       skip(std::min(left_.find_first_not_of(blanks), left_.size()));
     }
     const std::string_view word = left_.substr(0, left_.find_first_of(blanks));
-    left_.remove_prefix(word.size());
+    column_of_word_ = column_;
+    skip(word.size());
     return word;
   }
 
   void skip_line() { skip(std::min(left_.find('\n'), left_.size())); }
   int line() const { return line_; }
+  int column_of_word() const { return column_of_word_; }
 
  private:
   void skip(std::size_t count) {
-    line_ += static_cast<int>(std::ranges::count(left_.substr(0, count), '\n'));
+    const std::string_view skipped = left_.substr(0, count);
+    line_ += static_cast<int>(std::ranges::count(skipped, '\n'));
+    const std::size_t line_end = skipped.rfind('\n');
+    const bool is_same_line = line_end == skipped.npos;
+    column_ = is_same_line ? column_ + static_cast<int>(count) : static_cast<int>(count - line_end);
     left_.remove_prefix(count);
   }
 
   std::string_view left_;
-  int line_ = 1;
+  int line_ = 1, column_ = 1;
+  int column_of_word_ = 1;
 };
 
 std::string mistake(const Words& words, std::string_view word) {
-  return fmt::format("line {}: {} is not a number", words.line(), base::in_quotes(word));
+  return fmt::format("{}:{}: {} is not a number", words.line(), words.column_of_word(),
+                     base::in_quotes(word));
 }
 
 std::string first_mistake(Words& words) {

@@ -18,7 +18,13 @@ namespace {
 /// Of the extent: the importer reads single precision.
 constexpr double same_place = 1e-6;
 
-/// Calls with the letter, the rest and the number of each line "v ..." and "f ...".
+/// A line of the file, and its number.
+struct Line {
+  const std::string& text;
+  int number = 0;
+};
+
+/// Calls with the letter, the rest and all of each line "v ..." and "f ...".
 template <class Visit>
 void for_each_line(std::string_view file, const Visit& visit) {
   int number = 0;
@@ -31,14 +37,14 @@ void for_each_line(std::string_view file, const Visit& visit) {
     if (first == line.npos || first + 1 == line.size()) continue;
     const bool is_one = line[first] == 'v' || line[first] == 'f';
     if (!is_one || (line[first + 1] != ' ' && line[first + 1] != '\t')) continue;
-    visit(line[first], line.c_str() + first + 1, number);
+    visit(line[first], line.c_str() + first + 1, Line{line, number});
   }
 }
 
 /// The lines "v x y z".
 std::vector<Vec3> vertices_of(std::string_view file) {
   std::vector<Vec3> vertices;
-  for_each_line(file, [&](char letter, const char* text, int) {
+  for_each_line(file, [&](char letter, const char* text, const Line&) {
     if (letter != 'v') return;
     Vec3 vertex;
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,13 +57,25 @@ std::vector<Vec3> vertices_of(std::string_view file) {
   return vertices;
 }
 
+/// Nothing, or what is wrong in a line, and where.
+struct Mistake {
+  std::string what;
+  const char* at = nullptr;
+};
+
+const char* skip_blanks(const char* text) {
+  while (*text == ' ' || *text == '\t') ++text;
+  return text;
+}
+
 /// What is wrong with "x y z", if anything.
-std::string vertex_mistake(const char* text) {
+Mistake vertex_mistake(const char* text) {
   for (int axis = 0; axis < 3; ++axis) {
+    text = skip_blanks(text);
     char* after = nullptr;
     const double value = std::strtod(text, &after);
-    if (after == text) return "v needs three numbers";
-    if (!std::isfinite(value)) return "v has a number that is not finite";
+    if (after == text) return {"v needs three numbers", text};
+    if (!std::isfinite(value)) return {"v has a number that is not finite", text};
     text = after;
   }
   return {};
@@ -65,16 +83,16 @@ std::string vertex_mistake(const char* text) {
 
 /// What is wrong with "1 2/1 3//1", if anything; a number below 0 counts back from the last of
 /// those so far.
-std::string face_mistake(const char* text, int so_far, int all) {
+Mistake face_mistake(const char* text, int so_far, int all) {
   for (;;) {
-    while (*text == ' ' || *text == '\t') ++text;
+    text = skip_blanks(text);
     if (*text == '\0' || *text == '\r' || *text == '#' || *text == '\\') return {};
     char* after = nullptr;
     const long named = std::strtol(text, &after, 10);
-    if (after == text) return "f holds what is no number of a vertex";
-    if (named == 0) return "f names vertex 0, but the first is 1";
-    if (named > all) return fmt::format("f names vertex {} of {}", named, all);
-    if (named < -so_far) return fmt::format("f names vertex {} after {}", named, so_far);
+    if (after == text) return {"f holds what is no number of a vertex", text};
+    if (named == 0) return {"f names vertex 0, but the first is 1", text};
+    if (named > all) return {fmt::format("f names vertex {} of {}", named, all), text};
+    if (named < -so_far) return {fmt::format("f names vertex {} after {}", named, so_far), text};
     text = after;
     while (*text != '\0' && *text != ' ' && *text != '\t' && *text != '\r') ++text;
   }
@@ -106,14 +124,15 @@ void number_as_in_obj(std::string_view file, Model& model) {
 
 std::string obj_mistake(std::string_view file) {
   int all = 0, so_far = 0;
-  for_each_line(file, [&](char letter, const char*, int) { all += letter == 'v' ? 1 : 0; });
+  for_each_line(file, [&](char letter, const char*, const Line&) { all += letter == 'v' ? 1 : 0; });
   std::string first;
-  for_each_line(file, [&](char letter, const char* text, int number) {
+  for_each_line(file, [&](char letter, const char* text, const Line& line) {
     if (!first.empty()) return;
     so_far += letter == 'v' ? 1 : 0;
-    const std::string mistake =
-        letter == 'v' ? vertex_mistake(text) : face_mistake(text, so_far, all);
-    if (!mistake.empty()) first = fmt::format("line {}: {}", number, mistake);
+    const Mistake mistake = letter == 'v' ? vertex_mistake(text) : face_mistake(text, so_far, all);
+    if (mistake.what.empty()) return;
+    const auto column = mistake.at - line.text.c_str() + 1;
+    first = fmt::format("{}:{}: {}", line.number, column, mistake.what);
   });
   return first;
 }

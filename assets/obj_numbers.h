@@ -14,8 +14,8 @@ namespace pneuma::assets {
 /// place the first is named. Changes nothing when a vertex of the model is none of the file's.
 void number_as_in_obj(std::string_view file, Model& model);
 
-/// The first line that is none of the format's, as "line 6: f names vertex 9 of 4"; empty: none was
-/// found. Of vertices and faces only.
+/// The first line that is none of the format's, as "6:7: f names vertex 9 of 4", by its number and
+/// column; empty: none was found. Of vertices and faces only.
 std::string obj_mistake(std::string_view file);
 
 }  // namespace pneuma::assets

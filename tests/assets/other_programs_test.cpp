@@ -71,7 +71,7 @@ TEST_F(OtherPrograms, EveryFileEndsInAMeshOrAMessage) {
         ++accepted;
       } catch (const ModelError& error) {
         const std::string message = error.what();
-        EXPECT_TRUE(message.starts_with(entry.path().string() + ": ")) << message;
+        EXPECT_TRUE(message.starts_with(entry.path().string() + ":")) << message;
         EXPECT_EQ(message.find("broke down"), message.npos) << message;
         ++refused;
       }
