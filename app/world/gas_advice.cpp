@@ -143,11 +143,16 @@ double carried_mass(const sim::GasLaw& law, double volume, double area, double g
   return std::max(0.0, sim::gauge_pressure(law, carried_share * volume)) * area / gravity;
 }
 
+/// m/s^2, that presses it onto the ground.
+double gravity_on(const sim::SoftBody& body, const sim::Settings& settings) {
+  return settings.ground && !hangs(body) ? std::max(0.0, -settings.gravity.z()) : 0.0;
+}
+
 /// Springs are left out: they hold a shape against its gas, and hardly against a weight.
 void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, GasAdvice& advice) {
-  const double gravity = -settings.gravity.z();
-  if (!settings.ground || gravity <= 0.0 || hangs(body)) return;
   const sim::GasLaw law = sim::gas_law(body.material);
+  const double gravity = gravity_on(body, settings);
+  if (gravity == 0.0 && law.ambient_pressure == 0.0) return;
   const double area = ground_plan(body);
   advice.weight = advice.mass * gravity;
   const double needed = law.ambient_pressure + advice.weight / area;
@@ -157,16 +162,17 @@ void predict_pressed(const sim::SoftBody& body, const sim::Settings& settings, G
     advice.limp = is_limp(body, advice.weight);
     return;
   }
+  advice.ambient_pressure = law.ambient_pressure;
+  advice.pressure_at_start = sim::gauge_pressure(law, advice.volume);
   advice.pressed = advice.volume * std::pow(sim::absolute_pressure(law, advice.volume) / needed,
                                             1.0 / law.exponent);
+  if (gravity == 0.0) return;
   advice.light_mass = carried_mass(law, advice.volume, area, gravity);
   if (advice.max_held) {
     sim::SoftMaterial held = body.material;
     held.n = *advice.max_held;
     advice.held_mass = carried_mass(sim::gas_law(held), advice.volume, area, gravity);
   }
-  advice.ambient_pressure = law.ambient_pressure;
-  advice.pressure_at_start = sim::gauge_pressure(law, advice.volume);
   // Beside an ambient pressure gas is not in proportion to what springs hold.
   if (advice.pressure_at_start > 0.0 && law.ambient_pressure == 0.0) {
     advice.strengthened = advice.carrying_pressure / advice.pressure_at_start;

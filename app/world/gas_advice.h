@@ -37,7 +37,7 @@ struct GasAdvice {
   // m^3 in which its gas would carry its weight on all of its ground plan; none: nothing to carry
   // it, or no weight.
   std::optional<double> pressed;
-  double pressure_at_start = 0.0;  // Pa above the ambient pressure; of a body that has weight
+  double pressure_at_start = 0.0;  // Pa above the ambient pressure
   double ambient_pressure = 0.0;   // Pa
   // What would make that nearly its volume:
   double light_mass = 0.0;             // kg in all

@@ -75,14 +75,13 @@ std::string shape_warning(const GasAdvice& advice) {
 }
 
 std::string start_warning(const GasAdvice& advice) {
+  const double speed = std::sqrt(2.0 * advice.set_free / advice.mass);
   return fmt::format(
       "{}: starts far from rest: on its way to {:.3g} times its volume gas sets free {:.3g} J, "
-      "which "
-      "moves its {:.3g} kg at {:.3g} m/s and shatters its shape; give it gauge_pressure = {:.3g} "
-      "Pa, "
-      "which is what is left there, in place of n or inflation",
+      "which moves its {:.3g} kg at {:.3g} m/s and shatters its shape; give it gauge_pressure = "
+      "{:.3g} Pa, which is what is left there, in place of n or inflation",
       body_and_alike(advice.body, advice.count), *advice.settled / advice.volume, advice.set_free,
-      advice.mass, std::sqrt(2.0 * advice.set_free / advice.mass), advice.settled_pressure);
+      advice.mass, speed, advice.settled_pressure);
 }
 
 std::string weight_warning(const GasAdvice& advice) {
@@ -95,10 +94,11 @@ std::string weight_warning(const GasAdvice& advice) {
   }
   if (advice.pressure_at_start < -most_below * advice.ambient_pressure) {
     return fmt::format(
-        "{}: its n = {:g} mol of gas presses with {:.3g} Pa from inside, ambient_pressure with "
+        "{}: its n = {:g} mol of gas{} presses with {:.3g} Pa from inside, ambient_pressure with "
         "{:g} Pa from outside, which crushes it to {:.3g} m^3 of its {:.3g} m^3; give it "
-        "inflation = 1.1 or gauge_pressure = {:.3g} Pa instead",
+        "gauge_pressure = {:.3g} Pa or a little more instead",
         body_and_alike(advice.body, advice.count), advice.n,
+        advice.filled_at ? fmt::format(" of {:g} s", *advice.filled_at) : "",
         advice.ambient_pressure + advice.pressure_at_start, advice.ambient_pressure,
         *advice.pressed, advice.volume, advice.carrying_pressure);
   }

@@ -15,12 +15,18 @@ namespace {
 constexpr double allowed_turn = 0.5;
 /// What bounces by less loses most of its motion anyway.
 constexpr double least_restitution = 0.5;
-/// m/s: slower impacts in a heap that comes to rest are not worth parts of a step.
-constexpr double min_approach = 0.1;
+/// m/s, and of what a step of free fall gains: slower impacts, in a heap that comes to rest, are
+/// not worth parts of a step.
+constexpr double min_approach = 0.1, least_of_fall = 2.0;
 /// Of a heap of more boxes that bounce at once each step would be halved, for little.
 constexpr int most_boxes = 12;
 /// Of a step: impacts are told apart down to such parts.
 constexpr double least_part = 1.0 / 32.0;
+
+/// m/s.
+double least_approach(const Settings& settings) {
+  return std::max(min_approach, least_of_fall * time_step(settings) * settings.gravity.norm());
+}
 
 class FreeImpacts {
  public:
@@ -33,6 +39,18 @@ class FreeImpacts {
     find_partners();
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       if (may_hit(m_.contacts[i]) && is_first_of_lone_pair(i)) meet(m_.contacts[i]);
+    }
+  }
+
+  /// Also by an impact that was met freely.
+  void note_pushed_bodies() {
+    m_.is_pushed.assign(at(m_.bodies.count()), 0);
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      if (!contact.has_met && !(m_.impulses[i].normal_impulse() > 0.0)) continue;
+      for (const int body : {contact.first.body, contact.second.body}) {
+        if (body != swept_ground && !is_fixed(world_, body)) m_.is_pushed[at(body)] = 1;
+      }
     }
   }
 
@@ -62,12 +80,12 @@ class FreeImpacts {
       if (moves_freely(first)) add_contact(i, second, m_.partners[at(first)]);
       if (moves_freely(second)) add_contact(i, first, m_.partners[at(second)]);
     }
-    boxes_ = static_cast<int>(
-        std::ranges::count_if(m_.partners, [](const Partner& one) { return one.contacts > 0; }));
+    boxes_ = static_cast<int>(std::ranges::count_if(m_.partners, &Partner::is_hit));
   }
   void add_contact(std::size_t number, int body, Partner& partner) const {
     const bool hits = may_hit(m_.contacts[number]);
     if (partner.contacts == 0) partner.first_contact = number;
+    partner.is_hit = partner.is_hit || (hits && bounces(m_.contacts[number]));
     partner.is_only_one =
         hits && (partner.contacts == 0 || (partner.is_only_one && partner.body == body));
     partner.body = body;
@@ -162,10 +180,13 @@ class FreeImpacts {
     return has;
   }
 
-  void leave(const SweptContact& contact) {
-    if (search_.material(contact).restitution <= least_restitution) return;
-    bounces_left_ = bounces_left_ || contact.approach > min_approach;
+  bool bounces(const SweptContact& contact) const {
+    return search_.material(contact).restitution > least_restitution &&
+           contact.approach > least_approach(world_.settings);
   }
+
+  /// To the impulses at both ends of the step, or to its parts, which may meet freely.
+  void leave(const SweptContact& contact) { bounces_left_ = bounces_left_ || bounces(contact); }
 
   /// Whether the sides may meet others in the step, or turn far.
   bool meets_others(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
@@ -215,7 +236,7 @@ class FreeImpacts {
   SweptSearch& search_;
   const MotionStart& start_;
   double tolerance_;  // m/s
-  int boxes_ = 0;     // that have contacts
+  int boxes_ = 0;     // that are hit
   bool bounces_left_ = false;
 };
 
@@ -227,9 +248,9 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const SweptSearch& se
   const auto bounces = [&](const SweptContact& contact) {
     return search.is_rigid(contact) && search.material(contact).restitution > least_restitution;
   };
+  const double least = least_approach(world.settings);
   const auto hits = [&](const SweptContact& contact) {
-    return (is_hit(contact) || !contact.is_near) && contact.approach > min_approach &&
-           bounces(contact);
+    return (is_hit(contact) || !contact.is_near) && contact.approach > least && bounces(contact);
   };
   if (std::ranges::none_of(memory.contacts, hits)) return false;
   memory.partners.assign(at(memory.bodies.count()), {});
@@ -267,6 +288,7 @@ bool meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const M
   if (world.rigid.empty()) return true;
   FreeImpacts impacts(world, memory, search, start, tolerance);
   impacts.meet();
+  impacts.note_pushed_bodies();
   return fraction <= least_part || !impacts.would_gain_by_parts();
 }
 

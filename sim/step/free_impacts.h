@@ -13,10 +13,11 @@ namespace pneuma::sim {
 
 /// Once the impulses of the start are known and nothing crosses: takes back those of such impacts,
 /// and of boxes that only pass each other; gives the boxes what the impacts give, books their work,
-/// lists them in `memory.met_freely` and says of the contacts that they have met. Where that would
-/// bring a box too near anything it leaves all as it is. Solves for velocities to `tolerance`
-/// (m/s). Returns false if it has left an impact that bounces off by more than half of its speed
-/// and that would be found in parts of this `fraction` of a step.
+/// lists them in `memory.met_freely` and says of the contacts that they have met, and in
+/// `memory.is_pushed` which bodies anything has pushed. Where that would bring a box too near
+/// anything it leaves all as it is. Solves for velocities to `tolerance` (m/s). Returns false if it
+/// has left an impact that bounces off by more than half of its speed and that would be found in
+/// parts of this `fraction` of a step.
 bool meet_freely(World& world, SweptMemory& memory, SweptSearch& search, const MotionStart& start,
                  double tolerance, double fraction);
 

@@ -93,6 +93,7 @@ struct Partner {
   std::size_t first_contact = 0;
   int body = swept_ground;   // of the last of them
   bool is_only_one = false;  // of all of them, and not near yet
+  bool is_hit = false;       // in one of them it may be, and bounce
 };
 
 struct SweptMemory {
@@ -140,6 +141,7 @@ struct SweptMemory {
   std::vector<int> members;             // bodies of an island, or of other groups
   std::vector<MetFreely> met_freely;
   std::vector<Partner> partners;        // of each body
+  std::vector<std::uint8_t> is_pushed;  // 1: a body that moves, since the start of the step
   std::vector<SweptImpulse> of_impact;  // that is solved for
   NearGroups near_groups;
   CarriedBoxes carried_boxes;

@@ -21,6 +21,8 @@ namespace {
 constexpr int max_rounds = 4;
 /// Of the thinnest skin, per whole step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
+/// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
+constexpr double least_of_falls = 4.0;
 /// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
 /// than it is solved for, so that they do not cross.
 constexpr double least_of_wanted = 0.02;
@@ -344,6 +346,7 @@ class SweptStep {
   /// What touches at the end does not approach, or bounces. An impulse of the start whose features
   /// did not meet is given back.
   void touch(const SweptCandidate& candidate) {
+    const auto [first, second] = candidate.bodies;
     const Given before = given_at_start(candidate);
     const bool acted = before.normal > 0.0;
     auto contact = search_.place_at_end(candidate, acted);
@@ -354,12 +357,15 @@ class SweptStep {
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
-    const bool arrives = !acted && search_.is_rigid(*contact);
+    const bool arrives = !acted && search_.is_rigid(*contact) && flew(first) && flew(second);
     set_parting(arrives ? as_hit(*contact) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
 
-  /// Of what the step has brought together as it ends: nothing has acted on it.
+  /// Nothing has pushed it in this step: it has the speed with which it arrives.
+  bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
+
+  /// Of what the step has brought together as it ends.
   Given as_hit(const SweptContact& contact) const {
     const double approach = -contact.normal.dot(search_.end_velocity(contact));
     return {.is_known = true, .is_of_end = true, .approach = approach};
@@ -387,26 +393,23 @@ class SweptStep {
   }
 
   /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
-  /// ways as it leaves and as it comes back, and bounce for ever. What falls anew in each step has
-  /// all that gravity gives in one at its end.
+  /// ways as it leaves and as it comes back, and bounce for ever. At the end of a step, and of what
+  /// is near as it begins, the speed may be that of such a fall, more than once if it turns.
   double least_bounce(const Given& before, const SweptContact& contact) const {
     if (!search_.is_rigid(contact)) return min_bounce_speed;
     const double fallen = step() * world_.settings.gravity.norm();
-    return std::max(min_bounce_speed, before.is_of_end ? fallen : 0.5 * fallen);
-  }
-
-  /// Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
-  bool may_bounce(const Given& before, const SweptContact& contact) const {
-    return !before.is_near || search_.is_rigid(contact);
+    const bool may_be_fall = before.is_of_end || before.is_near;
+    return std::max(min_bounce_speed, may_be_fall ? least_of_falls * fallen : 0.5 * fallen);
   }
 
   void set_parting(const Given& before, double restitution, SweptContact& contact) const {
     const double bounce = restitution * before.approach;
+    // Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
+    const bool may_bounce = before.is_known && (!before.is_near || search_.is_rigid(contact));
     if (!contact.is_near) {
       contact.parting = -before.approach;
       contact.returns_energy = true;
-    } else if (before.is_known && may_bounce(before, contact) &&
-               bounce >= least_bounce(before, contact)) {
+    } else if (may_bounce && bounce >= least_bounce(before, contact)) {
       contact.approach = before.approach;
       contact.drift = before.drift;
       contact.restitution = restitution;

@@ -84,7 +84,8 @@ TEST(Swept, AVertexIsPutOntoTheGroundWithinItsAllowance) {
   EXPECT_LT((put - (end + Vec3(0.0, 0.0, 0.8 * allowance))).norm(), 1e-12);
 }
 
-/// They turn on the way: a corner that is aimed at along a line may come down 5 mm too low.
+/// They turn on the way: a corner that is aimed at along a line may come down 10 mm too low. Those
+/// that come further than a skin are aimed at again, and what is left is less.
 TEST(Swept, BoxesThatFallTumblingDoNotSinkIn) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> anything(-1.0, 1.0);
