@@ -358,17 +358,16 @@ class SweptStep {
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
     const bool arrives = !acted && search_.is_rigid(*contact) && flew(first) && flew(second);
-    set_parting(arrives ? as_hit(*contact) : before, both.restitution, *contact);
+    const Given hit{.is_known = true, .is_of_end = true, .approach = approach_at_end(*contact)};
+    set_parting(arrives ? hit : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
 
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
   bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
 
-  /// Of what the step has brought together as it ends.
-  Given as_hit(const SweptContact& contact) const {
-    const double approach = -contact.normal.dot(search_.end_velocity(contact));
-    return {.is_known = true, .is_of_end = true, .approach = approach};
+  double approach_at_end(const SweptContact& contact) const {
+    return -contact.normal.dot(search_.end_velocity(contact));
   }
 
   void hit_as_well(const SweptCandidate& candidate) {
@@ -376,7 +375,8 @@ class SweptStep {
     auto contact = search_.place_beside_hit(candidate);
     if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
-    set_parting(as_hit(*contact), both.restitution, *contact);
+    const Given hit{.is_known = true, .approach = approach_at_end(*contact)};
+    set_parting(hit, both.restitution, *contact);
     if (!is_hit(*contact)) return;
     add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
   }
