@@ -100,7 +100,8 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
                                  const sim::World& world, bool tried_parts) {
   const double time = static_cast<double>(divergence.step) * sim::time_step(world.settings);
   const std::string crushed = what_is_crushed(world, divergence);
-  const std::optional<StepAdvice> advice = advice_for(world, divergence);
+  const std::optional<StepAdvice> advice =
+      crushed.empty() ? advice_for(world, divergence) : std::nullopt;
   DivergenceError error(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name,
                                     divergence.step, time, sim::to_string(divergence.stage),
                                     divergence.body, divergence.what,

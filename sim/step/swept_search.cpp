@@ -190,7 +190,6 @@ void SweptSearch::follow_ends() {
 
 bool SweptSearch::find_collisions() {
   blocked_.reset();
-  for (SweptContact& contact : m_.contacts) contact.is_missed = false;
   follow_ends();
   bool collided = false;
   const auto all = std::span(m_.candidates);

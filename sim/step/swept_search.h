@@ -141,7 +141,7 @@ struct SweptMemory {
   std::vector<int> members;             // bodies of an island, or of other groups
   std::vector<MetFreely> met_freely;
   std::vector<Partner> partners;        // of each body
-  std::vector<std::uint8_t> is_pushed;  // 1: a body that moves, since the start of the step
+  std::vector<std::uint8_t> is_pushed;  // of each body: 1 if anything has, in this step
   std::vector<SweptImpulse> of_impact;  // that is solved for
   NearGroups near_groups;
   CarriedBoxes carried_boxes;

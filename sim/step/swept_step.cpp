@@ -358,16 +358,17 @@ class SweptStep {
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
     const bool arrives = !acted && search_.is_rigid(*contact) && flew(first) && flew(second);
-    const Given hit{.is_known = true, .is_of_end = true, .approach = approach_at_end(*contact)};
-    set_parting(arrives ? hit : before, both.restitution, *contact);
+    set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
 
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
   bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
 
-  double approach_at_end(const SweptContact& contact) const {
-    return -contact.normal.dot(search_.end_velocity(contact));
+  /// `alone`: no other point of the two bodies says that they are hit.
+  Given hit_at_end(const SweptContact& contact, bool alone) const {
+    const double approach = -contact.normal.dot(search_.end_velocity(contact));
+    return {.is_known = true, .is_of_end = alone, .approach = approach};
   }
 
   void hit_as_well(const SweptCandidate& candidate) {
@@ -375,8 +376,7 @@ class SweptStep {
     auto contact = search_.place_beside_hit(candidate);
     if (!contact) return;
     const ContactMaterial both = search_.material(*contact);
-    const Given hit{.is_known = true, .approach = approach_at_end(*contact)};
-    set_parting(hit, both.restitution, *contact);
+    set_parting(hit_at_end(*contact, false), both.restitution, *contact);
     if (!is_hit(*contact)) return;
     add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
   }
