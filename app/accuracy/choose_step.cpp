@@ -17,7 +17,7 @@
 #include "scenes/loader/overrides.h"
 #include "sim/joints/body_springs.h"
 #include "sim/joints/spring_limit.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 
 namespace pneuma::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/world/step_advice.h"
 #include "app/world/world_size.h"
 #include "scenes/loader/scene.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 
 namespace pneuma::app {
 

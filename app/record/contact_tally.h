@@ -7,7 +7,7 @@
 #include <span>
 
 #include "sim/collision/contact.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 #include "sim/world/world.h"
 
 namespace pneuma::app {

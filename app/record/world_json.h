@@ -10,7 +10,7 @@
 
 #include "app/record/vector_json.h"
 #include "sim/inspect/inspect.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 
 namespace pneuma::app {
 

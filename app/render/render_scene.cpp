@@ -30,7 +30,7 @@
 #include "assets/model_file.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 
 namespace pneuma::app {
 namespace {

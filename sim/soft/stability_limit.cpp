@@ -20,7 +20,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// just does not swing decays at half the rate `decay`: rk8 is stable up to 2 x 6.4.
 constexpr double finest = 0.01;
 constexpr double longest = 16.0;
-constexpr int halvings = 30;
+constexpr int bisections = 30;
 /// By which an eigenvalue of a stable step may exceed 1: rounding.
 constexpr double stable_rounding = 1e-9;
 
@@ -67,7 +67,7 @@ double stability_limit(Integrator integrator, const Oscillation& motion, double 
     (stable(step) ? low : high) = step;
   }
   if (high == 0.0) return infinite;
-  for (int i = 0; i < halvings; ++i) {
+  for (int i = 0; i < bisections; ++i) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;
   }
@@ -133,7 +133,7 @@ double settled_size(const SoftBody& body, const SpringSums& springs) {
     return s * s * squares - s * products > 3.0 * gauge_pressure(law, v) * v;
   };
   double low = 1e-3, high = 1e3;
-  for (int i = 0; i < halvings; ++i) {
+  for (int i = 0; i < bisections; ++i) {
     const double middle = std::sqrt(low * high);
     (too_large(middle) ? high : low) = middle;
   }

@@ -8,9 +8,9 @@
 #include "sim/base/text.h"
 #include "sim/inspect/closed_surface.h"
 #include "sim/response/group_motion.h"
-#include "sim/step/find_divergence.h"
 #include "sim/step/stage_runner.h"
-#include "sim/step/stages.h"
+#include "sim/step/stages/find_divergence.h"
+#include "sim/step/stages/stages.h"
 
 namespace pneuma::sim {
 namespace {

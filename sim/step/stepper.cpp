@@ -10,7 +10,7 @@
 #include "sim/rigid/rigid_motion.h"
 #include "sim/soft/pins.h"
 #include "sim/step/stage_runner.h"
-#include "sim/step/stages.h"
+#include "sim/step/stages/stages.h"
 #include "sim/step/swept_step.h"
 
 namespace pneuma::sim {
@@ -149,6 +149,7 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
       resolve_contacts(world) {
   if (world.settings.contact == ContactMethod::swept && may_touch_more_than_ground(plan)) {
     swept.emplace(world);
+    swept->measures_work = options.measure_work;
   }
   if (has_gas_flow(world)) gas_flow.emplace(world);
   if (world.settings.contact == ContactMethod::potential && plan.runs(Stage::integrate_soft)) {

@@ -10,26 +10,13 @@
 #include <string>
 
 #include "sim/collision/contact.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/divergence.h"
 #include "sim/world/world.h"
 
 namespace pneuma::sim {
 
 /// Seconds spent in each stage since the stepper was made.
 using StageTimes = std::array<double, stage_count>;
-
-/// A step that did not end in a valid state: something is not finite, a volume is not above zero, a
-/// vertex is faster than anything, or energy came from nowhere (find_divergence.h). Found in the
-/// step in which it happens.
-struct Divergence {
-  Stage stage;
-  std::int64_t step;  // the step that failed, counted from 1
-  std::string body;
-  std::string what;         // happened, with its values
-  int vertex = -1;          // of a soft body: in which it shows, or its fastest; -1: none
-  bool inverted = false;    // the body became flat or turned inside out
-  std::string remedy = {};  // what may do instead of the step, if that is known
-};
 
 struct StepperOptions {
   int threads = 1;

@@ -5,14 +5,17 @@
 #include <utility>
 
 #include "sim/soft/pins.h"
-#include "sim/step/alone_on_ground.h"
-#include "sim/step/find_divergence.h"
-#include "sim/step/free_impacts.h"
-#include "sim/step/returned_energy.h"
-#include "sim/step/shift_boxes.h"
 #include "sim/step/stage_runner.h"
-#include "sim/step/stages.h"
-#include "sim/step/swept_warm_start.h"
+#include "sim/step/stages/find_divergence.h"
+#include "sim/step/stages/stages.h"
+#include "sim/step/swept/alone_on_ground.h"
+#include "sim/step/swept/end_contacts.h"
+#include "sim/step/swept/free_impacts.h"
+#include "sim/step/swept/returned_energy.h"
+#include "sim/step/swept/shift_boxes.h"
+#include "sim/step/swept/start_aims.h"
+#include "sim/step/swept/swept_failure.h"
+#include "sim/step/swept/swept_warm_start.h"
 
 namespace pneuma::sim {
 namespace {
@@ -21,11 +24,6 @@ namespace {
 constexpr int max_rounds = 4;
 /// Of the thinnest skin, per whole step: velocities are solved for to this.
 constexpr double solver_tolerance = 1e-3;
-/// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
-constexpr double least_of_falls = 4.0;
-/// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
-/// than it is solved for, so that they do not cross.
-constexpr double least_of_wanted = 0.02;
 
 /// Those that have candidates.
 void list_paired_bodies(SweptMemory& memory) {
@@ -45,6 +43,7 @@ class SweptStep {
         m_(*workspace.swept),
         bodies_(m_.bodies),
         search_(world, workspace.motion_start, m_),
+        motion_(search_.motion()),
         warm_start_(world, workspace.motion_start, m_),
         run_(workspace) {}
 
@@ -122,7 +121,7 @@ class SweptStep {
       if (!m_.contacts.empty()) {
         std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
-          aim_at_distances();
+          aim_at_distances(world_, start(), m_, warm_start_);
           if (round == 0) warm_start_.apply(Moment::start, fraction_);
           solve(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);
@@ -181,52 +180,11 @@ class SweptStep {
   MotionStart& start() { return w_.motion_start; }
   double step() const { return time_step(world_.settings); }
 
-  /// What the impulses at the start must still change, with the motion as it came out: what moved
-  /// the sides other than the impulses stays. Shifts are no motion: impulses do not resist them.
-  /// What friction let slip in earlier steps it takes back.
-  void aim_at_distances() {
-    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
-      const SweptContact& contact = m_.contacts[i];
-      const Vec3 shift = search_.shift(contact);
-      const Vec3 moved = (search_.displacement(contact) - shift) / step();
-      const Vec3 free = moved - m_.impulses[i].change();
-      const double parting = may_move(contact, contact.normal.dot(shift)) / step();
-      const Vec3 slip = warm_start_.slip(contact) / step();
-      m_.impulses[i].aim(parting - contact.normal.dot(free), free + slip);
-    }
-  }
-
-  /// m, along the normal in this step and besides the `shift` (m) along it, at least: negative if
-  /// there is room.
-  double may_move(const SweptContact& contact, double shift) const {
-    const double closer = std::max(0.0, -shift);
-    if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
-    if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
-    if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
-      // Shifts do the rest. What presses boxes together must not take them back.
-      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
-      const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
-      const double room = is_held ? -missing_distance(contact) : contact.distance - least;
-      return closer - std::max(0.0, room);
-    }
-    // Springs take back most of what holds up a vertex that others press into the ground.
-    const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
-    return closer + made_up * std::max(0.0, missing_distance(contact));
-  }
-
-  bool is_carried(const SurfacePoint& box) const {
-    return box.body != swept_ground && m_.carried_boxes.is_carried(bodies_.box(box.body));
-  }
-
-  bool on_ground_as_box(const SweptContact& contact) const {
-    return contact.second.body == swept_ground && search_.is_rigid(contact);
-  }
-
   std::optional<Divergence> finish() {
     count_work_of_start();
-    warm_start_.remember_slips(search_);
+    warm_start_.remember_slips();
     m_.work += keep_angular_momentum(world_, m_);
-    const bool met = meet_freely(world_, m_, search_, start(), tolerance(), fraction_);
+    const bool met = meet_freely(world_, m_, start(), tolerance(), fraction_);
     if (!met && tells_hits_apart_) return hit_twice();
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
@@ -236,10 +194,10 @@ class SweptStep {
     m_.given_at_start.clear();
     bodies_.begin_at_end(world_);
     if (world_.settings.ground) {
-      m_.work += resolve_alone_on_ground(world_, search_, w_);
-      m_.work += lift_sunk_vertices(world_, w_);
+      m_.work += resolve_alone_on_ground(world_, start(), search_, m_, w_.contacts);
+      m_.work += lift_sunk_vertices(world_, m_);
     }
-    touch_at_end();
+    find_end_contacts(world_, start(), m_, warm_start_);
     if (hits_twice()) return hit_twice();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
@@ -254,7 +212,7 @@ class SweptStep {
     if (excess.left > 0.0) return added_energy(excess);
     m_.work -= excess.taken;
     warm_start_.remember(fraction_);
-    warm_start_.remember_held_boxes(search_, tolerance());
+    warm_start_.remember_held_boxes(tolerance());
     list_pressing(m_, w_.contacts);
     list_held_on_ground(world_, m_, w_.contacts);
     if (w_.has_pins) hold_pins(world_, start().soft, w_.integrate_soft);
@@ -275,147 +233,18 @@ class SweptStep {
   /// rest, where its velocity is what the forces F take again.
   double work_of_start(std::size_t i) const {
     const SweptContact& contact = m_.contacts[i];
-    const Vec3 before = search_.start_velocity(contact);
-    if (search_.is_rigid(contact) || !moves_by_new_velocity(world_.settings.integrator)) {
+    const Vec3 before = motion_.start_velocity(contact);
+    if (motion_.is_rigid(contact) || !moves_by_new_velocity(world_.settings.integrator)) {
       return m_.impulses[i].work(before);
     }
-    const Vec3 after = (search_.displacement(contact) - search_.shift(contact)) / step();
+    const Vec3 after = (motion_.displacement(contact) - motion_.shift(contact)) / step();
     return 0.5 * m_.impulses[i].given().dot(before + after);
   }
 
   /// J, of what moves a side of the contact: by its velocity, while the work of contacts is by that
   /// of one side against the other.
   double driven_work(std::size_t contact, Moment moment) const {
-    return m_.impulses[contact].given().dot(search_.driven_velocity(m_.contacts[contact], moment));
-  }
-
-  /// What a pair of features has been given at the start.
-  struct Given {
-    bool is_known = false;
-    bool is_of_end = false;  // the speed with which they meet
-    bool is_near = false;    // of the first contact that they made
-    double approach = 0.0;   // m/s, of that
-    double drift = 0.0;      // m/s, of that
-    double normal = 0.0;     // N s, of all
-    Vec3 friction = Vec3::Zero();
-    Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
-  };
-
-  bool has_met(const SweptCandidate& candidate) const {
-    return candidate.contact >= 0 && m_.first_contacts[at(candidate.contact)].has_met;
-  }
-
-  Given given_at_start(const SweptCandidate& candidate) const {
-    Given given;
-    for (int i = candidate.contact; i >= 0; i = m_.first_contacts[at(i)].previous) {
-      given.is_known = true;
-      given.is_near = m_.first_contacts[at(i)].is_near;
-      given.approach = m_.first_contacts[at(i)].approach;
-      given.drift = m_.first_contacts[at(i)].drift;
-      given.normal += m_.first_impulses[at(i)].normal_impulse();
-      given.friction += m_.first_impulses[at(i)].friction_impulse();
-      given.impulse += m_.first_impulses[at(i)].given();
-    }
-    return given;
-  }
-
-  void touch_at_end() {
-    const auto all = std::span(m_.candidates);
-    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
-      const BodyPair bodies = all[first].bodies;
-      while (end < all.size() && all[end].bodies == bodies) ++end;
-      touch_at_end(all.subspan(first, end - first));
-    }
-  }
-
-  /// Of two bodies. The points of faces that come together differ by what is left of a solution;
-  /// boxes of which one corner alone were hit would turn.
-  void touch_at_end(std::span<const SweptCandidate> candidates) {
-    const std::size_t before = m_.contacts.size();
-    for (const SweptCandidate& candidate : candidates) {
-      if (!has_met(candidate)) touch(candidate);
-    }
-    const auto touched = std::span(m_.contacts).subspan(before);
-    if (touched.empty() || !search_.is_rigid(touched.front())) return;
-    if (std::ranges::none_of(touched, is_hit)) return;
-    for (const SweptCandidate& candidate : candidates) {
-      if (!has_met(candidate)) hit_as_well(candidate);
-    }
-  }
-
-  /// What touches at the end does not approach, or bounces. An impulse of the start whose features
-  /// did not meet is given back.
-  void touch(const SweptCandidate& candidate) {
-    const auto [first, second] = candidate.bodies;
-    const Given before = given_at_start(candidate);
-    const bool acted = before.normal > 0.0;
-    auto contact = search_.place_at_end(candidate, acted);
-    if (!contact) return;
-    const ContactMaterial both = search_.material(*contact);
-    const bool rubs = contact->is_near || (acted && before.is_near);
-    SweptImpulse impulse = search_.impulse(*contact, rubs ? both.friction : 0.0);
-    if (acted) impulse.start_from(before.normal, before.friction);
-    if (!contact->is_near) impulse.only_give_back();
-    contact->is_new = !before.is_known;
-    const bool arrives = !acted && search_.is_rigid(*contact) && flew(first) && flew(second);
-    set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
-    add_at_end(*contact, impulse, before.impulse);
-  }
-
-  /// Nothing has pushed it in this step: it has the speed with which it arrives.
-  bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
-
-  /// `alone`: no other point of the two bodies says that they are hit.
-  Given hit_at_end(const SweptContact& contact, bool alone) const {
-    const double approach = -contact.normal.dot(search_.end_velocity(contact));
-    return {.is_known = true, .is_of_end = alone, .approach = approach};
-  }
-
-  void hit_as_well(const SweptCandidate& candidate) {
-    if (given_at_start(candidate).normal > 0.0) return;
-    auto contact = search_.place_beside_hit(candidate);
-    if (!contact) return;
-    const ContactMaterial both = search_.material(*contact);
-    set_parting(hit_at_end(*contact, false), both.restitution, *contact);
-    if (!is_hit(*contact)) return;
-    add_at_end(*contact, search_.impulse(*contact, both.friction), Vec3::Zero());
-  }
-
-  void add_at_end(const SweptContact& contact, SweptImpulse impulse, const Vec3& given_at_start) {
-    const Vec3 velocity = search_.end_velocity(contact);
-    Vec3 sliding = velocity;
-    if (search_.is_rigid(contact)) sliding += warm_start_.slip(contact) / step();
-    impulse.aim(contact.parting - contact.normal.dot(velocity), sliding);
-    m_.contacts.push_back(contact);
-    m_.impulses.push_back(impulse);
-    m_.end_velocities.push_back(velocity);
-    m_.given_at_start.push_back(given_at_start);
-  }
-
-  /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
-  /// ways as it leaves and as it comes back, and bounce for ever. At the end of a step, and of what
-  /// is near as it begins, the speed may be that of such a fall, more than once if it turns.
-  double least_bounce(const Given& before, const SweptContact& contact) const {
-    if (!search_.is_rigid(contact)) return min_bounce_speed;
-    const double fallen = step() * world_.settings.gravity.norm();
-    const bool may_be_fall = before.is_of_end || before.is_near;
-    return std::max(min_bounce_speed, may_be_fall ? least_of_falls * fallen : 0.5 * fallen);
-  }
-
-  void set_parting(const Given& before, double restitution, SweptContact& contact) const {
-    const double bounce = restitution * before.approach;
-    // Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
-    const bool may_bounce = before.is_known && (!before.is_near || search_.is_rigid(contact));
-    if (!contact.is_near) {
-      contact.parting = -before.approach;
-      contact.returns_energy = true;
-    } else if (may_bounce && bounce >= least_bounce(before, contact)) {
-      contact.approach = before.approach;
-      contact.drift = before.drift;
-      contact.restitution = restitution;
-      contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
-      contact.returns_energy = true;
-    }
+    return m_.impulses[contact].given().dot(motion_.driven_velocity(m_.contacts[contact], moment));
   }
 
   /// Words, which need memory, are for steps that cannot.
@@ -437,7 +266,7 @@ class SweptStep {
     return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
   }
   bool hits_twice() const {
-    return tells_hits_apart_ && is_hit_twice(world_, m_, search_, fraction_);
+    return tells_hits_apart_ && is_hit_twice(world_, m_, motion_, fraction_);
   }
 
   Divergence blocked() const {
@@ -450,6 +279,7 @@ class SweptStep {
   SweptMemory& m_;
   SweptBodies& bodies_;
   SweptSearch search_;
+  const ContactMotion& motion_;
   SweptWarmStart warm_start_;
   StageRunner run_;
   double fraction_ = 1.0;  // of a whole step

@@ -8,8 +8,8 @@
 #include "sim/base/workers.h"
 #include "sim/joints/gas_flow.h"
 #include "sim/step/potential_step.h"
-#include "sim/step/stage_memory.h"
-#include "sim/step/swept_search.h"
+#include "sim/step/stages/stage_memory.h"
+#include "sim/step/swept/swept_search.h"
 
 namespace pneuma::sim {
 

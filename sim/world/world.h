@@ -72,7 +72,7 @@ struct World {
   std::vector<FrictionSlip> friction_slips;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   // J, per soft body, of the last steps: what bodies in contact may gain
-  // (sim/step/returned_energy.h).
+  // (sim/step/swept/returned_energy.h).
   std::vector<double> lost_energy;
   std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
   std::int64_t steps = 0;      // done so far; time is steps / steps_per_second

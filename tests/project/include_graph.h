@@ -17,7 +17,7 @@ struct Include {
   bool ours = false;     // in quotes; in brackets it belongs to a library
 };
 
-/// "sim/step" for "sim/step/plan.h", "" for "plan.h".
+/// "sim/step" for "sim/step/stages/plan.h", "" for "plan.h".
 std::string folder_of(const std::string& path);
 
 /// Whether `folder` is `parent` or lies anywhere below it.

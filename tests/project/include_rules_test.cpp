@@ -171,14 +171,14 @@ TEST(BrokenFolderRule, IsSaidOfEachWayUpTheTree) {
   };
   EXPECT_TRUE(breaks("sim/base/file.cpp", "sim/mesh/measure.h"));
   EXPECT_TRUE(breaks("sim/world/world.h", "sim/soft/damping.h"));
-  EXPECT_TRUE(breaks("sim/step/plan.cpp", "scenes/loader/scene.h"));
-  EXPECT_TRUE(breaks("sim/step/plan.cpp", "tests/support/json.h"));
+  EXPECT_TRUE(breaks("sim/step/stages/plan.cpp", "scenes/loader/scene.h"));
+  EXPECT_TRUE(breaks("sim/step/stages/plan.cpp", "tests/support/json.h"));
   EXPECT_TRUE(breaks("render/passes/bodies.cpp", "sim/mesh/measure.h"));
   EXPECT_TRUE(breaks("render/passes/bodies.cpp", "simulation/base/file.h"));
   EXPECT_TRUE(breaks("scenes/loader/scene.h", "sim/step/stepper.h"));
   EXPECT_TRUE(breaks("assets/cat/cat.cpp", "scenes/loader/scene.h"));
   EXPECT_FALSE(breaks("sim/base/file.cpp", "sim/base/file.h"));
-  EXPECT_FALSE(breaks("sim/step/plan.cpp", "sim/world/world.h"));
+  EXPECT_FALSE(breaks("sim/step/stages/plan.cpp", "sim/world/world.h"));
   EXPECT_FALSE(breaks("render/image/png.cpp", "sim/base/file.h"));
   EXPECT_FALSE(breaks("scenes/loader/scene.h", "sim/world/settings.h"));
   EXPECT_FALSE(breaks("app/study/csv.cpp", "app/host/version.h"));

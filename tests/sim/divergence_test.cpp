@@ -8,7 +8,7 @@
 #include "sim/soft/pins.h"
 #include "sim/soft/spring_force.h"
 #include "sim/soft/stability_limit.h"
-#include "sim/step/find_divergence.h"
+#include "sim/step/stages/find_divergence.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {

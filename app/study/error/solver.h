@@ -7,7 +7,7 @@
 
 #include "app/study/error/samples.h"
 #include "app/study/error/sundials.h"
-#include "sim/step/plan.h"
+#include "sim/step/stages/plan.h"
 
 namespace pneuma::app {
 

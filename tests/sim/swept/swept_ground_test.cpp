@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/inspect/inspect.h"
-#include "sim/step/swept_bodies.h"
+#include "sim/step/swept/swept_bodies.h"
 #include "tests/sim/swept/swept_worlds.h"
 
 namespace pneuma::sim {

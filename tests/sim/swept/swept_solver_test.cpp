@@ -1,5 +1,5 @@
 // What the solver of swept contacts solves for together.
-#include "sim/step/swept_solver.h"
+#include "sim/step/swept/swept_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,164 @@
+#include "sim/step/swept/contact_places.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pneuma::sim {
+namespace {
+
+/// Sine of the angle between faces that lie on each other: rounding; but a box with one contact for
+/// each of its faces would rock on what is soft.
+constexpr double flat = 1e-6, flat_of_boxes = 0.03;
+constexpr double any_distance = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+SweptContact ContactPlaces::place_on_ground(const SweptCandidate& candidate, Moment moment) const {
+  const int body = candidate.bodies.first;
+  const Feature& vertex = candidate.features.first;
+  const MovingSurface& surface = bodies_.surface(body);
+  const Vec3 point =
+      moment == Moment::start ? surface.start[vertex.index] : surface.end[vertex.index];
+  return {.first = {body, vertex, {1.0, 0.0, 0.0}, point},
+          .second = {swept_ground, {}, {}, point},
+          .normal = Vec3::UnitZ(),
+          .distance = point.z(),
+          .wanted = 0.0,
+          .is_near = point.z() < motion_.near_distance(body, swept_ground)};
+}
+
+SweptContact ContactPlaces::place(const SweptCandidate& candidate, const ClosestPoints& closest,
+                                  Moment moment) const {
+  const auto [first, second] = candidate.bodies;
+  const auto& [of_first, of_second] = candidate.features;
+  SweptContact contact = {
+      .first = {first, of_first, closest.first_weights, closest.first_point},
+      .second = {second, of_second, closest.second_weights, closest.second_point},
+      .normal = normal_of(candidate, closest, moment),
+      .distance = closest.distance,
+      .wanted = motion_.distance_wanted(first, second),
+      .is_near = closest.distance < motion_.near_distance(first, second)};
+  contact.is_of_near_boxes = candidate.is_of_near_boxes;
+  if (motion_.is_rigid(contact)) meet_halfway(contact.first, contact.second);
+  return contact;
+}
+
+/// Between points that touch there is no direction: of boxes it is the one in which they are
+/// furthest apart, of others that of the features.
+Vec3 ContactPlaces::normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
+                              Moment moment) const {
+  if (candidate.is_of_near_boxes) return candidate.normal;
+  if (closest.distance >= rounding_distance) {
+    return (closest.first_point - closest.second_point).normalized();
+  }
+  const MovingSurface& a = bodies_.surface(candidate.bodies.first);
+  const MovingSurface& b = bodies_.surface(candidate.bodies.second);
+  const bool are_boxes =
+      bodies_.is_rigid(candidate.bodies.first) && bodies_.is_rigid(candidate.bodies.second);
+  return are_boxes ? direction_apart(a, b, moment)
+                   : touching_normal(a, b, candidate.features, moment);
+}
+
+bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
+                           Moment moment) const {
+  if (candidate.is_of_near_boxes) return true;
+  const auto [first, second] = candidate.bodies;
+  const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
+  return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
+                              closest, moment, has_box ? flat_of_boxes : flat);
+}
+
+/// At the start, as points that are nearest after a fraction of the step.
+SweptContact ContactPlaces::place_at(const SweptCandidate& candidate, double fraction) const {
+  const MovingSurface& a = bodies_.surface(candidate.bodies.first);
+  const MovingSurface& b = bodies_.surface(candidate.bodies.second);
+  SweptContact contact =
+      place(candidate, closest_points_at(a, b, candidate.features, fraction), Moment::start);
+  contact.first.point = bodies_.start_point(contact.first);
+  contact.second.point = bodies_.start_point(contact.second);
+  contact.distance = contact.normal.dot(contact.first.point - contact.second.point);
+  contact.wanted = std::min(contact.wanted, contact.distance);  // nothing is pushed along this line
+  contact.is_near =
+      candidate.start.distance < motion_.near_distance(contact.first.body, contact.second.body);
+  return contact;
+}
+
+/// The points that meet after a fraction of the step are kept apart along the line through them at
+/// its start: along no other would the impulse keep angular momentum. A side that impulses do not
+/// move takes up any: beside it they are kept apart in the direction in which they meet, or what
+/// slides would be braked.
+SweptContact ContactPlaces::place_along_line(const SweptCandidate& candidate,
+                                             double fraction) const {
+  SweptContact contact = place_at(candidate, fraction);
+  const bool both_move =
+      bodies_.side(world_, contact.first).moves() && bodies_.side(world_, contact.second).moves();
+  if (!both_move) return contact;
+  const Vec3 apart = contact.first.point - contact.second.point;
+  contact.distance = apart.norm();
+  if (contact.distance >= rounding_distance) contact.normal = apart / contact.distance;
+  contact.wanted =
+      std::min(motion_.distance_wanted(contact.first.body, contact.second.body), contact.distance);
+  return contact;
+}
+
+std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& candidate,
+                                                        bool acted) const {
+  const auto [first, second] = candidate.bodies;
+  return place_at_end(candidate, acted,
+                      acted ? any_distance : motion_.near_distance(first, second));
+}
+
+std::optional<SweptContact> ContactPlaces::place_beside_hit(const SweptCandidate& candidate) const {
+  const auto [first, second] = candidate.bodies;
+  const double near = motion_.near_distance(first, second);
+  auto contact = place_at_end(candidate, false, near + hit_together * bodies_.skin(first));
+  if (!contact || contact->distance < near) return std::nullopt;
+  contact->is_near = true;
+  return contact;
+}
+
+/// Within the `reach`, m.
+std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& candidate, bool acted,
+                                                        double reach) const {
+  const auto [first, second] = candidate.bodies;
+  if (second == swept_ground || candidate.is_of_near_boxes) {
+    const SweptContact contact =
+        second == swept_ground ? place_on_ground(candidate, Moment::end) : move_to_end(candidate);
+    return contact.distance < reach ? std::optional(contact) : std::nullopt;
+  }
+  const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
+                                      candidate.features, Moment::end, reach);
+  if (!closest || !(acted || stands(candidate, *closest, Moment::end))) return std::nullopt;
+  const SweptContact contact = place(candidate, *closest, Moment::end);
+  return motion_.is_moved(contact) ? std::optional(contact) : std::nullopt;
+}
+
+/// A contact at the start of the step that keeps two boxes apart where they would be in each other
+/// at its end, along the normal that they have there.
+SweptContact ContactPlaces::place_before_end(const SweptCandidate& candidate, const Vec3& normal,
+                                             const BoxContactPoint& point) const {
+  const auto [first, second] = candidate.bodies;
+  SweptContact contact = place(candidate, candidate.start, Moment::start);
+  contact.first.point = bodies_.point_before(world_, start_, first, point.point);
+  contact.second.point = bodies_.point_before(world_, start_, second, point.point);
+  meet_halfway(contact.first, contact.second);
+  contact.normal = normal;
+  contact.distance = -point.depth - normal.dot(motion_.displacement(contact));
+  return contact;
+}
+
+/// The points of near boxes go with them, and their normal is that of the start.
+SweptContact ContactPlaces::move_to_end(const SweptCandidate& candidate) const {
+  SweptContact contact = place(candidate, candidate.start, Moment::start);
+  const Vec3 of_first = bodies_.displacement(world_, start_, contact.first);
+  const Vec3 of_second = bodies_.displacement(world_, start_, contact.second);
+  contact.distance += contact.normal.dot(of_first - of_second);
+  contact.is_near =
+      contact.distance < motion_.near_distance(contact.first.body, contact.second.body);
+  contact.first.point += of_first;
+  contact.second.point += of_second;
+  meet_halfway(contact.first, contact.second);
+  return contact;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,168 @@
+#include "sim/step/swept/end_contacts.h"
+
+#include <algorithm>
+#include <span>
+
+namespace pneuma::sim {
+namespace {
+
+/// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
+constexpr double least_of_falls = 4.0;
+
+/// What a pair of features has been given at the start.
+struct Given {
+  bool is_known = false;
+  bool is_of_end = false;  // the speed with which they meet
+  bool is_near = false;    // of the first contact that they made
+  double approach = 0.0;   // m/s, of that
+  double drift = 0.0;      // m/s, of that
+  double normal = 0.0;     // N s, of all
+  Vec3 friction = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
+};
+
+class EndContacts {
+ public:
+  EndContacts(const World& world, const MotionStart& start, SweptMemory& memory,
+              const SweptWarmStart& warm_start)
+      : world_(world),
+        m_(memory),
+        motion_(world, start, memory.bodies),
+        places_(world, start, memory.bodies),
+        warm_start_(warm_start) {}
+
+  void find() {
+    const auto all = std::span(m_.candidates);
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+      const BodyPair bodies = all[first].bodies;
+      while (end < all.size() && all[end].bodies == bodies) ++end;
+      touch(all.subspan(first, end - first));
+    }
+  }
+
+ private:
+  bool has_met(const SweptCandidate& candidate) const {
+    return candidate.contact >= 0 && m_.first_contacts[at(candidate.contact)].has_met;
+  }
+
+  Given given_at_start(const SweptCandidate& candidate) const {
+    Given given;
+    for (int i = candidate.contact; i >= 0; i = m_.first_contacts[at(i)].previous) {
+      given.is_known = true;
+      given.is_near = m_.first_contacts[at(i)].is_near;
+      given.approach = m_.first_contacts[at(i)].approach;
+      given.drift = m_.first_contacts[at(i)].drift;
+      given.normal += m_.first_impulses[at(i)].normal_impulse();
+      given.friction += m_.first_impulses[at(i)].friction_impulse();
+      given.impulse += m_.first_impulses[at(i)].given();
+    }
+    return given;
+  }
+
+  /// Of two bodies. The points of faces that come together differ by what is left of a solution;
+  /// boxes of which one corner alone were hit would turn.
+  void touch(std::span<const SweptCandidate> candidates) {
+    const std::size_t before = m_.contacts.size();
+    for (const SweptCandidate& candidate : candidates) {
+      if (!has_met(candidate)) touch(candidate);
+    }
+    const auto touched = std::span(m_.contacts).subspan(before);
+    if (touched.empty() || !motion_.is_rigid(touched.front())) return;
+    if (std::ranges::none_of(touched, is_hit)) return;
+    for (const SweptCandidate& candidate : candidates) {
+      if (!has_met(candidate)) hit_as_well(candidate);
+    }
+  }
+
+  /// What touches at the end does not approach, or bounces. An impulse of the start whose features
+  /// did not meet is given back.
+  void touch(const SweptCandidate& candidate) {
+    const auto [first, second] = candidate.bodies;
+    const Given before = given_at_start(candidate);
+    const bool acted = before.normal > 0.0;
+    auto contact = places_.place_at_end(candidate, acted);
+    if (!contact) return;
+    const ContactMaterial both = motion_.material(*contact);
+    const bool rubs = contact->is_near || (acted && before.is_near);
+    SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
+    if (acted) impulse.start_from(before.normal, before.friction);
+    if (!contact->is_near) impulse.only_give_back();
+    contact->is_new = !before.is_known;
+    const bool arrives = !acted && motion_.is_rigid(*contact) && flew(first) && flew(second);
+    set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
+    add_at_end(*contact, impulse, before.impulse);
+  }
+
+  /// Nothing has pushed it in this step: it has the speed with which it arrives.
+  bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
+
+  /// `alone`: no other point of the two bodies says that they are hit.
+  Given hit_at_end(const SweptContact& contact, bool alone) const {
+    const double approach = -contact.normal.dot(motion_.end_velocity(contact));
+    return {.is_known = true, .is_of_end = alone, .approach = approach};
+  }
+
+  void hit_as_well(const SweptCandidate& candidate) {
+    if (given_at_start(candidate).normal > 0.0) return;
+    auto contact = places_.place_beside_hit(candidate);
+    if (!contact) return;
+    const ContactMaterial both = motion_.material(*contact);
+    set_parting(hit_at_end(*contact, false), both.restitution, *contact);
+    if (!is_hit(*contact)) return;
+    add_at_end(*contact, motion_.impulse(*contact, both.friction), Vec3::Zero());
+  }
+
+  void add_at_end(const SweptContact& contact, SweptImpulse impulse, const Vec3& given_at_start) {
+    const Vec3 velocity = motion_.end_velocity(contact);
+    Vec3 sliding = velocity;
+    if (motion_.is_rigid(contact)) sliding += warm_start_.slip(contact) / step();
+    impulse.aim(contact.parting - contact.normal.dot(velocity), sliding);
+    m_.contacts.push_back(contact);
+    m_.impulses.push_back(impulse);
+    m_.end_velocities.push_back(velocity);
+    m_.given_at_start.push_back(given_at_start);
+  }
+
+  /// m/s. A box that gravity brings back within the step does not bounce: it would fall by other
+  /// ways as it leaves and as it comes back, and bounce for ever. At the end of a step, and of what
+  /// is near as it begins, the speed may be that of such a fall, more than once if it turns.
+  double least_bounce(const Given& before, const SweptContact& contact) const {
+    if (!motion_.is_rigid(contact)) return min_bounce_speed;
+    const double fallen = step() * world_.settings.gravity.norm();
+    const bool may_be_fall = before.is_of_end || before.is_near;
+    return std::max(min_bounce_speed, may_be_fall ? least_of_falls * fallen : 0.5 * fallen);
+  }
+
+  void set_parting(const Given& before, double restitution, SweptContact& contact) const {
+    const double bounce = restitution * before.approach;
+    // Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
+    const bool may_bounce = before.is_known && (!before.is_near || motion_.is_rigid(contact));
+    if (!contact.is_near) {
+      contact.parting = -before.approach;
+      contact.returns_energy = true;
+    } else if (may_bounce && bounce >= least_bounce(before, contact)) {
+      contact.approach = before.approach;
+      contact.drift = before.drift;
+      contact.restitution = restitution;
+      contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
+      contact.returns_energy = true;
+    }
+  }
+
+  double step() const { return time_step(world_.settings); }
+
+  const World& world_;
+  SweptMemory& m_;
+  ContactMotion motion_;
+  ContactPlaces places_;
+  const SweptWarmStart& warm_start_;
+};
+
+}  // namespace
+
+void find_end_contacts(const World& world, const MotionStart& start, SweptMemory& memory,
+                       const SweptWarmStart& warm_start) {
+  EndContacts(world, start, memory, warm_start).find();
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,169 @@
+// The part of SweptSearch that sees two boxes near each other as boxes, not by their features.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/collision/box_contact.h"
+#include "sim/collision/separating_axis.h"
+#include "sim/step/swept/shift_boxes.h"
+#include "sim/step/swept/swept_search.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of the distance wanted: further than this boxes do not get into each other in a step.
+constexpr double allowed_sinking = 0.1;
+
+double reach_of(const OrientedBox& one, const OrientedBox& other) {
+  return near_of_side * 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
+}
+
+}  // namespace
+
+OrientedBox SweptSearch::end_box(int body) const {
+  const RigidBox& box = world_.rigid[at(bodies_.box(body))];
+  return {box.position, bodies_.end_axes(body), 0.5 * box.size};
+}
+
+OrientedBox SweptSearch::start_box(int body) const {
+  const RigidState& start = start_.rigid[at(bodies_.box(body))];
+  return {start.position, bodies_.start_axes(body), 0.5 * world_.rigid[at(bodies_.box(body))].size};
+}
+
+/// m, of a corner of one box against one of another, at most: the same motion of both is left out.
+double SweptSearch::greatest_relative_way(int first, int second) const {
+  constexpr std::size_t corners = 8;
+  using Ways = std::array<Vec4d, corners>;
+  Vec4d mean{};
+  const auto ways_of = [&](int body) {
+    const VertexReader start(bodies_.surface(body).start), end(bodies_.surface(body).end);
+    Ways ways;
+    for (std::size_t i = 0; i < corners; ++i) {
+      ways[i] = end[static_cast<int>(i)] - start[static_cast<int>(i)];
+      mean += 1.0 / (2.0 * corners) * ways[i];
+    }
+    return ways;
+  };
+  const Ways of_first = ways_of(first), of_second = ways_of(second);
+  const auto greatest = [&](const Ways& ways) {
+    double squared = 0.0;
+    for (const Vec4d way : ways) squared = std::max(squared, dot(way - mean, way - mean));
+    return std::sqrt(squared);
+  };
+  return greatest(of_first) + greatest(of_second);
+}
+
+/// Boxes that are too far apart to touch, and too slow.
+bool SweptSearch::stay_apart(const BodyPair& bodies, const OrientedBox& one,
+                             const OrientedBox& other) const {
+  const auto [first, second] = bodies;
+  const double reach = motion_.near_distance(first, second) + bodies_.allowance(first) +
+                       bodies_.allowance(second) + greatest_relative_way(first, second);
+  return !find_min_overlap(one, other, reach);
+}
+
+/// Whether the bodies are boxes that lie in each other, or are near each other and stay so: their
+/// contact says how deep they lie in each other, which features that have passed through each other
+/// cannot. Nothing is offered of boxes that stay apart.
+bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
+  const auto [first, second] = bodies;
+  if (!bodies_.is_rigid(first) || !bodies_.is_rigid(second)) return false;
+  const OrientedBox one = start_box(first), other = start_box(second);
+  const double near_boxes = reach_of(one, other);
+  const auto contact = find_box_contact_within(near_boxes, one, other);
+  if (!contact) return stay_apart(bodies, one, other);
+  if (contact->depth < 0.0 && greatest_relative_way(first, second) > near_boxes) return false;
+  for (int i = 0; i < contact->count; ++i) {
+    const auto& [point, depth] = contact->all[at(i)];
+    const Feature number{FeatureKind::vertex, i};
+    SweptCandidate candidate{bodies, {number, number}};
+    candidate.start.first_point = candidate.start.second_point = point;
+    candidate.start.distance = -depth;
+    candidate.is_of_near_boxes = true;
+    candidate.normal = contact->normal;
+    m_.candidates.push_back(candidate);
+  }
+  return true;
+}
+
+/// Boxes that turn or slide into each other, which the points of their contact at the start of the
+/// step do not see: they are held where they would be in each other at its end. What goes far needs
+/// a shorter step.
+bool SweptSearch::turn_into_each_other(SweptCandidate& first_point) {
+  const auto [first, second] = first_point.bodies;
+  const double allowed = allowed_sinking * motion_.distance_wanted(first, second);
+  if (greatest_relative_way(first, second) <= allowed) return false;
+  const auto after = find_box_contact(end_box(first), end_box(second));
+  if (!after || after->depth <= allowed) return false;
+  const OrientedBox one = start_box(first), other = start_box(second);
+  const double near_boxes = reach_of(one, other);
+  const auto before = find_box_contact_within(near_boxes, one, other);
+  const double sinks = after->depth - (before ? std::max(0.0, before->depth) : 0.0);
+  if (sinks <= allowed) return false;
+  if (sinks > near_boxes) blocked_ = first_point.bodies;
+  for (const BoxContactPoint& point : after->points()) {
+    add(first_point, places_.place_before_end(first_point, after->normal, point));
+  }
+  return true;
+}
+
+/// Boxes that turn, or that others push, into each other, further than they were.
+bool SweptSearch::sinks_in(SweptCandidate& candidate) {
+  const auto [first, second] = candidate.bodies;
+  const bool is_first_point = candidate.features.first.index == 0;
+  if (is_first_point && turn_into_each_other(candidate)) return true;
+  const double least = std::min(0.0, candidate.start.distance) -
+                       allowed_sinking * motion_.distance_wanted(first, second);
+  if (places_.move_to_end(candidate).distance >= least) return false;
+  if (candidate.contact < 0)
+    add(candidate, places_.place(candidate, candidate.start, Moment::start));
+  return true;
+}
+
+template <class Visit>
+void SweptSearch::for_each_of_boxes(const Visit& visit) const {
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const auto [first, second] = candidate.bodies;
+    const bool on_ground = second == swept_ground && bodies_.is_rigid(first);
+    if (!candidate.is_of_near_boxes && !on_ground) continue;
+    const double distance = on_ground
+                                ? bodies_.surface(first).start[candidate.features.first.index].z()
+                                : candidate.start.distance;
+    visit(candidate, missing_distance(motion_.distance_wanted(first, second), distance));
+  }
+}
+
+double SweptSearch::greatest_missing_of_boxes() const {
+  double greatest = 0.0;
+  for_each_of_boxes(
+      [&](const SweptCandidate&, double missing) { greatest = std::max(greatest, missing); });
+  return greatest;
+}
+
+void SweptSearch::find_contacts_of_boxes(double room) {
+  m_.contacts.clear();
+  for_each_of_boxes([&](const SweptCandidate& candidate, double missing) {
+    if (missing < -room) return;
+    m_.contacts.push_back(candidate.is_of_near_boxes
+                              ? places_.place(candidate, candidate.start, Moment::start)
+                              : places_.place_on_ground(candidate, Moment::start));
+  });
+}
+
+/// Of soft bodies the side does not give way: they are not shifted.
+void SweptSearch::find_contacts_beside_boxes(double reach) {
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const auto [first, second] = candidate.bodies;
+    if (second == swept_ground || bodies_.is_rigid(first) == bodies_.is_rigid(second)) continue;
+    if (candidate.start.distance >= motion_.distance_wanted(first, second) + reach) continue;
+    if (!places_.stands(candidate, candidate.start, Moment::start)) continue;
+    const SweptContact contact = places_.place(candidate, candidate.start, Moment::start);
+    const auto side = [&](const SurfacePoint& point) {
+      return bodies_.is_rigid(point.body) ? bodies_.side(world_, point) : SweptSide();
+    };
+    m_.contacts.push_back(contact);
+    m_.impulses.push_back({side(contact.first), side(contact.second), contact.normal, 0.0});
+  }
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,74 @@
+#include "sim/step/swept/start_aims.h"
+
+#include <algorithm>
+
+#include "sim/step/swept/shift_boxes.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// Of the distance wanted: what a step leaves of it between boxes that it brings together. More
+/// than it is solved for, so that they do not cross.
+constexpr double least_of_wanted = 0.02;
+
+class StartAims {
+ public:
+  StartAims(const World& world, const MotionStart& start, SweptMemory& memory,
+            const SweptWarmStart& warm_start)
+      : world_(world), m_(memory), motion_(world, start, memory.bodies), warm_start_(warm_start) {}
+
+  void aim() {
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      const Vec3 shift = motion_.shift(contact);
+      const Vec3 moved = (motion_.displacement(contact) - shift) / step();
+      const Vec3 free = moved - m_.impulses[i].change();
+      const double parting = may_move(contact, contact.normal.dot(shift)) / step();
+      const Vec3 slip = warm_start_.slip(contact) / step();
+      m_.impulses[i].aim(parting - contact.normal.dot(free), free + slip);
+    }
+  }
+
+ private:
+  /// m, along the normal in this step and besides the `shift` (m) along it, at least: negative if
+  /// there is room.
+  double may_move(const SweptContact& contact, double shift) const {
+    const double closer = std::max(0.0, -shift);
+    if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
+    if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
+    if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
+      // Shifts do the rest. What presses boxes together must not take them back.
+      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
+      const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
+      const double room = is_held ? -missing_distance(contact) : contact.distance - least;
+      return closer - std::max(0.0, room);
+    }
+    // Springs take back most of what holds up a vertex that others press into the ground.
+    const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
+    return closer + made_up * std::max(0.0, missing_distance(contact));
+  }
+
+  bool is_carried(const SurfacePoint& box) const {
+    return box.body != swept_ground && m_.carried_boxes.is_carried(m_.bodies.box(box.body));
+  }
+
+  bool on_ground_as_box(const SweptContact& contact) const {
+    return contact.second.body == swept_ground && motion_.is_rigid(contact);
+  }
+
+  double step() const { return time_step(world_.settings); }
+
+  const World& world_;
+  SweptMemory& m_;
+  ContactMotion motion_;
+  const SweptWarmStart& warm_start_;
+};
+
+}  // namespace
+
+void aim_at_distances(const World& world, const MotionStart& start, SweptMemory& memory,
+                      const SweptWarmStart& warm_start) {
+  StartAims(world, start, memory, warm_start).aim();
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,154 @@
+// The memory of a step with swept contacts. Private to sim/step.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/disjoint_sets.h"
+#include "sim/response/carried_boxes.h"
+#include "sim/response/fall_asleep.h"
+#include "sim/step/swept/swept_solver.h"
+#include "sim/swept/impact_path.h"
+
+namespace pneuma::sim {
+
+/// What a step or a part of it began with, that has failed and is to be halved.
+struct SweptStart {
+  MotionStart motion;
+  std::vector<WarmStartImpulse> warm_start_impulses;
+  std::vector<FrictionSlip> friction_slips;
+  std::vector<double> lost_energy;  // J
+};
+
+/// How often a step may be halved: to a 256th.
+inline constexpr int max_halvings = 8;
+
+/// Memory of limit_returned_energy.
+struct ReturnedEnergyMemory {
+  std::vector<std::uint8_t> returns;  // per island
+  std::vector<Vec3> given;            // N s, per contact
+};
+
+/// Boxes that are near each other, directly or through others.
+struct NearGroups {
+  explicit NearGroups(std::size_t boxes) : sets(boxes + 1) { order.reserve(boxes); }
+
+  base::DisjointSets sets;  // of the boxes, and of one more for all that does not give way
+  std::vector<int> order;   // the boxes that are near nothing else, set by set
+};
+
+/// Of a soft body and an obstacle.
+struct NearTriangles {
+  std::vector<TrianglePair> triangles;
+  bool is_known = false;  // of the last search for what is near
+};
+
+/// Contacts of the same features, when another search has other candidates.
+struct RecalledContact {
+  int first = 0;
+  int last = 0;
+  bool is_found = false;  // by the other search
+};
+
+/// Features that come too near each other on their ways.
+struct Meeting {
+  int candidate = 0;
+  double fraction = 0.0;  // of the step
+};
+
+/// A point in which boxes that met nothing else have met within the step (free_impacts.h).
+struct MetFreely {
+  int first = 0;
+  int second = 0;
+  Vec3 point = Vec3::Zero();    // m
+  Vec3 normal = Vec3::Zero();   // unit, from the second to the first
+  Vec3 impulse = Vec3::Zero();  // N s, on the first
+};
+
+/// Of a soft body: its vertices that have a part in no candidate and meet the ground by themselves.
+struct OnGround {
+  bool meets_alone = false;  // it has such vertices
+  bool is_held = false;      // one of them has met the ground
+  double work = 0.0;         // J, of the ground on these
+};
+
+/// A vertex that has a part in a candidate and ends below the ground.
+struct SunkVertex {
+  int node = 0;
+  int soft = 0;
+  int vertex = 0;
+  double room = 0.0;  // m, by which it may rise
+};
+
+/// What a box that moves freely has contacts with at the start of the step.
+struct Partner {
+  int contacts = 0;
+  std::size_t first_contact = 0;
+  int body = swept_ground;   // of the last of them
+  bool is_only_one = false;  // of all of them, and not near yet
+  bool is_hit = false;       // in one of them it may be, and bounce
+};
+
+struct SweptMemory {
+  explicit SweptMemory(const World& world)
+      : bodies(world),
+        solver(bodies),
+        starts(max_halvings + 1),
+        near_groups(world.rigid.size()),
+        carried_boxes(world),
+        fall_asleep(world),
+        on_ground(world.soft.size()),
+        is_in_candidate(at(bodies.node_count())) {
+    members.reserve(at(bodies.count()));
+    parts_done.reserve(1u << max_halvings);
+  }
+
+  SweptBodies bodies;
+  SweptSolver solver;
+  std::vector<SweptStart> starts;  // by how often the step has been halved
+  std::vector<double> parts_done;  // of a step that is halved, fractions of it
+  std::vector<BodyPair> near_bodies;
+  std::vector<SweptCandidate> candidates;
+  std::vector<SweptCandidate> earlier_candidates;  // of the search before, in the same step
+  ObstacleSearch obstacle_search;
+  std::vector<NearTriangles> near_triangles;  // of each soft body and obstacle that are near
+  std::vector<int> touched_asleep;  // bodies that sleep and that something awake may touch
+  std::vector<NearFeatures> found;  // of two bodies
+  std::vector<SweptContact> contacts;
+  std::vector<SweptImpulse> impulses;        // of the contacts, one each
+  std::vector<SweptContact> first_contacts;  // those of the start, once the end is solved for
+  std::vector<SweptImpulse> first_impulses;
+  std::vector<Meeting> meetings;
+  std::vector<RecalledContact> recalled;
+  std::vector<int> entry_of_contact;  // in the list of those that are recalled, before it is sorted
+  std::vector<double> work_of_start;  // J, of each of those
+  std::vector<Vec3>
+      end_velocities;  // m/s, per contact: of the sides before the impulses of the end
+  std::vector<Vec3> given_at_start;  // N s, per contact of the end: of the same features
+  ReturnedEnergyMemory returned_energy;
+  ImpactPath impact_path;
+  std::vector<ImpactPoint> impact_points;
+  std::vector<FrictionSlip> friction_slips;
+  std::vector<double> lost_energy;      // World's, before the step
+  std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
+  std::vector<int> members;             // bodies of an island, or of other groups
+  std::vector<MetFreely> met_freely;
+  std::vector<Partner> partners;        // of each body
+  std::vector<std::uint8_t> is_pushed;  // of each body: 1 if anything has, in this step
+  std::vector<SweptImpulse> of_impact;  // that is solved for
+  NearGroups near_groups;
+  CarriedBoxes carried_boxes;
+  FallAsleep fall_asleep;
+  std::vector<BodyPair> paired;               // bodies with candidates
+  std::vector<std::uint8_t> is_borne;         // per box, at the start
+  std::vector<BodyRest> rest;                 // as the step found it
+  std::vector<OnGround> on_ground;            // per soft body
+  std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
+  std::vector<SunkVertex> sunk;
+  VertexArray before_ground;  // of a soft body that meets nothing else
+  bool measures_work = false;
+  double work = 0.0;         // J, of all contacts of the last step
+  double driven_work = 0.0;  // J, of the bodies that are moved
+};
+
+}  // namespace pneuma::sim
