@@ -21,6 +21,20 @@ std::string goes_beyond(const std::string& body, double time) {
       body, time, body);
 }
 
+/// Of a world: what differs from frame to frame. Names and settings are little.
+std::size_t bytes_of(const sim::World& world) {
+  std::size_t bytes = world.rigid.size() * sizeof(sim::RigidBox);
+  for (const sim::SoftBody& body : world.soft) {
+    bytes +=
+        static_cast<std::size_t>(body.positions.rows().size() + body.velocities.rows().size()) *
+        sizeof(double);
+  }
+  return bytes;
+}
+
+/// Of all frames that are kept: two seconds of bodies of a hundred thousand vertices.
+constexpr std::size_t most_bytes_kept = std::size_t{512} << 20;
+
 /// Sums in the order of frames, so that every run comes to the same.
 class MeanCamera {
  public:
@@ -108,6 +122,15 @@ void RunCamera::look_to_the_end(const sim::World& start) {
   whole_ = cameras_.back();
 }
 
+std::optional<SimulatedFrame> RunCamera::take_frame(std::int64_t frame) {
+  if (looking_) looking_->finish();
+  while (!kept_.empty() && frame_of(kept_.front().world) < frame) kept_.pop_front();
+  if (kept_.empty() || frame_of(kept_.front().world) != frame) return std::nullopt;
+  std::optional<SimulatedFrame> taken = std::move(kept_.front());
+  kept_.pop_front();
+  return taken;
+}
+
 /// From the run's own state, so that what it has done already is not simulated again.
 void RunCamera::start_ahead(const sim::World& world) {
   ahead_.emplace(scene_, world, threads_, on_divergence_);
@@ -115,14 +138,16 @@ void RunCamera::start_ahead(const sim::World& world) {
   view_ahead_ = view_;
   cameras_ = {view_->camera()};
   last_camera_ = frame_of(world);
+  kept_.clear();
+  const auto most_frames = static_cast<std::size_t>(frames_ahead_ + 1);
+  keeps_frames_ = keeps_frames_ && most_frames * bytes_of(world) <= most_bytes_kept;
 }
 
 /// Frames and not steps: what lies between two pictures is seen by nobody.
 void RunCamera::advance_ahead() {
   if (ahead_has_ended_ || last_camera_ >= last_frame_) return;
   try {
-    do ahead_->advance_step();
-    while (!shows_frame(ahead_->world()));
+    ahead_->advance_frame();
   } catch (const DivergenceError&) {
     ahead_has_ended_ = true;  // the run itself will come to the same step and report it
     return;
@@ -131,6 +156,7 @@ void RunCamera::advance_ahead() {
   if (body && beyond_.empty()) beyond_ = goes_beyond(*body, sim::time(ahead_->world()));
   cameras_.push_back(view_ahead_->camera());
   ++last_camera_;
+  if (keeps_frames_) kept_.push_back(ahead_->present_frame());
 }
 
 void RunCamera::advance_ahead_to(std::int64_t frame) {

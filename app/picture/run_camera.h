@@ -60,6 +60,12 @@ class RunCamera {
   /// Simulates ahead for the next frame while the caller goes on with something else.
   void prepare_next();
 
+  /// From now on frames that are simulated ahead are kept, if they are not too large, for one who
+  /// takes each of them in place of simulating it again.
+  void keep_frames() { keeps_frames_ = true; }
+  /// None if that frame has not been kept. Frames before it are forgotten.
+  std::optional<SimulatedFrame> take_frame(std::int64_t frame);
+
   /// From now on the camera has all of the run in view that starts here.
   void look_to_the_end(const sim::World& start);
 
@@ -93,6 +99,8 @@ class RunCamera {
   bool ahead_has_ended_ = false;        // by a divergence
   std::deque<render::Camera> cameras_;  // E(k) above
   std::int64_t last_camera_ = 0;        // the k of the last of them
+  bool keeps_frames_ = false;
+  std::deque<SimulatedFrame> kept_;  // from one frame to the last that was simulated ahead
 
   std::string beyond_;  // that a body goes too far
   bool beyond_said_ = false;

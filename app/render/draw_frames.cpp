@@ -59,8 +59,7 @@ class FrameWriter {
     }
     frame.seconds.mesh = watch.lap();
     frame.number = simulation.frame();
-    frame.state =
-        recorder_.state(simulation, {camera, output_.camera.seen(), output_.fields.seen()});
+    frame.state = frame_state(simulation, {camera, output_.camera.seen(), output_.fields.seen()});
     frame.checkpoint = sim::save_state(simulation.world());
     return frame;
   }
@@ -107,7 +106,6 @@ class FrameWriter {
   }
 
   FrameOutput output_;
-  FrameRecorder recorder_;
   bool none_taken_ = true;
   Stopwatch since_last_frame_;
   Background finishing_{1};  // the last member: it ends before what its jobs use
@@ -141,6 +139,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
   ProgressState state;
   state.last = last;
   std::optional<TakenFrame> next;  // of the present state, unless it is drawn already
+  std::optional<SimulatedFrame> simulated;
   const auto take_next = [&] {
     if (simulation.frame() >= first) {
       next = writer.take(simulation);
@@ -159,6 +158,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
       throw;
     }
   };
+  output.camera.keep_frames();
   take_next();
   for (;;) {
     state.frame = simulation.frame();
@@ -168,9 +168,14 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
     std::optional<TakenFrame> frame = std::exchange(next, std::nullopt);
     const bool more = state.frame < last;
     if (more) {
+      simulated = output.camera.take_frame(state.frame + 1);
       output.camera.prepare_next();
       making.submit([&] {
-        simulation.advance_frame();
+        if (simulated) {
+          simulation.adopt(*std::exchange(simulated, std::nullopt));
+        } else {
+          simulation.advance_frame();
+        }
         take_next();
       });
     }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -126,9 +127,12 @@ Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads
 
 void Simulation::advance_frame() {
   step_parts_.clear();
-  for (int i = 0; i < steps_per_frame_; ++i) step();
+  const sim::StageTimes before = stepper_.stage_times();
+  do step();
+  while (world_.steps % steps_per_frame_ != 0);
   stepper_.place_obstacles(world_);
   require_all_near();
+  std::ranges::transform(stepper_.stage_times(), before, stage_times_.begin(), std::minus{});
 }
 
 void Simulation::advance_step() {
@@ -138,8 +142,23 @@ void Simulation::advance_step() {
   if (world_.steps % steps_per_frame_ == 0) require_all_near();
 }
 
+SimulatedFrame Simulation::present_frame() const {
+  return {world_,   {contacts().begin(), contacts().end()}, step_parts_, stage_times_, driven_work_,
+          gas_work_};
+}
+
+void Simulation::adopt(SimulatedFrame frame) {
+  world_ = std::move(frame.world);
+  other_contacts_ = std::move(frame.contacts);
+  has_other_contacts_ = true;
+  step_parts_ = std::move(frame.step_parts);
+  stage_times_ = frame.stage_times;
+  driven_work_ = frame.driven_work;
+  gas_work_ = frame.gas_work;
+}
+
 void Simulation::step() {
-  was_divided_ = false;
+  has_other_contacts_ = false;
   const auto divergence = stepper_.step(world_);
   driven_work_ = stepper_.driven_work();
   gas_work_ = stepper_.gas_work();
@@ -184,8 +203,8 @@ bool Simulation::step_in_parts(int parts) {
     driven_work += stepper.driven_work();
     gas_work += stepper.gas_work();
   }
-  was_divided_ = true;
-  contacts_of_parts_.assign(stepper.contacts().begin(), stepper.contacts().end());
+  has_other_contacts_ = true;
+  other_contacts_.assign(stepper.contacts().begin(), stepper.contacts().end());
   driven_work_ = driven_work;
   gas_work_ = gas_work;
   finer.settings = world_.settings;

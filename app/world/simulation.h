@@ -26,28 +26,45 @@ enum class OnDivergence {
 };
 inline constexpr int greatest_step_parts = 1024;
 
+/// What another simulation of the same run has come to.
+struct SimulatedFrame {
+  sim::World world;
+  std::vector<sim::Contact> contacts;  // these and what follows: see Simulation
+  std::vector<int> step_parts;
+  sim::StageTimes stage_times{};
+  double driven_work = 0.0;
+  double gas_work = 0.0;
+};
+
 class Simulation {
  public:
   Simulation(const scenes::Scene& scene, sim::World world, int threads,
              OnDivergence on_divergence = OnDivergence::automatic);
 
-  /// The steps from one picture to the next. Throws DivergenceError, also for a body that is beyond
-  /// all reason away; the world is then in its last valid state.
+  /// The steps to the next picture. Throws DivergenceError, also for a body that is beyond all
+  /// reason away; the world is then in its last valid state.
   void advance_frame();
   /// One of these steps; step_parts() is then of it alone. Throws likewise.
   void advance_step();
+
+  SimulatedFrame present_frame() const;
+  /// In place of advance_frame(), from any frame before.
+  void adopt(SimulatedFrame frame);
 
   const sim::World& world() const { return world_; }
   const sim::Stepper& stepper() const { return stepper_; }
   /// Of the last step, or of the last of its parts: see Stepper.
   std::span<const sim::Contact> contacts() const {
-    return was_divided_ ? std::span<const sim::Contact>(contacts_of_parts_) : stepper_.contacts();
+    return has_other_contacts_ ? std::span<const sim::Contact>(other_contacts_)
+                               : stepper_.contacts();
   }
   /// J, of the last step: see Stepper.
   double driven_work() const { return driven_work_; }
   double gas_work() const { return gas_work_; }
   /// Of the steps to the present frame that were done in parts: in how many.
   const std::vector<int>& step_parts() const { return step_parts_; }
+  /// s, of each stage in the steps to the present frame.
+  const sim::StageTimes& stage_times() const { return stage_times_; }
   /// The frame that shows the present state; frame 0 is the start.
   std::int64_t frame() const { return world_.steps / steps_per_frame_; }
 
@@ -65,8 +82,9 @@ class Simulation {
   sim::World world_;
   sim::Stepper stepper_;
   std::vector<int> step_parts_;
-  std::vector<sim::Contact> contacts_of_parts_;
-  bool was_divided_ = false;  // the last step
+  sim::StageTimes stage_times_{};
+  std::vector<sim::Contact> other_contacts_;
+  bool has_other_contacts_ = false;  // the stepper has not made the last step
   double driven_work_ = 0.0;
   double gas_work_ = 0.0;
 };

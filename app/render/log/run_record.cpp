@@ -146,16 +146,14 @@ Json launch_line(const std::vector<std::string>& command_line, int threads, std:
             {"machine", machine_json<Json>()}}}};
 }
 
-FrameState FrameRecorder::state(const Simulation& simulation, const FrameCamera& camera) {
+FrameState frame_state(const Simulation& simulation, const FrameCamera& camera) {
   const sim::World& world = simulation.world();
   Json times = Json::object();
-  const sim::StageTimes& stage_times = simulation.stepper().stage_times();
-  for (std::size_t stage = 0; stage < stage_times.size(); ++stage) {
-    if (!simulation.stepper().plan().runs(static_cast<sim::Stage>(stage))) continue;
-    times[std::string(to_string(static_cast<sim::Stage>(stage)))] =
-        stage_times[stage] - stage_times_[stage];
+  for (std::size_t i = 0; i < simulation.stage_times().size(); ++i) {
+    const auto stage = static_cast<sim::Stage>(i);
+    if (!simulation.stepper().plan().runs(stage)) continue;
+    times[std::string(to_string(stage))] = simulation.stage_times()[i];
   }
-  stage_times_ = stage_times;
 
   const sim::Crossings crossings = sim::crossings(world);
   Json line = {{"frame", simulation.frame()},

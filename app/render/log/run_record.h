@@ -88,14 +88,8 @@ struct FrameState {
   std::string crosses_itself;     // the first body that does; empty: none
 };
 
-/// Makes a line per frame; with the parts of the steps that were done in parts, if any.
-class FrameRecorder {
- public:
-  FrameState state(const Simulation& simulation, const FrameCamera& camera);
-
- private:
-  sim::StageTimes stage_times_ = {};  // up to the last line
-};
+/// Of the present frame; with the parts of the steps that were done in parts, if any.
+FrameState frame_state(const Simulation& simulation, const FrameCamera& camera);
 
 /// The whole line, once the frame's files are there.
 Json frame_line(FrameState state, const PictureBytes& bytes, const FrameSeconds& seconds);

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/world/build_world.h"
 #include "scenes/loader/load_scene.h"
+#include "sim/inspect/inspect.h"
 #include "tests/app/picture/widest_view.h"
 
 namespace pneuma::app {
@@ -167,6 +169,46 @@ TEST(RunCamera, IsTheSameForAPartOfTheRunAfterAResumeAndForAnyThreads) {
       }
     });
   }
+}
+
+// A run takes each frame that the camera has simulated, and goes on by itself from the last.
+TEST(RunCamera, KeepsTheFramesThatItHasSimulated) {
+  const scenes::Scene scene = scene_of(apart, {"simulation.integrator=rk4"});
+  const sim::World start = build_world(scene);
+  Simulation whole(scene, start, 1), taking(scene, start, 1);
+  RunCamera alone(scene, start, 1), camera(scene, start, 1);
+  alone.at(start);
+  EXPECT_FALSE(alone.take_frame(1)) << "nobody has asked for it";
+  camera.keep_frames();
+  camera.at(start);
+  while (whole.frame() < frames_ahead + 5) {
+    whole.advance_frame();
+    if (auto frame = camera.take_frame(whole.frame())) {
+      EXPECT_LE(whole.frame(), frames_ahead);
+      taking.adopt(std::move(*frame));
+    } else {
+      EXPECT_GT(whole.frame(), frames_ahead);
+      taking.advance_frame();
+    }
+    EXPECT_EQ(sim::state_hash(taking.world()), sim::state_hash(whole.world()));
+    ASSERT_EQ(taking.contacts().size(), whole.contacts().size());
+    EXPECT_EQ(taking.step_parts(), whole.step_parts());
+    EXPECT_EQ(taking.driven_work(), whole.driven_work());
+    EXPECT_GT(taking.stage_times().front(), 0.0);
+  }
+}
+
+TEST(RunCamera, ForgetsFramesBeforeTheOneThatIsTaken) {
+  const scenes::Scene scene = scene_of(apart);
+  const sim::World start = build_world(scene);
+  RunCamera camera(scene, start, 1);
+  camera.keep_frames();
+  camera.at(start);
+  const auto tenth = camera.take_frame(10);
+  ASSERT_TRUE(tenth);
+  EXPECT_EQ(tenth->world.steps, 10 * scenes::steps_per_frame(scene));
+  EXPECT_FALSE(camera.take_frame(9));
+  EXPECT_TRUE(camera.take_frame(11));
 }
 
 TEST(RunCamera, BetweenFramesIsThatOfTheFrameBefore) {

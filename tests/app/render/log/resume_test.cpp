@@ -33,11 +33,10 @@ class UnfinishedRun : public testing::Test {
     journal.append({{"run", identity_}, {"scene_toml", "k = 1\nn = 2\n"}});
     journal.append(launch_line({"pneuma"}, 1, 0));
     Simulation simulation(scene_, start_, 1);
-    FrameRecorder recorder;
     for (int frame = 0; frame < 5; ++frame) {
       if (frame > 0) simulation.advance_frame();
       write_text(folder_.frame(frame), "12345");
-      journal.append(frame_line(recorder.state(simulation, {}), {.frame = 5, .overlay = {}}, {}));
+      journal.append(frame_line(frame_state(simulation, {}), {.frame = 5, .overlay = {}}, {}));
       states_.push_back(sim::save_state(simulation.world()));
       hashes_.push_back(sim::state_hash(simulation.world()));
     }

@@ -24,13 +24,12 @@ class RunLogOfABall : public testing::Test {
   /// Draws so many frames of the run.
   void draw(RunLog& log, int count) const {
     Simulation simulation(scene_, log.world(), 1);
-    FrameRecorder recorder;
     log.append_launch({"pneuma"}, 1);
     for (int frame = 0; frame < count; ++frame) {
       while (simulation.frame() < log.next_frame() + frame) simulation.advance_frame();
       write_text(folder_.frame(simulation.frame()), "12345");
       const auto seen = static_cast<float>(simulation.frame()) / 3.0f;
-      log.append_frame(recorder.state(simulation, {{}, {{seen, 2, 3, 4, 5, 6}}}),
+      log.append_frame(frame_state(simulation, {{}, {{seen, 2, 3, 4, 5, 6}}}),
                        {.frame = 5, .overlay = {}}, {}, sim::save_state(simulation.world()));
     }
   }
