@@ -160,6 +160,9 @@ std::string energy_text(const RunStatistics& run) {
     text += named_line("", fmt::format("work of moved bodies: {:+.4g} J", *run.driven_work));
   }
   if (run.pins_move) text += named_line("", "pins that move do work, which is not counted");
+  if (run.springs_are_moved) {
+    text += named_line("", "springs to moved bodies do work, which is not counted");
+  }
   if (run.gas_work) {
     text += named_line(
         "", fmt::format("of gas that came, went or was heated: {:+.4g} J", *run.gas_work));

@@ -56,11 +56,13 @@ std::vector<std::string> what_pushes(const sim::World& world) {
   return names;
 }
 
+bool is_moved_whole(const sim::SoftBody& body) {
+  return sim::is_kinematic(body) && body.pins->are_moved;
+}
+
 bool has_moved_obstacles(const sim::World& world) {
-  const bool has_moved_meshes = std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
-    return sim::is_kinematic(body) && body.pins->are_moved;
-  });
-  return has_moved_meshes || std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
+  return std::ranges::any_of(world.soft, is_moved_whole) ||
+         std::ranges::any_of(world.rigid, [](const sim::RigidBox& box) {
            return box.is_kinematic &&
                   (box.motion || !box.velocity.isZero() || !box.angular_velocity.isZero());
          });
@@ -69,6 +71,15 @@ bool has_moved_obstacles(const sim::World& world) {
 bool has_moved_pins(const sim::World& world) {
   return std::ranges::any_of(world.soft, [](const sim::SoftBody& body) {
     return body.pins && body.pins->are_moved && !body.pins->are_all;
+  });
+}
+
+bool has_moved_springs(const sim::World& world) {
+  const auto is_moved = [&](const sim::SpringEnd& end) {
+    return is_moved_whole(world.soft[sim::at(end.body)]);
+  };
+  return std::ranges::any_of(world.springs, [&](const sim::BodySpring& spring) {
+    return is_moved(spring.first) || is_moved(spring.second);
   });
 }
 
@@ -106,6 +117,7 @@ class Observer {
     result_.pushed_by = what_pushes(start);
     if (has_moved_obstacles(start)) result_.driven_work = 0.0;
     result_.pins_move = has_moved_pins(start);
+    result_.springs_are_moved = has_moved_springs(start);
     if (sim::has_gas_flow(start)) result_.gas_work = 0.0;
     find_start_overlaps(start);
     look_for_crossings(start);

@@ -120,6 +120,7 @@ struct RunStatistics {
   // J, of the bodies that are moved on what they pushed; none: there is no such body.
   std::optional<double> driven_work;
   bool pins_move = false;  // of bodies that are not moved whole: they do work that is not known
+  bool springs_are_moved = false;  // by bodies that are: so do they
   // J, by which gas that came, went or was heated changed the energy of gas; none: none does.
   std::optional<double> gas_work;
   bool has_gas_in_vacuum = false;  // without ambient pressure, at any time

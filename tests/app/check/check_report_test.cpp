@@ -158,6 +158,10 @@ TEST(RunStatisticsText, SaysWhatTheEnergyLeavesOut) {
   run.pins_move = true;
   EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find("pins that move do work"),
             std::string::npos);
+  EXPECT_EQ(plain.find("springs to moved bodies"), std::string::npos);
+  run.springs_are_moved = true;
+  EXPECT_NE(run_statistics_text(run, by_impulses(0.5)).find("springs to moved bodies do work"),
+            std::string::npos);
 }
 
 TEST(RunStatisticsText, SaysAtRestOrNot) {

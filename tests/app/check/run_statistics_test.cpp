@@ -143,6 +143,17 @@ TEST(RunStatistics, SayThatThePinsMove) {
   EXPECT_FALSE(statistics_of(free_sphere).pins_move);
 }
 
+TEST(RunStatistics, SayThatSpringsAreMoved) {
+  const auto towed_by = [](const std::string& kind) {
+    return std::string(free_sphere) + "[[body]]\nname = \"tow\"\nkind = \"" + kind +
+           "\"\nshape = \"sphere\"\nposition = [0, 0, 9]\n" +
+           (kind == "moved" ? "velocity = [0, 0, 1]\n" : "") +
+           "[[spring]]\nfrom = \"tow\"\nto = \"balloon\"\n";
+  };
+  EXPECT_TRUE(statistics_of(towed_by("moved").c_str()).springs_are_moved);
+  EXPECT_FALSE(statistics_of(towed_by("static").c_str()).springs_are_moved);
+}
+
 TEST(RunStatistics, TellPressureAndGasThatComes) {
   const std::string text = std::string(free_sphere) + "supply.n = [[0.1, 0], [0.4, 0.5]]\n" +
                            "[[body]]\nname = \"shut\"\nposition = [9, 0, 0]\nn = 1.5\n" +
