@@ -117,7 +117,8 @@ Section simulation_section(Scene& scene) {
           only(swept, of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
                                  "bodies that touch, none faster for half a second, leave the step "
                                  "until something touches them; of a body shorter than 1 m, this "
-                                 "times its length in m; 0: never"})),
+                                 "times its length in m; at most what gravity gives in 2 ms; 0: "
+                                 "never"})),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

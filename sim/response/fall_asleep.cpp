@@ -14,6 +14,16 @@ namespace {
 /// s, for which nothing may be faster: a body that comes to a halt and turns round does not sleep.
 constexpr double quiet_time = 0.5;
 
+/// s. What gravity speeds up without end would be quiet too where gravity is weak: speeds of rest
+/// are no more than it gives in this time.
+constexpr double fall_of_rest = 2e-3;
+
+double sleep_speed(const Settings& settings) {
+  const double gravity = settings.gravity.norm();
+  return gravity > 0.0 ? std::min(settings.sleep_speed, fall_of_rest * gravity)
+                       : settings.sleep_speed;
+}
+
 int quiet_steps(const Settings& settings) {
   return static_cast<int>(std::ceil(quiet_time * settings.steps_per_second));
 }
@@ -85,7 +95,7 @@ bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   if (world.settings.sleep_speed == 0.0) return false;
   world.rest.resize(islands_.size());
   const int enough = quiet_steps(world.settings);
-  const double per_metre = world.settings.sleep_speed * time_step(world.settings);
+  const double per_metre = sleep_speed(world.settings) * time_step(world.settings);
   bool any = false;
   for (int i = 0; i < body_count(world); ++i) {
     BodyRest& rest = world.rest[at(i)];

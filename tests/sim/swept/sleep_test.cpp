@@ -207,6 +207,24 @@ TEST(Sleep, WhatTouchesNothingOrGathersSpeedStaysAwake) {
 }
 
 /// What a step in which a body falls asleep takes of the energy beside one in which it may not.
+/// Without friction it gathers speed for ever, but is slower than anything for half a second.
+TEST(Sleep, WeakGravityLetsNothingSleepThatItSpeedsUp) {
+  constexpr double pull = 5e-3, seconds = 10.0;
+  World world = make_free_boxes({make_rigid(Vec3::Ones(), {0.0, 0.0, 0.5})}, 0.0);
+  world.settings.contact = ContactMethod::swept;
+  world.settings.gravity = {pull, 0.0, -2.0 * pull};
+  world.settings.ground = ContactMaterial{0.0, 0.0};
+  ASSERT_FALSE(run(world, seconds));
+  EXPECT_FALSE(is_asleep(world, 0));
+  const double expected = 0.5 * pull * seconds * seconds;
+  // Of the first order in the step of 1/60 s.
+  EXPECT_NEAR(world.rigid[0].position.x(), expected, 0.01 * expected);
+  world.settings.gravity = {0.0, 0.0, -2.0 * pull};
+  world.rigid[0].velocity.setZero();
+  ASSERT_FALSE(run(world, 1.0));
+  EXPECT_TRUE(is_asleep(world, 0));
+}
+
 TEST(Sleep, TheEnergyThatFallsAsleepIsWorkOfContacts) {
   World world;
   SoftBody ball = make_body(make_sphere(2.0, 8, 8), {0.0, 0.0, 2.0});
