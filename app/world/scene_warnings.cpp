@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/world/gas_warnings.h"
+#include "scenes/loader/integrator_names.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/closed_surface.h"
 #include "sim/inspect/inspect.h"
@@ -118,6 +119,12 @@ void add_lost_bounce(const scenes::Scene& scene, std::vector<std::string>& warni
                   body->name, body->surface.restitution, sim::time_step(settings))));
 }
 
+std::string warning_of_file(const scenes::Scene& scene, const std::string& text) {
+  scenes::Place place;  // the file as a whole
+  if (!scene.bodies.empty()) place.file = scene.bodies.front().place.file;
+  return to_string(scenes::diagnostic_at(place, "warning: " + text));
+}
+
 /// Its error of first order is energy: kept in steps of one length, won in each bounce in which
 /// steps are divided while contacts press.
 void add_won_energy(const scenes::Scene& scene, std::vector<std::string>& warnings) {
@@ -125,12 +132,26 @@ void add_won_energy(const scenes::Scene& scene, std::vector<std::string>& warnin
       scene.settings.integrator != sim::Integrator::symplectic_euler) {
     return;
   }
-  scenes::Place place;  // the file as a whole
-  if (!scene.bodies.empty()) place.file = scene.bodies.front().place.file;
-  warnings.push_back(to_string(scenes::diagnostic_at(
-      place,
-      "warning: simulation.integrator = \"symplectic_euler\" may gain energy where "
-      "simulation.contact = \"potential\" divides its steps; \"velocity_verlet\" keeps it")));
+  warnings.push_back(warning_of_file(
+      scene,
+      "simulation.integrator = \"symplectic_euler\" may gain energy where simulation.contact = "
+      "\"potential\" divides its steps; \"velocity_verlet\" keeps it"));
+}
+
+/// Nothing limits the steps of implicit integrators, and impulses see only where they end.
+void add_long_steps(const scenes::Scene& scene, const sim::World& start,
+                    std::vector<std::string>& warnings) {
+  if (scene.settings.contact != sim::ContactMethod::impulses ||
+      !sim::is_implicit(scene.settings.integrator) || start.soft.empty() ||
+      sim::body_count(start) < 2) {
+    return;
+  }
+  warnings.push_back(warning_of_file(
+      scene,
+      fmt::format("simulation.contact = \"impulses\" may let bodies into each other, and add "
+                  "energy, in steps as long as simulation.integrator = \"{}\" bears; set "
+                  "simulation.contact to \"swept\" or \"potential\", or another integrator",
+                  scenes::integrator_name(scene.settings.integrator))));
 }
 
 }  // namespace
@@ -155,6 +176,7 @@ std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::W
   add_loaded_start(scene, start, warnings);
   add_lost_bounce(scene, warnings);
   add_won_energy(scene, warnings);
+  add_long_steps(scene, start, warnings);
   return warnings;
 }
 

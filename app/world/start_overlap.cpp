@@ -25,8 +25,9 @@
 namespace pneuma::app {
 namespace {
 
-/// Of a body's size: what places written with a few digits, and rounding, leave of a touch.
-constexpr double start_touch = 1e-6;
+/// Of a body's size: what rounding leaves of a touch, and between boxes, which may lie in each
+/// other for a while, what places written with four digits do.
+constexpr double start_touch = 1e-6, start_touch_of_boxes = 1e-4;
 /// So many of the overlaps are told of.
 constexpr std::size_t most_shown = 10;
 /// Of two bodies together: of finer ones no shorter way apart is looked for.
@@ -45,7 +46,10 @@ bool is_deep(const sim::World& world, const sim::Overlap& overlap) {
   if (overlap.second != sim::ground_body) {
     least = std::min(least, least_extent(world, overlap.second));
   }
-  return overlap.depth > start_touch * least;
+  const auto is_box = [&](int body) { return sim::at(body) >= world.soft.size(); };
+  const bool are_boxes =
+      is_box(overlap.first) && (overlap.second == sim::ground_body || is_box(overlap.second));
+  return overlap.depth > (are_boxes ? start_touch_of_boxes : start_touch) * least;
 }
 
 std::string moved(double distance, std::string_view direction) {
@@ -111,9 +115,19 @@ std::optional<double> way_along(const TwoBodies& both, const sim::Vec3& directio
   return enough < shortest ? std::optional(enough) : std::nullopt;
 }
 
+constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
+
+/// The axis along which the second is furthest from the first.
+std::string_view direction_between(const sim::World& world, int first, int second) {
+  const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
+  const sim::Vec3 above = own.low - other.high, below = other.low - own.high;
+  int axis = 0, axis_below = 0;
+  const double gap = above.maxCoeff(&axis), gap_below = below.maxCoeff(&axis_below);
+  return gap >= gap_below ? directions[2 * sim::at(axis)] : directions[2 * sim::at(axis_below) + 1];
+}
+
 /// The shortest way along an axis, and not into the ground, by which bodies come apart.
 std::string way_apart(const sim::World& world, int first, int second) {
-  constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
   const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   const TwoBodies both(world, first, second);
   double shortest = std::numeric_limits<double>::infinity();
@@ -220,10 +234,13 @@ std::optional<StartOverlap> find_potential_start(const sim::World& world) {
   const bool on_ground = touching->second < 0;
   const std::string other =
       on_ground ? "the ground" : fmt::format("body '{}'", name_of(world, touching->first));
+  const std::string_view direction =
+      on_ground ? "+z" : direction_between(world, touching->first, touching->second);
   return StartOverlap{on_ground ? touching->first : touching->second,
                       fmt::format("starts {:.3g} m from {}; simulation.contact = \"potential\" "
-                                  "needs a part of {:.3g} m between them, so move it away",
-                                  touching->distance, other, touching->reach)};
+                                  "pushes apart what is nearer than {:.3g} m; {}",
+                                  touching->distance, other, touching->reach,
+                                  moved(touching->reach - touching->distance, direction))};
 }
 
 std::string what_parts_copies(const scenes::BodyScene& body) {

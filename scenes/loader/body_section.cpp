@@ -201,7 +201,7 @@ Section body_section(BodyScene& body) {
                {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"}),
           {"restitution", &surface.restitution, between(0, 1), "",
            "0 keeps no normal velocity, 1 keeps all; of two surfaces the greater counts; of a soft "
-           "body its vertices': gas and springs make it bounce beside that"},
+           "body its vertices', which then ring: as a whole it bounces by gas and springs"},
           {"friction", &surface.friction, at_least(0), "",
            "Coulomb's coefficient; of two surfaces the geometric mean counts"},
 

@@ -48,6 +48,16 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
 }
 
+TEST(StartOverlap, OfBoxesMayBeWhatFourDigitsLeave) {
+  const std::string ramp =
+      "[[body]]\nkind = \"static\"\nshape = \"box\"\nsize = [4, 4, 0.2]\nrotation = [0, 30, 0]\n"
+      "position = [0, 0, 4]\n[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nrotation = [0, 30, 0]\n";
+  // 0.6 m from middle to middle, across the ramp.
+  EXPECT_EQ(refusal_of(ramp + "position = [0.3, 0, 4.5196]\n"), "");
+  EXPECT_EQ(refusal_of(ramp + "position = [0.29999, 0, 4.5196]\n"), "");
+  EXPECT_NE(refusal_of(ramp + "position = [0.3, 0, 4.519]\n"), "");
+}
+
 TEST(StartOverlap, OfCopiesIsPartedByTheirSpacing) {
   const std::string copies = refusal_of(
       "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\ncopies = [2, 1, 1]\nspacing = [1, 0, 0]\n");
@@ -94,6 +104,7 @@ TEST(StartOverlap, ThePotentialNeedsADistanceButNotFromTheGround) {
                                           "position = [2, 0, 1]\n");
   EXPECT_NE(touching.find("body 'other': starts 0 m from body 'box'"), std::string::npos)
       << touching;
+  EXPECT_NE(touching.find(" m along +x"), std::string::npos) << touching;
 }
 
 TEST(SceneWarnings, SayThatThePotentialWouldThrowBodiesApart) {
@@ -130,6 +141,28 @@ TEST(SceneWarnings, SayWhichIntegratorsDampBouncesOrGainEnergy) {
   EXPECT_EQ(warnings("velocity_verlet", "0.9"), std::vector<std::string>());
   ASSERT_EQ(warnings("symplectic_euler", "0.2").size(), 1U);
   EXPECT_NE(warnings("symplectic_euler", "0.2")[0].find("may gain energy"), std::string::npos);
+}
+
+TEST(SceneWarnings, SayThatImpulsesSeeOnlyTheEndsOfLongSteps) {
+  const auto warnings = [](const std::string& contact, const std::string& integrator,
+                           const std::string& bodies) {
+    const scenes::Scene scene =
+        scenes::parse_scene("simulation.contact = \"" + contact + "\"\nsimulation.integrator = \"" +
+                                integrator + "\"\n" + bodies,
+                            "x.toml");
+    return scene_warnings(scene, build_world(scene), {}, {});
+  };
+  const std::string ball = "[[body]]\nposition = [0, 0, 4]\n",
+                    two = ball + "[[body]]\nkind = \"rigid\"\nposition = [0, 0, 9]\n";
+  for (const char* integrator : {"implicit_euler", "sdirk2"}) {
+    const auto said = warnings("impulses", integrator, two);
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_NE(said[0].find("simulation.contact = \"impulses\" may let bodies"), std::string::npos);
+    EXPECT_NE(said[0].find(integrator), std::string::npos);
+    EXPECT_EQ(warnings("impulses", integrator, ball), std::vector<std::string>());
+    EXPECT_EQ(warnings("swept", integrator, two), std::vector<std::string>());
+  }
+  EXPECT_EQ(warnings("impulses", "rk4", two), std::vector<std::string>());
 }
 
 TEST(StartOverlap, NamesAWayThatParts) {
