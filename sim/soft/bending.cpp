@@ -43,9 +43,31 @@ void add_torque(const HingeTable& hinges, std::size_t e, const VertexReader& x, 
 
 void add_four_torques(const HingeTable& hinges, std::size_t e, const FourHinges& four,
                       double rigidity, const ForceSums& sums) {
-  const Vec4d factors = -rigidity * load_vec4d(&hinges.weights[e]) * four.sines(hinges, e);
+  const Vec4d factors = -rigidity * load_vec4d(&hinges.weights[e]) * four.turn(hinges, e).sine;
   const std::array<HingeGradient, 4> gradients = four.gradients();
   for (std::size_t i = 0; i < 4; ++i) sums.add(hinges.corners[e + i], factors[i], gradients[i]);
+}
+
+/// Calls four(e, hinges) for the hinges e to e + 3 together, and one(e) for those that cannot be
+/// taken so, all in their order.
+template <class Four, class One>
+void for_each_four(const HingeTable& hinges, const VertexReader& x, const Four& four,
+                   const One& one) {
+  const std::size_t count = hinges.corners.size(), end = count - count % 4;
+  for (std::size_t e = 0; e < end; e += 4) {
+    const FourHinges together(hinges, e, x);
+    if (together.have_whole_normals(hinges, e)) {
+      four(e, together);
+    } else {
+      for (std::size_t i = 0; i < 4; ++i) one(e + i);
+    }
+  }
+  for (std::size_t e = end; e < count; ++e) one(e);
+}
+
+/// Near the rest angle the difference itself would be rounding.
+double one_less_cosine(double cosine, double sine) {
+  return cosine > 0.0 ? sine * sine / (1.0 + cosine) : 1.0 - cosine;
 }
 
 }  // namespace
@@ -58,13 +80,20 @@ double bending_energy(const HingeTable& hinges, const VertexArray& positions, do
   if (rigidity == 0.0) return 0.0;
   const VertexReader x(positions);
   double sum = 0.0;
-  for (std::size_t e = 0; e < hinges.corners.size(); ++e) {
+  const auto add_one = [&](std::size_t e) {
     const BentHinge bent = bend(hinges, e, x);
-    // 1 - cosine, which near the rest angle would be rounding.
-    const double turned =
-        bent.cosine > 0.0 ? bent.sine * bent.sine / (1.0 + bent.cosine) : 1.0 - bent.cosine;
+    const double turned = one_less_cosine(bent.cosine, bent.sine);
     sum += hinges.weights[e] * (bent.weight() * turned + (1.0 - bent.weight()));
-  }
+  };
+  for_each_four(
+      hinges, x,
+      [&](std::size_t e, const FourHinges& four) {
+        const FourHinges::Turn turn = four.turn(hinges, e);
+        for (std::size_t i = 0; i < 4; ++i) {
+          sum += hinges.weights[e + i] * one_less_cosine(turn.cosine[i], turn.sine[i]);
+        }
+      },
+      add_one);
   return rigidity * sum;
 }
 
@@ -77,16 +106,12 @@ void add_bending_forces(const HingeTable& hinges, const VertexArray& positions, 
     add_torque(hinges, e, x, rigidity, sums,
                [](const BentHinge&, std::size_t, const HingeGradient&) { return 0.0; });
   };
-  const std::size_t count = hinges.corners.size(), end = count - count % 4;
-  for (std::size_t e = 0; e < end; e += 4) {
-    const FourHinges four(hinges, e, x);
-    if (four.have_whole_normals(hinges, e)) {
-      add_four_torques(hinges, e, four, rigidity, sums);
-    } else {
-      for (std::size_t i = 0; i < 4; ++i) add_one(e + i);
-    }
-  }
-  for (std::size_t e = end; e < count; ++e) add_one(e);
+  for_each_four(
+      hinges, x,
+      [&](std::size_t e, const FourHinges& four) {
+        add_four_torques(hinges, e, four, rigidity, sums);
+      },
+      add_one);
 }
 
 void add_damped_bending_forces(const HingeTable& hinges, const VertexArray& positions,

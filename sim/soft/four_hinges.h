@@ -54,12 +54,15 @@ class FourHinges {
   }
 
   /// Of t - t0.
-  Vec4d sines(const HingeTable& hinges, std::size_t e) const {
+  struct Turn {
+    Vec4d cosine, sine;
+  };
+  Turn turn(const HingeTable& hinges, std::size_t e) const {
     const Vec4d scale = 1.0 / square_root(squared_first_ * squared_second_);
     const Vec4d cosine = scale * dot(first_, second_);
     const Vec4d sine = scale / length() * dot(cross(first_, second_), edge_);
     const Pair rest = load_pairs(&hinges.rest[e].cosine);
-    return sine * rest.first - cosine * rest.second;
+    return {cosine * rest.first + sine * rest.second, sine * rest.first - cosine * rest.second};
   }
 
   /// dt/dx of each.
