@@ -23,8 +23,10 @@ double ContactMotion::distance_wanted(int first, int second) const {
 
 double ContactMotion::near_distance(int first, int second) const {
   if (second == swept_ground) return (near_of_wanted - 1.0) * bodies_.skin(first);
-  return near_of_wanted * distance_wanted(first, second);
+  return near_distance(distance_wanted(first, second));
 }
+
+double ContactMotion::near_distance(double wanted) { return near_of_wanted * wanted; }
 
 const ContactMaterial& ContactMotion::material(int body) const {
   if (body == swept_ground) return *world_.settings.ground;

@@ -17,6 +17,8 @@ class ContactMotion {
   double distance_wanted(int first, int second) const;
   /// m, up to which features of two bodies are in contact.
   double near_distance(int first, int second) const;
+  /// The same of two bodies that keep a distance `wanted` (m).
+  static double near_distance(double wanted);
 
   ContactMaterial material(const SweptContact& contact) const;
   /// Boxes, and boxes and the ground: what rests on each other stays there.

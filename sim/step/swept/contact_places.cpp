@@ -31,13 +31,14 @@ SweptContact ContactPlaces::place(const SweptCandidate& candidate, const Closest
                                   Moment moment) const {
   const auto [first, second] = candidate.bodies;
   const auto& [of_first, of_second] = candidate.features;
+  const double wanted = motion_.distance_wanted(first, second);
   SweptContact contact = {
       .first = {first, of_first, closest.first_weights, closest.first_point},
       .second = {second, of_second, closest.second_weights, closest.second_point},
       .normal = normal_of(candidate, closest, moment),
       .distance = closest.distance,
-      .wanted = motion_.distance_wanted(first, second),
-      .is_near = closest.distance < motion_.near_distance(first, second)};
+      .wanted = wanted,
+      .is_near = closest.distance < ContactMotion::near_distance(wanted)};
   contact.is_of_near_boxes = candidate.is_of_near_boxes;
   if (motion_.is_rigid(contact)) meet_halfway(contact.first, contact.second);
   return contact;

@@ -74,9 +74,21 @@ bool SweptSearch::may_touch(const BodyPair& bodies) const {
   return comes_near(first, second) || comes_near(second, first);
 }
 
+/// Only what may be in contact at the end of the step, wherever the allowances let it be. A way is
+/// no longer than twice its allowance (SweptBodies), which says of most pairs that they are not.
 void SweptSearch::offer_near_features(const BodyPair& bodies) {
+  const auto [first, second] = bodies;
   bodies_.find_features(world_, start_, bodies, m_.found);
-  for (const NearFeatures& features : m_.found) offer(bodies, features);
+  const MovingSurface& a = bodies_.surface(first);
+  const MovingSurface& b = bodies_.surface(second);
+  const double touching = motion_.near_distance(first, second);
+  const double allowed = bodies_.allowance(first) + bodies_.allowance(second);
+  for (const NearFeatures& features : m_.found) {
+    if (are_apart(a, b, features, touching + 3.0 * allowed)) continue;
+    const double reach = touching + allowed + greatest_change(a, b, features);
+    const auto closest = closest_points(a, b, features, Moment::start, reach);
+    if (closest) m_.candidates.push_back({bodies, features, *closest});
+  }
 }
 
 void SweptSearch::mark_candidates() {
@@ -136,20 +148,6 @@ void SweptSearch::find_near_ground() {
       m_.candidates.push_back({{i, swept_ground}, {{FeatureKind::vertex, v}, {}}, {}});
     }
   }
-}
-
-/// Only what may be in contact at the end of the step, wherever the allowances let it be. A way is
-/// no longer than twice its allowance (SweptBodies), which says of most pairs that they are not.
-void SweptSearch::offer(const BodyPair& bodies, const NearFeatures& features) {
-  const auto [first, second] = bodies;
-  const MovingSurface& a = bodies_.surface(first);
-  const MovingSurface& b = bodies_.surface(second);
-  const double touching = motion_.near_distance(first, second);
-  const double allowed = bodies_.allowance(first) + bodies_.allowance(second);
-  if (are_apart(a, b, features, touching + 3.0 * allowed)) return;
-  const double reach = touching + allowed + greatest_change(a, b, features);
-  const auto closest = closest_points(a, b, features, Moment::start, reach);
-  if (closest) m_.candidates.push_back({bodies, features, *closest});
 }
 
 void SweptSearch::follow_ends() {

@@ -84,7 +84,6 @@ class SweptSearch {
   bool turn_into_each_other(SweptCandidate& first_point);
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
-  void offer(const BodyPair& bodies, const NearFeatures& features);
   /// Gives the contacts that there are to the candidates of another search.
   void recall_contacts();
   void list_recalled();
