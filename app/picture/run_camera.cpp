@@ -172,7 +172,8 @@ void RunCamera::advance_ahead_to(std::int64_t frame) {
   if (seconds < worth_a_word || wait_said_) return;
   wait_said_ = true;
   say(fmt::format(
-      "looking ahead for the camera took {:.0f} s; eye and target in [camera] save that", seconds));
+      "looking ahead for the camera took {:.0f} s; eye and target in [camera] save the wait",
+      seconds));
 }
 
 /// E(k) as far as the simulation ahead has come.

@@ -47,8 +47,9 @@ bool is_deep(const sim::World& world, const sim::Overlap& overlap) {
     least = std::min(least, least_extent(world, overlap.second));
   }
   const auto is_box = [&](int body) { return sim::at(body) >= world.soft.size(); };
-  const bool are_boxes =
-      is_box(overlap.first) && (overlap.second == sim::ground_body || is_box(overlap.second));
+  const bool are_boxes = world.settings.contact == sim::ContactMethod::swept &&
+                         is_box(overlap.first) &&
+                         (overlap.second == sim::ground_body || is_box(overlap.second));
   return overlap.depth > (are_boxes ? start_touch_of_boxes : start_touch) * least;
 }
 
@@ -117,12 +118,14 @@ std::optional<double> way_along(const TwoBodies& both, const sim::Vec3& directio
 
 constexpr std::array<std::string_view, 6> directions = {"+x", "-x", "+y", "-y", "+z", "-z"};
 
-/// The axis along which the second is furthest from the first.
+/// The axis along which the second lies beside the first, if one does: not in a hollow of it.
 std::string_view direction_between(const sim::World& world, int first, int second) {
   const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   const sim::Vec3 above = own.low - other.high, below = other.low - own.high;
   int axis = 0, axis_below = 0;
   const double gap = above.maxCoeff(&axis), gap_below = below.maxCoeff(&axis_below);
+  constexpr double beside = -1e-6;  // m: to rounding
+  if (std::max(gap, gap_below) < beside) return "";
   return gap >= gap_below ? directions[2 * sim::at(axis)] : directions[2 * sim::at(axis_below) + 1];
 }
 
@@ -215,6 +218,18 @@ const scenes::BodyScene& in_scene(const scenes::Scene& scene, int body) {
   return scene.bodies.back();
 }
 
+std::string too_near(const std::string& other, const sim::NearStart& touching,
+                     std::string_view direction) {
+  const double missing = touching.reach - touching.distance;
+  return fmt::format(
+      "starts {:.3g} m from {}; simulation.contact = \"potential\" pushes apart what is nearer "
+      "than "
+      "{:.3g} m; {}",
+      touching.distance, other, touching.reach,
+      direction.empty() ? fmt::format("move it {} m away", base::text_above(missing))
+                        : moved(missing, direction));
+}
+
 /// What the contact potential cannot start from, beside that.
 std::optional<StartOverlap> find_potential_start(const sim::World& world) {
   for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
@@ -231,16 +246,19 @@ std::optional<StartOverlap> find_potential_start(const sim::World& world) {
                         "starts touching itself, where simulation.contact = \"potential\" needs a "
                         "distance; set simulation.contact = \"swept\""};
   }
-  const bool on_ground = touching->second < 0;
-  const std::string other =
-      on_ground ? "the ground" : fmt::format("body '{}'", name_of(world, touching->first));
-  const std::string_view direction =
-      on_ground ? "+z" : direction_between(world, touching->first, touching->second);
-  return StartOverlap{on_ground ? touching->first : touching->second,
-                      fmt::format("starts {:.3g} m from {}; simulation.contact = \"potential\" "
-                                  "pushes apart what is nearer than {:.3g} m; {}",
-                                  touching->distance, other, touching->reach,
-                                  moved(touching->reach - touching->distance, direction))};
+  if (touching->second < 0) {
+    return StartOverlap{touching->first, too_near("the ground", *touching, "+z")};
+  }
+  int held = touching->first, moved = touching->second;
+  std::string_view direction = direction_between(world, held, moved);
+  const bool is_free = !sim::is_kinematic(world, held);
+  // What is on something is moved, and not what it is on into the ground.
+  if (is_free && (sim::is_kinematic(world, moved) || direction == "-z")) {
+    std::swap(held, moved);
+    direction = direction_between(world, held, moved);
+  }
+  return StartOverlap{
+      moved, too_near(fmt::format("body '{}'", name_of(world, held)), *touching, direction)};
 }
 
 std::string what_parts_copies(const scenes::BodyScene& body) {

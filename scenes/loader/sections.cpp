@@ -114,11 +114,11 @@ Section simulation_section(Scene& scene) {
                                     between(1, 10'000), "",
                                     "over an island of contacts; at most 3 if none of them is "
                                     "a box's with another or the ground"})),
-          only(swept, of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
-                                 "bodies that touch, none faster for half a second, leave the step "
-                                 "until something touches them; of a body shorter than 1 m, this "
-                                 "times its length in m; at most what gravity gives in 2 ms; 0: "
-                                 "never"})),
+          only(swept,
+               of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
+                          "bodies that touch, none faster for half a second, leave the step "
+                          "until something touches them; of a body shorter than 1 m, this "
+                          "times its length in m; less in gravity below 5 m/s^2; 0: never"})),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

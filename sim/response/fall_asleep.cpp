@@ -14,14 +14,14 @@ namespace {
 /// s, for which nothing may be faster: a body that comes to a halt and turns round does not sleep.
 constexpr double quiet_time = 0.5;
 
-/// s. What gravity speeds up without end would be quiet too where gravity is weak: speeds of rest
-/// are no more than it gives in this time.
-constexpr double fall_of_rest = 2e-3;
+/// m/s^2. Where gravity is weaker, what it speeds up without end would be quiet for long too:
+/// speeds of rest are less in proportion.
+constexpr double weak_gravity = 5.0;
 
 double sleep_speed(const Settings& settings) {
   const double gravity = settings.gravity.norm();
-  return gravity > 0.0 ? std::min(settings.sleep_speed, fall_of_rest * gravity)
-                       : settings.sleep_speed;
+  const double part = gravity > 0.0 ? std::min(1.0, gravity / weak_gravity) : 1.0;
+  return part * settings.sleep_speed;
 }
 
 int quiet_steps(const Settings& settings) {

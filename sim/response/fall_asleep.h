@@ -17,9 +17,9 @@ namespace pneuma::sim {
 double length_of_rest(const World& world, int body);
 
 /// Bodies near each other are an island, which falls asleep when it touches something and none of
-/// it has moved faster than Settings::sleep_speed for half a second, or than gravity falls in 2 ms;
-/// of a body that is shorter than a metre, that times its length in metres. Allocates nothing but
-/// in the first step.
+/// it has moved faster than Settings::sleep_speed for half a second; of a body that is shorter than
+/// a metre, that times its length in metres, and in gravity below 5 m/s^2 in proportion less.
+/// Allocates nothing but in the first step.
 class FallAsleep {
  public:
   explicit FallAsleep(const World& world);

@@ -105,6 +105,18 @@ TEST(StartOverlap, ThePotentialNeedsADistanceButNotFromTheGround) {
   EXPECT_NE(touching.find("body 'other': starts 0 m from body 'box'"), std::string::npos)
       << touching;
   EXPECT_NE(touching.find(" m along +x"), std::string::npos) << touching;
+  // The upper one is moved, wherever the scene has it, and what is free.
+  const std::string below =
+      "[0, 0, 3]\n[[body]]\nname = \"low\"\nshape = \"box\"\nposition = [0, 0, 1]\n";
+  for (const std::string kind : {"", "kind = \"static\"\n"}) {
+    const std::string message = refusal_of(potential + box + below + kind);
+    EXPECT_NE(message.find("body 'box': starts 0 m from body 'low'"), std::string::npos) << message;
+    EXPECT_NE(message.find(" m along +z"), std::string::npos) << message;
+  }
+  // What is in another by less than four digits tell would be through it.
+  EXPECT_NE(refusal_of(potential + "[[body]]\nkind = \"rigid\"\nposition = [0, 0, 1]\n[[body]]\n"
+                                   "kind = \"rigid\"\nposition = [1.99985, 0, 1]\n"),
+            "");
 }
 
 TEST(SceneWarnings, SayThatThePotentialWouldThrowBodiesApart) {
