@@ -25,8 +25,8 @@
 namespace pneuma::app {
 namespace {
 
-/// Of a body's size: what rounding leaves of a touch, and between boxes, which may lie in each
-/// other for a while, what places written with four digits do.
+/// Of a body's size: what rounding leaves of a touch, and between boxes, which swept contacts let
+/// lie in each other for a while, what places written with four digits do.
 constexpr double start_touch = 1e-6, start_touch_of_boxes = 1e-4;
 /// So many of the overlaps are told of.
 constexpr std::size_t most_shown = 10;
@@ -223,8 +223,7 @@ std::string too_near(const std::string& other, const sim::NearStart& touching,
   const double missing = touching.reach - touching.distance;
   return fmt::format(
       "starts {:.3g} m from {}; simulation.contact = \"potential\" pushes apart what is nearer "
-      "than "
-      "{:.3g} m; {}",
+      "than {:.3g} m; {}",
       touching.distance, other, touching.reach,
       direction.empty() ? fmt::format("move it {} m away", base::text_above(missing))
                         : moved(missing, direction));
