@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <regex>
+#include <utility>
 
 #include "app/accuracy/choose_step.h"
 #include "app/host/clock.h"
@@ -49,12 +50,20 @@ void make_room(const fs::path& folder, const std::string& scene, const ExportReq
   for (const fs::path& file : old) fs::remove(file);
 }
 
+void advance_frame(Simulation& simulation, FrameSink& sink) {
+  if (auto frame = sink.take_simulated(simulation.frame() + 1)) {
+    simulation.adopt(*std::move(frame));
+  } else {
+    simulation.advance_frame();
+  }
+}
+
 /// Hands the wanted frames to the sink.
 void run_frames(Simulation& simulation, const Frames& frames, FrameSink& sink, ProgressState& state,
                 Progress& progress) {
   const Clock::time_point start = Clock::now();
   state.last = frames.last;
-  for (;; simulation.advance_frame()) {
+  for (;; advance_frame(simulation, sink)) {
     throw_if_interrupted();
     state.frame = simulation.frame();
     state.time = state.simulated = sim::time(simulation.world());

@@ -21,19 +21,25 @@ std::string goes_beyond(const std::string& body, double time) {
       body, time, body);
 }
 
-/// Of a world: what differs from frame to frame. Names and settings are little.
-std::size_t bytes_of(const sim::World& world) {
-  std::size_t bytes = world.rigid.size() * sizeof(sim::RigidBox);
+template <typename Value>
+std::size_t bytes_of(const std::vector<Value>& values) {
+  return values.size() * sizeof(Value);
+}
+
+/// But for names and settings, which are little, and meshes, which all frames share.
+std::size_t bytes_of(const SimulatedFrame& frame) {
+  const sim::World& world = frame.world;
+  std::size_t bytes = bytes_of(frame.contacts) + bytes_of(world.soft) + bytes_of(world.rigid) +
+                      bytes_of(world.warm_start_impulses) + bytes_of(world.friction_slips);
   for (const sim::SoftBody& body : world.soft) {
-    bytes +=
-        static_cast<std::size_t>(body.positions.rows().size() + body.velocities.rows().size()) *
-        sizeof(double);
+    const auto numbers = body.positions.rows().size() + body.velocities.rows().size();
+    bytes += static_cast<std::size_t>(numbers) * sizeof(double);
+  }
+  for (const sim::ParticlePair& pair : world.particles) {
+    bytes += sizeof pair + bytes_of(pair.first_features) + bytes_of(pair.second_features);
   }
   return bytes;
 }
-
-/// Of all frames that are kept: two seconds of bodies of a hundred thousand vertices.
-constexpr std::size_t most_bytes_kept = std::size_t{512} << 20;
 
 /// Sums in the order of frames, so that every run comes to the same.
 class MeanCamera {
@@ -122,12 +128,20 @@ void RunCamera::look_to_the_end(const sim::World& start) {
   whole_ = cameras_.back();
 }
 
+void RunCamera::keep_frames(std::size_t most_bytes) {
+  keeps_frames_ = true;
+  most_bytes_kept_ = most_bytes;
+}
+
 std::optional<SimulatedFrame> RunCamera::take_frame(std::int64_t frame) {
   if (looking_) looking_->finish();
-  while (!kept_.empty() && frame_of(kept_.front().world) < frame) kept_.pop_front();
-  if (kept_.empty() || frame_of(kept_.front().world) != frame) return std::nullopt;
-  std::optional<SimulatedFrame> taken = std::move(kept_.front());
-  kept_.pop_front();
+  std::optional<SimulatedFrame> taken;
+  while (!kept_.empty() && frame_of(kept_.front().world) <= frame) {
+    bytes_kept_ -= bytes_of(kept_.front());
+    taken = std::move(kept_.front());
+    kept_.pop_front();
+  }
+  if (taken && frame_of(taken->world) != frame) return std::nullopt;
   return taken;
 }
 
@@ -138,9 +152,7 @@ void RunCamera::start_ahead(const sim::World& world) {
   view_ahead_ = view_;
   cameras_ = {view_->camera()};
   last_camera_ = frame_of(world);
-  kept_.clear();
-  const auto most_frames = static_cast<std::size_t>(frames_ahead_ + 1);
-  keeps_frames_ = keeps_frames_ && most_frames * bytes_of(world) <= most_bytes_kept;
+  forget_frames();
 }
 
 /// Frames and not steps: what lies between two pictures is seen by nobody.
@@ -156,7 +168,20 @@ void RunCamera::advance_ahead() {
   if (body && beyond_.empty()) beyond_ = goes_beyond(*body, sim::time(ahead_->world()));
   cameras_.push_back(view_ahead_->camera());
   ++last_camera_;
-  if (keeps_frames_) kept_.push_back(ahead_->present_frame());
+  if (keeps_frames_) keep_frame();
+}
+
+void RunCamera::keep_frame() {
+  kept_.push_back(ahead_->present_frame());
+  bytes_kept_ += bytes_of(kept_.back());
+  if (bytes_kept_ <= most_bytes_kept_) return;
+  keeps_frames_ = false;
+  forget_frames();
+}
+
+void RunCamera::forget_frames() {
+  kept_.clear();
+  bytes_kept_ = 0;
 }
 
 void RunCamera::advance_ahead_to(std::int64_t frame) {

@@ -1,6 +1,7 @@
 // The camera of each frame of a run.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -60,9 +61,9 @@ class RunCamera {
   /// Simulates ahead for the next frame while the caller goes on with something else.
   void prepare_next();
 
-  /// From now on frames that are simulated ahead are kept, if they are not too large, for one who
-  /// takes each of them in place of simulating it again.
-  void keep_frames() { keeps_frames_ = true; }
+  /// From now on frames that are simulated ahead are kept, until they take more than `most_bytes`,
+  /// for one who takes each of them in place of simulating it again.
+  void keep_frames(std::size_t most_bytes = std::size_t{512} << 20);
   /// None if that frame has not been kept. Frames before it are forgotten.
   std::optional<SimulatedFrame> take_frame(std::int64_t frame);
 
@@ -76,6 +77,8 @@ class RunCamera {
   void start_ahead(const sim::World& world);
   void advance_ahead();
   void advance_ahead_to(std::int64_t frame);
+  void keep_frame();
+  void forget_frames();
   const render::Camera& camera_of(std::int64_t frame) const;
   render::Camera mean_camera() const;
   void say_what_is_new();
@@ -100,6 +103,7 @@ class RunCamera {
   std::deque<render::Camera> cameras_;  // E(k) above
   std::int64_t last_camera_ = 0;        // the k of the last of them
   bool keeps_frames_ = false;
+  std::size_t most_bytes_kept_ = 0, bytes_kept_ = 0;
   std::deque<SimulatedFrame> kept_;  // from one frame to the last that was simulated ahead
 
   std::string beyond_;  // that a body goes too far

@@ -11,6 +11,7 @@ Recorder::Recorder(const scenes::Scene& scene, const sim::World& start, int thre
                    CameraEvents events)
     : builder_(scene, start),
       camera_(scene, start, threads, OnDivergence::automatic, std::move(events)) {
+  camera_.keep_frames();
   recording_.name = scene.name;
   recording_.title = scene.title.empty() ? scene.name : scene.title;
   recording_.frames_per_second = scene.picture.frames_per_second;

@@ -1,6 +1,8 @@
 // A run as the replay page shows it: what the renderer would draw, and numbers to plot.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,10 @@ class Recorder {
   /// A frame that is not recorded, before those that are.
   void pass(const Simulation& simulation) { camera_.see(simulation.world()); }
   void add(const Simulation& simulation);
+  /// See RunCamera::take_frame.
+  std::optional<SimulatedFrame> take_simulated(std::int64_t frame) {
+    return camera_.take_frame(frame);
+  }
   const Recording& recording() const { return recording_; }
 
  private:

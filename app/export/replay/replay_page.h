@@ -1,7 +1,9 @@
 // The replay page: one HTML file that plays a run in a browser, without a network.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/export/replay/recording.h"
@@ -19,6 +21,9 @@ class ReplaySink : public FrameSink {
 
   void pass(const Simulation& simulation) override { recorder_.pass(simulation); }
   void add(const Simulation& simulation) override { recorder_.add(simulation); }
+  std::optional<SimulatedFrame> take_simulated(std::int64_t frame) override {
+    return recorder_.take_simulated(frame);
+  }
   std::filesystem::path finish() override;
 
  private:

@@ -211,6 +211,23 @@ TEST(RunCamera, ForgetsFramesBeforeTheOneThatIsTaken) {
   EXPECT_TRUE(camera.take_frame(11));
 }
 
+TEST(RunCamera, KeepsNoMoreThanItMay) {
+  const scenes::Scene scene = scene_of(apart);
+  const sim::World start = build_world(scene);
+  const auto keeps = [&](std::size_t most_bytes) {
+    RunCamera camera(scene, start, 1);
+    camera.keep_frames(most_bytes);
+    camera.at(start);
+    return camera.take_frame(frames_ahead).has_value();
+  };
+  std::size_t least = 0;  // of each vertex in each frame its position and velocity
+  for (const sim::SoftBody& body : start.soft) {
+    least += static_cast<std::size_t>(frames_ahead * 2 * body.positions.rows().size()) * 8;
+  }
+  EXPECT_FALSE(keeps(least));
+  EXPECT_TRUE(keeps(2 * least)) << "all else is less";
+}
+
 TEST(RunCamera, BetweenFramesIsThatOfTheFrameBefore) {
   const scenes::Scene scene = scene_of(apart);
   const std::vector<Camera> cameras = cameras_of(scene);
