@@ -27,6 +27,7 @@ using scenes::Value;
 
 constexpr std::size_t most_bytes = 1 << 20;
 constexpr double most_samples = 1e8;
+constexpr std::size_t most_values_tried = 20;
 
 class SweepReader {
  public:
@@ -179,24 +180,40 @@ class SweepReader {
     }
   }
 
+  /// One value may well be refused: that run is then a row that says so.
   void check_parameters(const Table&) {
     for (std::size_t p = 0; p < sweep_.parameters.size(); ++p) {
-      const std::int64_t last = run_count(sweep_) - 1;
-      std::optional<std::string> first_refusal;
-      bool taken = false;
-      for (const std::string& scene : sweep_.scene_paths) {
-        for (const std::int64_t number : {std::int64_t{0}, last}) {
-          std::vector<std::string> overrides = sweep_.overrides;
-          overrides.push_back(
-              fmt::format("{}={}", sweep_.parameters[p].key, run_of(sweep_, number).values[p]));
-          const auto refusal = refused(scene, overrides);
-          if (!refusal) taken = true;
-          if (refusal && !first_refusal) first_refusal = refusal;
-        }
-      }
-      // One value may well be refused: that run is then a row that says so.
-      if (!taken && first_refusal) report_.add(parameter_places_[p], *first_refusal);
+      if (const auto refusal = refused_always(p)) report_.add(parameter_places_[p], *refusal);
     }
+  }
+
+  /// Why no scene takes the first of a parameter's values, if none takes any that is tried.
+  std::optional<std::string> refused_always(std::size_t parameter) const {
+    std::optional<std::string> first_refusal;
+    for (const std::string& value : values_to_try(parameter)) {
+      for (const std::string& scene : sweep_.scene_paths) {
+        std::vector<std::string> overrides = sweep_.overrides;
+        overrides.push_back(fmt::format("{}={}", sweep_.parameters[parameter].key, value));
+        const auto refusal = refused(scene, overrides);
+        if (!refusal) return std::nullopt;
+        if (!first_refusal) first_refusal = refusal;
+      }
+    }
+    return first_refusal;
+  }
+
+  std::vector<std::string> values_to_try(std::size_t parameter) const {
+    const std::vector<std::string>& all = sweep_.parameters[parameter].values;
+    if (sweep_.parameters[parameter].is_random()) {
+      const std::int64_t last = run_count(sweep_) - 1;
+      return {run_of(sweep_, 0).values[parameter], run_of(sweep_, last).values[parameter]};
+    }
+    const std::size_t count = std::min(all.size(), most_values_tried);
+    std::vector<std::string> tried;
+    for (std::size_t i = 0; i < count; ++i) {
+      tried.push_back(count == 1 ? all.front() : all[i * (all.size() - 1) / (count - 1)]);
+    }
+    return tried;
   }
 
   Sweep& sweep_;

@@ -144,6 +144,13 @@ TEST_F(ReadSweep, SaysWhereASlipIsAndWhatIsAllowed) {
   EXPECT_EQ(error_of("scenes = [\"fall.toml\"]\n"), "");
 }
 
+// Of which the first and the last run have none.
+TEST_F(ReadSweep, TakesAKeyOfWhichAnyValueIsTaken) {
+  const std::string values = "scenes = [\"fall.toml\"]\n[[parameter]]\nkey = \"body.k\"\nvalues = ";
+  EXPECT_EQ(error_of(values + "[-1, 50, -3]\n"), "");
+  EXPECT_TRUE(error_of(values + "[-1, -2, -3]\n").starts_with("2:1: --set body.k=-1: "));
+}
+
 TEST_F(ReadSweep, RefusesMoreRunsThanAnybodyWaitsFor) {
   std::string text = "scenes = [\"fall.toml\"]\n";
   for (const char* key : {"body.k", "body.n", "body.rho_g"}) {
