@@ -31,9 +31,11 @@ class LineGuard {
         skip_string(c);
         continue;
       }
-      if (c == '.' && ++dots_ > most_dots_per_line) {
-        refuse(fmt::format("more than {} dots on one line; each may nest a table. Break the line",
-                           most_dots_per_line));
+      if (c == '.' && !is_in_number() && ++dots_ > most_dots_per_line) {
+        refuse(
+            fmt::format("more than {} dots in the keys of one line; each may nest a table. Break "
+                        "the line",
+                        most_dots_per_line));
       }
       ++at_;
     }
@@ -78,6 +80,18 @@ class LineGuard {
     if (!letter && !digit && others.find(c) == others.npos) {
       refuse("a table's name starts with a letter, a digit, '_' or '-'");
     }
+  }
+
+  /// Whether the dot here is the only one of a word that starts as a number does.
+  bool is_in_number() const {
+    constexpr std::string_view of_words =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
+    const std::size_t before = line_.find_last_not_of(of_words, at_);
+    const std::size_t begin = before == line_.npos ? 0 : before + 1;
+    const std::size_t end = std::min(line_.find_first_not_of(of_words, at_), line_.size());
+    const std::string_view word = line_.substr(begin, end - begin);
+    return std::string_view("0123456789-+").find(word.front()) != word.npos &&
+           std::count(word.begin(), word.end(), '.') == 1;
   }
 
   void skip_blanks() {

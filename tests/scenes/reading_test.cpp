@@ -1,4 +1,5 @@
 // What a valid scene file sets, compared with a scene put together by hand.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -320,6 +321,14 @@ TEST(Reading, QuotesAndCommentsHoldWhatTomlLetsThem) {
   const Scene scene = parse_scene(text, "x.toml");
   EXPECT_EQ(scene.title, std::string("a \" # ").append(dots));
   EXPECT_EQ(scene.figure, "a\\\"b");
+}
+
+// As programs write them. Dots of numbers nest no tables.
+TEST(Reading, ALineMayHoldAnyNumberOfNumbers) {
+  std::string text = "[[body]]\nkind = \"moved\"\nmotion.path = [";
+  for (int i = 0; i < 150; ++i) text += fmt::format("[{}.5, 0.25, -1.5e-3, 9.0], ", i);
+  const Scene scene = parse_scene(text + "]\n", "test.toml");
+  EXPECT_EQ(scene.bodies.front().motion.path.size(), 150U);
 }
 
 TEST(Reading, AFileThatCannotBeReadSaysWhy) {
