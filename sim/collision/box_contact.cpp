@@ -10,6 +10,9 @@ namespace pneuma::sim {
 
 namespace {
 
+/// rad: edges whose normal is so near to that of a face touch as this face does.
+constexpr double angle_of_face = 0.1;
+
 /// The incident face while it is being clipped: a convex polygon, in the reference face's
 /// coordinates. A square clipped by four lines has at most eight corners; what rounding might
 /// add to those repeats a neighbour and is dropped.
@@ -90,10 +93,8 @@ int support_corner(const OrientedBox& box, const Vec3& direction) {
   return (along.x() > 0.0 ? 1 : 0) + (along.y() > 0.0 ? 2 : 0) + (along.z() > 0.0 ? 4 : 0);
 }
 
-/// Cuts the incident face off at the reference face's sides; what remains no higher than `reach`
-/// over the reference face touches. All points are kept: a choice of the deepest four would change
-/// from step to step.
-void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
+/// Cuts the incident face off at the reference face's sides.
+Polygon shared_face(const FacePair& faces) {
   Polygon polygon;
   for (const Vec3& corner : incident_face(faces.incident, faces.outward)) {
     polygon.add(faces.to_face(corner));
@@ -104,12 +105,24 @@ void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
   clip(polygon, 0, -1.0, u_limit);
   clip(polygon, 1, 1.0, v_limit);
   clip(polygon, 1, -1.0, v_limit);
+  return polygon;
+}
 
+/// What the boxes share of their faces and is no higher than `reach` over the reference face
+/// touches. All points are kept: a choice of the deepest four would change from step to step.
+void add_shared_points(BoxContact& contact, const FacePair& faces, double reach) {
+  const double slope = 1.0 / std::abs(faces.outward.dot(contact.normal));
+  const Polygon polygon = shared_face(faces);
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];
-    if (corner.z() > reach) continue;
-    contact.all[at(contact.count++)] = {faces.to_world(corner), -corner.z()};
+    const double height = slope * corner.z();  // along the contact's normal
+    if (height > reach) continue;
+    contact.all[at(contact.count++)] = {faces.to_world(corner), std::min(-height, contact.depth)};
   }
+}
+
+void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
+  add_shared_points(contact, faces, reach);
   if (contact.count > 0 || contact.depth < 0.0) return;
   // Of boxes that overlap only when this face was preferred to edges that overlap a little less:
   // the incident box passes the face by its side, and its deepest corner stands for it.
@@ -148,6 +161,34 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
   contact.all[at(contact.count++)] = {middle, overlap.overlap};
 }
 
+/// The face whose normal is the contact's but for a small angle.
+std::optional<FacePair> face_along(const Vec3& normal, const OrientedBox& first,
+                                   const OrientedBox& second) {
+  int of_first = 0, of_second = 0;
+  const Vec3 along_first = first.axes.transpose() * normal;
+  const Vec3 along_second = second.axes.transpose() * normal;
+  const double first_cosine = along_first.cwiseAbs().maxCoeff(&of_first);
+  const double second_cosine = along_second.cwiseAbs().maxCoeff(&of_second);
+  if (std::max(first_cosine, second_cosine) < std::cos(angle_of_face)) return {};
+  const auto outward = [](const OrientedBox& box, int axis, double sign) -> Vec3 {
+    return std::copysign(1.0, sign) * box.axes.col(axis);
+  };
+  if (first_cosine >= second_cosine) {
+    return FacePair{first, second, of_first, outward(first, of_first, -along_first[of_first])};
+  }
+  return FacePair{second, first, of_second, outward(second, of_second, along_second[of_second])};
+}
+
+/// Of long boxes that cross, of which one is turned a little: its far end is deeper below the
+/// other's face than its edges are below the other's, but what the faces share is what touches.
+void add_points_of_edges(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
+                         const MinOverlap& overlap, double reach) {
+  if (const auto faces = face_along(overlap.normal, first, second)) {
+    add_shared_points(contact, *faces, reach);
+  }
+  if (contact.count == 0) add_edge_point(contact, first, second, overlap);
+}
+
 std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& second,
                                 double reach_of_boxes, double reach_of_points) {
   const auto overlap = find_min_overlap(first, second, reach_of_boxes);
@@ -156,7 +197,7 @@ std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& sec
   contact.normal = overlap->normal;
   contact.depth = overlap->overlap;
   if (overlap->kind == AxisKind::edges) {
-    add_edge_point(contact, first, second, *overlap);
+    add_points_of_edges(contact, first, second, *overlap, reach_of_points);
   } else if (overlap->kind == AxisKind::first_face) {
     add_face_points(contact, {first, second, overlap->first_axis, -overlap->normal},
                     reach_of_points);

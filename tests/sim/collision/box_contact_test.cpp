@@ -16,10 +16,16 @@ double outside(const OrientedBox& box, const Vec3& point) {
   return (box.to_local(point).cwiseAbs() - box.half).maxCoeff();
 }
 
+/// But for 0.1 rad.
+bool is_along_a_face(const OrientedBox& box, const Vec3& normal) {
+  return (box.axes.transpose() * normal).cwiseAbs().maxCoeff() > std::cos(0.1);
+}
+
 TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
   BoxRandom random(4);
   int contacts = 0;
   int of_edges = 0;
+  int of_shared_faces = 0;
   int of_more_than_four = 0;
   int beyond_a_thin_box = 0;
   for (int i = 0; i < 100'000; ++i) {
@@ -59,6 +65,11 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
           break;
         case AxisKind::edges:
           ++of_edges;
+          if (is_along_a_face(first, n) || is_along_a_face(second, n)) {
+            ++of_shared_faces;
+            ASSERT_LE(std::min(outside(first, point), outside(second, point)), rounding);
+            break;
+          }
           ASSERT_NEAR(depth, 2.0 * above, rounding);
           ASSERT_NEAR(depth, 2.0 * below, rounding);
           break;
@@ -73,6 +84,7 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
   }
   EXPECT_GT(contacts, 30'000);
   EXPECT_GT(of_edges, 3'000);
+  EXPECT_GT(of_shared_faces, 10);
   EXPECT_GT(of_more_than_four, 1'000);
   EXPECT_LT(beyond_a_thin_box, contacts / 3);
 }
@@ -152,6 +164,34 @@ TEST(BoxContact, HasAPointWhereThePreferredFaceIsMissed) {
   const double beside = std::max(outside(first, point), outside(second, point));
   EXPECT_GT(beside, 0.0);
   EXPECT_LT(beside, depth);
+}
+
+// Two rods lie across each other. The upper one is turned by so little that its end is below the
+// face of the lower one, far beside it: the axis that separates them most is of their edges. They
+// touch in the square that they share.
+TEST(BoxContactWithin, OfRodsThatCrossIsTheSquareThatTheyShare) {
+  OrientedBox lower, upper;
+  lower.half = {2.0, 0.1, 0.1};
+  upper.half = {0.1, 2.0, 0.1};
+  for (const double angle : {-0.004, -0.001, 0.001, 0.004}) {
+    upper.axes = turn(Vec3(1.0, 0.3, 0.0).normalized(), angle);
+    upper.centre = {0.0, 0.0, 0.201};
+    ASSERT_EQ(find_min_overlap(upper, lower, 0.01)->kind, AxisKind::edges);
+    const auto contact = find_box_contact_within(0.01, upper, lower);
+    ASSERT_TRUE(contact);
+    ASSERT_EQ(contact->count, 4);
+    double area = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      const auto& [point, depth] = contact->all[at(i)];
+      const Vec3& next = contact->all[at((i + 1) % 4)].point;
+      area += 0.5 * point.cross(next).z();
+      // From the face of the lower one, z = 0.1, up to that of the upper one.
+      const Vec3 normal = upper.axes.col(2), on_face = upper.centre - 0.1 * normal;
+      const double gap = normal.dot(on_face - Vec3(point.x(), point.y(), 0.1)) / normal.z();
+      EXPECT_NEAR(-depth, gap, 1e-5);
+    }
+    EXPECT_NEAR(std::abs(area), 0.04, 1e-6);
+  }
 }
 
 TEST(BoxContact, PushesTheFirstBoxAwayWhicheverIsFirst) {

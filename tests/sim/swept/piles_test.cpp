@@ -95,6 +95,54 @@ TEST(Piles, ATowerOfFortyStands) {
   EXPECT_NEAR(world.rigid.back().position.z(), 79.0, 0.01 * 79.0);
 }
 
+/// Rods across each other, let fall onto each other by a hand's breadth in all.
+World make_log_cabin(int courses, double mass) {
+  World world = make_tower({});
+  for (int i = 0; i < courses; ++i) {
+    const bool is_along_x = i % 2 == 0;
+    const Vec3 size = is_along_x ? Vec3(4.0, 0.2, 0.2) : Vec3(0.2, 4.0, 0.2);
+    for (const double aside : {-1.0, 1.0}) {
+      const Vec3 across = is_along_x ? Vec3(0.0, aside, 0.0) : Vec3(aside, 0.0, 0.0);
+      world.rigid.push_back(make_rigid(size, across + (0.1 + 0.21 * i) * Vec3::UnitZ(), mass));
+      world.rigid.back().surface = {0.2, 0.5};
+    }
+  }
+  return world;
+}
+
+TEST(Piles, RodsAcrossEachOtherComeToRest) {
+  for (const int courses : {8, 12, 20}) {
+    for (const double mass : {0.5, 50.0}) {
+      World world = make_log_cabin(courses, mass);
+      const Pile pile = run_pile(world, 2.0);
+      EXPECT_LT(pile.speed, 0.01) << courses << " of " << mass << " kg";
+      // While they fall: a tenth of the distance that they keep.
+      EXPECT_LT(pile.deepest, 2e-4) << courses << " of " << mass << " kg";
+    }
+  }
+}
+
+/// Some of these heaps had no way on, though nothing in them moved faster than a hand.
+TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> aside(-0.3, 0.3), turn(-1.0, 1.0);
+  for (int run = 0; run < 3; ++run) {
+    World world = make_tower({});
+    world.settings.ground = ContactMaterial{0.2, 0.5};
+    const auto add = [&](const Vec3& size, double height) {
+      RigidBox box = make_rigid(size, {aside(random), aside(random), height}, 0.5);
+      box.orientation =
+          Eigen::Quaterniond(1.0, 0.2 * turn(random), 0.2 * turn(random), turn(random))
+              .normalized();
+      box.surface = {0.2, 0.5};
+      world.rigid.push_back(box);
+    };
+    for (int i = 0; i < 20; ++i) add({4.0, 0.2, 0.2}, 1.5 + 1.5 * i);
+    for (int i = 0; i < 4; ++i) add({3.0, 3.0, 0.03}, 32.0 + 2.0 * i);
+    EXPECT_LT(run_pile(world, 10.0).speed, 0.05) << run;
+  }
+}
+
 TEST(Piles, HeavyBoxesDoNotSinkIntoLightOnes) {
   for (const int high : {2, 5, 10}) {
     for (const bool heavy_below : {false, true}) {
