@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
+#include "sim/collision/separating_axis.h"
 #include "sim/rigid/rigid_motion.h"
 #include "sim/step/swept/contact_places.h"
 #include "sim/swept/free_impact.h"
@@ -19,14 +21,19 @@ constexpr double least_restitution = 0.5;
 /// m/s, and of what a step of free fall gains: slower impacts, in a heap that comes to rest, are
 /// not worth parts of a step.
 constexpr double min_approach = 0.1, least_of_fall = 2.0;
-/// Of a heap of more boxes that bounce at once each step would be halved, for little.
-constexpr int most_boxes = 12;
+/// Of a heap of more boxes that bounce at once each step would be halved, for little: of what loses
+/// half of its speed. What keeps more keeps it for longer, and what keeps all for ever.
+constexpr double most_boxes = 12.0;
 /// Of a step: impacts are told apart down to such parts.
 constexpr double least_part = 1.0 / 32.0;
 
 /// m/s.
 double least_approach(const Settings& settings) {
   return std::max(min_approach, least_of_fall * time_step(settings) * settings.gravity.norm());
+}
+
+bool is_worth_parts(int boxes, double restitution) {
+  return (1.0 - restitution) * boxes <= (1.0 - least_restitution) * most_boxes;
 }
 
 class FreeImpacts {
@@ -59,7 +66,9 @@ class FreeImpacts {
   }
 
   /// An impact that bounces, of few boxes, was left as it is.
-  bool would_gain_by_parts() const { return bounces_left_ && boxes_ <= most_boxes; }
+  bool would_gain_by_parts() const {
+    return restitution_left_ > 0.0 && is_worth_parts(boxes_, restitution_left_);
+  }
 
  private:
   bool moves_freely(int body) const { return m_.bodies.is_box(body) && !is_fixed(world_, body); }
@@ -190,7 +199,10 @@ class FreeImpacts {
   }
 
   /// To the impulses at both ends of the step, or to its parts, which may meet freely.
-  void leave(const SweptContact& contact) { bounces_left_ = bounces_left_ || bounces(contact); }
+  void leave(const SweptContact& contact) {
+    if (!bounces(contact)) return;
+    restitution_left_ = std::max(restitution_left_, motion_.material(contact).restitution);
+  }
 
   /// Whether the sides may meet others in the step, or turn far.
   bool meets_others(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
@@ -201,9 +213,41 @@ class FreeImpacts {
       const double turn = impact.time_left() * impact.at_end(i).angular_velocity.norm();
       if (turn > allowed_turn) return true;
       if (reaches_ground && side.bounds(impact.at_end(i)).low.z() < 0.0) return true;
-      if (m_.bodies.may_meet_others(way(bodies, impact, i), {bodies[0], bodies[1]})) return true;
+      const auto may_meet = [&](int other) { return !is_beside(impact, i, bodies[i], other); };
+      if (m_.bodies.any_near_way(way(bodies, impact, i), {bodies[0], bodies[1]}, may_meet)) {
+        return true;
+      }
     }
     return false;
+  }
+
+  /// Bounds say little of boxes that are not upright.
+  bool is_beside(const FreeImpact& impact, std::size_t i, int body, int other) const {
+    if (!m_.bodies.is_box(other)) return false;
+    const ImpactSide &of = impact.sides()[i], beside = side(other);
+    const RigidState &start = of.start(), &hit = impact.at_impact(i), &end = impact.at_end(i);
+    const double left = impact.time_left();
+    const double turned = std::max((time_step(world_.settings) - left) * of.fastest_turn(),
+                                   left * end.angular_velocity.norm());
+    const double moved =
+        std::max((start.position - hit.position).norm(), (end.position - hit.position).norm());
+    const double reach = moved + of.half_diagonal() * turned + margin(of, body) +
+                         reach_of_other(beside, other) + motion_.near_distance(body, other);
+    return !find_min_overlap(of.placed(hit), beside.placed(beside.start()), reach);
+  }
+
+  /// m, from where it starts. Unknown of what has been hit on its way.
+  double reach_of_other(const ImpactSide& beside, int other) const {
+    if (stands(other)) return 0.0;
+    const auto is_of_other = [&](const MetFreely& met) {
+      return met.first == other || met.second == other;
+    };
+    const double turned = time_step(world_.settings) * beside.fastest_turn();
+    if (turned > allowed_turn || std::ranges::any_of(m_.met_freely, is_of_other)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const Vec3 way = beside.box().position - beside.start().position;
+    return way.norm() + beside.half_diagonal() * turned + margin(beside, other);
   }
 
   /// In the whole step, with the skin, what corners on arcs leave and how far a parabola bulges.
@@ -212,11 +256,16 @@ class FreeImpacts {
     Bounds result = of.bounds(of.after(0.0));
     result.include(of.bounds(impact.at_impact(side)));
     result.include(of.bounds(impact.at_end(side)));
-    const double arc = 0.5 * of.box().size.norm() * allowed_turn * allowed_turn / 8.0;
+    const Vec3 more = Vec3::Constant(margin(of, bodies[side]));
+    return {result.low - more, result.high + more};
+  }
+
+  /// m.
+  double margin(const ImpactSide& of, int body) const {
+    const double arc = of.half_diagonal() * allowed_turn * allowed_turn / 8.0;
     const double step = time_step(world_.settings);
     const double bulge = 0.125 * world_.settings.gravity.norm() * step * step;
-    const Vec3 margin = Vec3::Constant(m_.bodies.skin(bodies[side]) + arc + bulge);
-    return {result.low - margin, result.high + margin};
+    return m_.bodies.skin(body) + arc + bulge;
   }
 
   void move(const FreeImpact& impact, const std::array<int, 2>& bodies, std::size_t side) {
@@ -239,9 +288,9 @@ class FreeImpacts {
   SweptMemory& m_;
   ContactMotion motion_;
   const MotionStart& start_;
-  double tolerance_;  // m/s
-  int boxes_ = 0;     // that are hit
-  bool bounces_left_ = false;
+  double tolerance_;               // m/s
+  int boxes_ = 0;                  // that are hit
+  double restitution_left_ = 0.0;  // the greatest of the impacts that are left; 0: there are none
 };
 
 }  // namespace
@@ -267,8 +316,10 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
   };
   bool twice = false;
   int boxes = 0;
+  double restitution = 0.0;
   for (const SweptContact& contact : memory.contacts) {
     if (!hits(contact)) continue;
+    restitution = std::max(restitution, motion.material(contact).restitution);
     each_box(contact, [&](Partner& partner, int other) {
       if (partner.contacts == 0) ++boxes;
       twice = twice || (partner.contacts > 0 && partner.body != other);
@@ -276,7 +327,7 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
       ++partner.contacts;
     });
   }
-  if (boxes > most_boxes) return false;
+  if (!is_worth_parts(boxes, restitution)) return false;
   for (const SweptContact& contact : memory.contacts) {
     if (!contact.is_new || !bounces(contact)) continue;
     each_box(contact, [&](const Partner& partner, int other) {

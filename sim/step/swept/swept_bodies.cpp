@@ -388,13 +388,6 @@ bool SweptBodies::may_be_near(const BodyPair& bodies) const {
   return overlap(way, ways_[at(second)]);
 }
 
-bool SweptBodies::may_meet_others(const Bounds& way, const BodyPair& bodies) const {
-  for (int i = 0; i < count(); ++i) {
-    if (i != bodies.first && i != bodies.second && overlap(ways_[at(i)], way)) return true;
-  }
-  return false;
-}
-
 bool SweptBodies::is_within_allowance(int body) const {
   if (is_still_[at(body)] != 0) return true;
   return max_distance(surface(body).end, searched_ends_[at(body)]) <= allowance(body);

@@ -99,8 +99,16 @@ class SweptBodies {
     return is_rigid(bodies.first) && is_refitted_[at(bodies.first)] == 0 &&
            is_refitted_[at(bodies.second)] == 0;
   }
-  /// Whether another body's way comes near one of these bodies, which it would go besides its own.
-  bool may_meet_others(const Bounds& way, const BodyPair& bodies) const;
+  /// Whether `visit(body)` is true for another body whose way comes near one of these bodies',
+  /// which it would go besides its own.
+  template <class Visit>
+  bool any_near_way(const Bounds& way, const BodyPair& bodies, const Visit& visit) const {
+    for (int i = 0; i < count(); ++i) {
+      if (i == bodies.first || i == bodies.second || !overlap(ways_[at(i)], way)) continue;
+      if (visit(i)) return true;
+    }
+    return false;
+  }
   void add_to_way(int body, const Bounds& way) { ways_[at(body)].include(way); }
   void may_meet(const BodyPair& bodies) {
     is_lone_[at(bodies.first)] = is_lone_[at(bodies.second)] = 0;
