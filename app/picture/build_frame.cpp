@@ -84,6 +84,9 @@ render::Mesh rigid_mesh(const sim::RigidBox& box, const ShapePointer& shape) {
   return mesh;
 }
 
+/// The radius of bars that are drawn along the edges of a body, of its extent.
+constexpr double bar_of_extent = 0.003;
+
 /// On a caption; of more bodies the first ones.
 constexpr int most_pressures = 8;
 
@@ -141,19 +144,40 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start)
   // build_world puts a body's copies one after the other, in the order of the scene.
   for (const scenes::BodyScene& body : scene.bodies) {
     const auto copies = static_cast<std::size_t>(scenes::copy_count(body));
-    const auto roughness = static_cast<float>(body.roughness);
     if (scenes::is_box(body)) {
-      const ShapePointer shape = rigid_shape(start.rigid.at(rigid_looks_.size()), body);
-      rigid_looks_.insert(rigid_looks_.end(), copies, {shape, roughness, true});
+      const sim::RigidBox& box = start.rigid.at(rigid_looks_.size());
+      rigid_looks_.insert(rigid_looks_.end(), copies,
+                          look(body, rigid_shape(box, body), true, box.size.norm()));
     } else {
-      const sim::SoftMesh& mesh = *start.soft.at(soft_looks_.size()).mesh;
+      const sim::SoftBody& soft = start.soft.at(soft_looks_.size());
+      const sim::SoftMesh& mesh = *soft.mesh;
       const bool means_faces =
           body.shape == scenes::Shape::box || body.shape == scenes::Shape::model;
       const bool has_faces = rounded_ && means_faces && is_faceted(mesh);
       soft_looks_.insert(soft_looks_.end(), copies,
-                         {soft_shape(mesh, body, has_faces), roughness, !rounded_ || has_faces});
+                         look(body, soft_shape(mesh, body, has_faces), !rounded_ || has_faces,
+                              sim::bounds(soft.positions).size().norm()));
     }
   }
+}
+
+/// `extent`: m, of the body.
+FrameBuilder::Look FrameBuilder::look(const scenes::BodyScene& body, const ShapePointer& shape,
+                                      bool has_edges, double extent) {
+  Look look{shape, static_cast<float>(body.roughness), has_edges};
+  if (body.drawn == scenes::Drawn::surface) return look;
+  const bool draws_edges = body.drawn == scenes::Drawn::edges;
+  look.bars.emplace(draws_edges ? shape->edges : EdgeBars::Edges(), shape->colours,
+                    static_cast<float>(bar_of_extent * extent));
+  return look;
+}
+
+/// `mesh`: the body's surface.
+render::Mesh FrameBuilder::as_seen(render::Mesh mesh, const Look& look) {
+  if (look.bars) mesh = look.bars->mesh(mesh.positions);
+  if (look.has_edges) mesh.normals.clear();
+  mesh.roughness = look.roughness;
+  return mesh;
 }
 
 render::Frame FrameBuilder::build(const sim::World& world, const render::Camera& camera,
@@ -162,13 +186,11 @@ render::Frame FrameBuilder::build(const sim::World& world, const render::Camera&
   frame.camera = camera;
   frame.wireframe = show.wireframe;
   for (std::size_t i = 0; i < world.soft.size(); ++i) {
-    frame.meshes.push_back(soft_mesh(world.soft[i], soft_looks_[i].shape));
-    frame.meshes.back().roughness = soft_looks_[i].roughness;
-    if (soft_looks_[i].has_edges) frame.meshes.back().normals.clear();
+    frame.meshes.push_back(as_seen(soft_mesh(world.soft[i], soft_looks_[i].shape), soft_looks_[i]));
   }
   for (std::size_t i = 0; i < world.rigid.size(); ++i) {
-    frame.meshes.push_back(rigid_mesh(world.rigid[i], rigid_looks_[i].shape));
-    frame.meshes.back().roughness = rigid_looks_[i].roughness;
+    frame.meshes.push_back(
+        as_seen(rigid_mesh(world.rigid[i], rigid_looks_[i].shape), rigid_looks_[i]));
   }
   // Edges and particles are shown where they are simulated, and lie on the surface only if it is.
   const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts && !show.impulses;

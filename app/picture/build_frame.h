@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/picture/edge_bars.h"
 #include "app/picture/joint_meshes.h"
 #include "app/picture/show.h"
 #include "render/frame/frame.h"
@@ -30,8 +32,13 @@ class FrameBuilder {
   struct Look {
     std::shared_ptr<const render::MeshShape> shape;
     float roughness;
-    bool has_edges;  // sharp ones: vertices have no normals
+    bool has_edges;                               // sharp ones: vertices have no normals
+    std::optional<EdgeBars> bars = std::nullopt;  // in place of the surface
   };
+  static Look look(const scenes::BodyScene& body,
+                   const std::shared_ptr<const render::MeshShape>& shape, bool has_edges,
+                   double extent);
+  static render::Mesh as_seen(render::Mesh mesh, const Look& look);
 
   std::string title_;
   bool caption_ = false;

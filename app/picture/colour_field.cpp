@@ -164,8 +164,8 @@ void add_field(const sim::World& world, const Show& show, render::Frame& frame) 
   for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
     render::Mesh& mesh = frame.meshes[i];
     mesh.roughness = 1.0f;  // so that no highlight hides a colour
-    // The meshes of springs and valves come after those of the bodies.
-    if (i >= values.size() || values[i].empty()) {
+    // The meshes of springs and valves come after those of the bodies. Bars have other vertices.
+    if (i >= values.size() || values[i].size() != mesh.positions.size()) {
       mesh.colours.assign(mesh.positions.size(), no_value);
       continue;
     }

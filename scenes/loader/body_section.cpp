@@ -22,6 +22,11 @@ constexpr std::array kinds = {
     Named<BodyKind>{BodyKind::fixed, "static"},
     Named<BodyKind>{BodyKind::moved, "moved"},
 };
+constexpr std::array ways_to_draw = {
+    Named<Drawn>{Drawn::surface, "surface"},
+    Named<Drawn>{Drawn::edges, "edges"},
+    Named<Drawn>{Drawn::nothing, "nothing"},
+};
 constexpr std::array rests = {
     Named<Rest>{Rest::shape, "shape"},
     Named<Rest>{Rest::equilibrium, "equilibrium"},
@@ -239,6 +244,8 @@ Section body_section(BodyScene& body) {
                {"colour_axis", &body.colour_axis, any(), "", "of two colours' gradient"}),
           {"roughness", &body.roughness, between(0.1, 1), "",
            "of the drawn surface: 0.1 shines like glass, 1 is dull"},
+          {"drawn", word(body.drawn, ways_to_draw), any(), "",
+           "what is seen of it: edges, as bars, show what is inside, and nothing also hides it"},
       }};
 }
 

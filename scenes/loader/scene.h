@@ -39,6 +39,13 @@ enum class Rest {
                 // (sim/equilibrium/equilibrium.h)
 };
 
+/// What is seen of a body.
+enum class Drawn {
+  surface,
+  edges,  // as bars: what is inside of it is seen
+  nothing,
+};
+
 /// A triangle model from a file of anyone's.
 struct ModelScene {
   std::string file;              // beside the scene file, or as app/files/find_model.h says
@@ -113,6 +120,7 @@ struct BodyScene {
   std::vector<std::string> colours = palette_colours(0);
   Vec3 colour_axis = {0.3, 0.0, 1.0};
   double roughness = 0.35;  // of the drawn surface
+  Drawn drawn = Drawn::surface;
 };
 
 /// An opening between the gas of two bodies.

@@ -169,6 +169,7 @@ tumble = true
 colours = ["#0123aB", "#456789"]
 colour_axis = [0.0, 1.0, 0.5]
 roughness = 0.75
+drawn = "edges"
 )";
 
 Scene soft_body_scene() {
@@ -176,6 +177,7 @@ Scene soft_body_scene() {
   expected.name = "wheel";
   expected.shape = Shape::torus;
   expected.roughness = 0.75;
+  expected.drawn = Drawn::edges;
   expected.radius = 4.5;
   expected.tube_radius = 1.25;
   expected.stacks = 12;

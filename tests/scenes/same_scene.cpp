@@ -84,7 +84,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
                model, rest, skin_mass, density, thickness, stiffness, gauge_pressure, inflation,
                material, supply_n, supply_temperature, supply_smooth, leak, mass, rho_g, surface,
                position, rotation, velocity, angular_velocity, pinned, motion, still, copies,
-               spacing, jitter, tumble, colours, colour_axis, roughness] = a;
+               spacing, jitter, tumble, colours, colour_axis, roughness, drawn] = a;
   c.member("name", name, b.name);
   c.member("kind", kind, b.kind);
   c.member("shape", shape, b.shape);
@@ -128,6 +128,7 @@ void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
   c.member("colours", colours, b.colours);
   c.member("colour_axis", colour_axis, b.colour_axis);
   c.member("roughness", roughness, b.roughness);
+  c.member("drawn", drawn, b.drawn);
 }
 
 void compare(Comparison& c, const ValveScene& a, const ValveScene& b) {

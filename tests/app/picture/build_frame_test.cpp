@@ -48,6 +48,38 @@ TEST(BuildFrame, MakesAFrameThatCanBeDrawn) {
   EXPECT_NO_THROW(render::check_frame(build({}, {.wireframe = true}).frame));
 }
 
+TEST(BuildFrame, DrawsEdgesAsBarsAroundThem) {
+  const Built built = build({"body.2.drawn=edges"});
+  EXPECT_NO_THROW(render::check_frame(built.frame));
+  const render::Mesh& bars = built.frame.meshes[2];
+  const render::Mesh surface = build().frame.meshes[2];
+  ASSERT_EQ(surface.shape->edges.size(), 12U);
+  ASSERT_EQ(bars.positions.size(), 12U * 8U);
+  const float radius = 0.003f * render::Vec3f(1.0f, 2.0f, 3.0f).norm();
+  for (std::size_t edge = 0; edge < 12; ++edge) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const render::Vec3f corner = surface.positions[surface.shape->edges[edge][end]];
+      const render::Vec3f along = surface.positions[surface.shape->edges[edge][1 - end]] - corner;
+      for (std::size_t around = 0; around < 4; ++around) {
+        const render::Vec3f off = bars.positions[8 * edge + 4 * end + around] - corner;
+        EXPECT_NEAR(off.norm(), radius, 1e-5f);
+        EXPECT_NEAR(off.dot(along), 0.0f, 1e-5f);
+      }
+    }
+  }
+  EXPECT_EQ(bars.shape->triangles.size(), 12U * 8U);
+}
+
+TEST(BuildFrame, DrawsNothingOfWhatIsNotToBeSeen) {
+  const Built built = build({"body.1.drawn=nothing"}, {.field = ColourField::velocity});
+  EXPECT_NO_THROW(render::check_frame(built.frame));
+  ASSERT_EQ(built.frame.meshes.size(), 3U) << "others keep their places";
+  for (const std::size_t ball : {0, 1}) {
+    EXPECT_TRUE(built.frame.meshes[ball].positions.empty());
+    EXPECT_TRUE(built.frame.meshes[ball].shape->triangles.empty());
+  }
+}
+
 TEST(BuildFrame, PutsEveryVertexWhereItIs) {
   const Built built = build();
   ASSERT_EQ(built.frame.meshes.size(), 3u);
