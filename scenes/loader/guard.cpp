@@ -82,7 +82,8 @@ class LineGuard {
     }
   }
 
-  /// Whether the dot here is the only one of a word that starts as a number does.
+  /// Whether the dot here is the only one of a word that starts as a number does, and that a value
+  /// ends with: a key goes on with another dot or an equals sign.
   bool is_in_number() const {
     constexpr std::string_view of_words =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
@@ -90,8 +91,10 @@ class LineGuard {
     const std::size_t begin = before == line_.npos ? 0 : before + 1;
     const std::size_t end = std::min(line_.find_first_not_of(of_words, at_), line_.size());
     const std::string_view word = line_.substr(begin, end - begin);
+    const std::size_t next = line_.find_first_not_of(" \t", end);
     return std::string_view("0123456789-+").find(word.front()) != word.npos &&
-           std::count(word.begin(), word.end(), '.') == 1;
+           std::count(word.begin(), word.end(), '.') == 1 &&
+           (next == line_.npos || std::string_view(",]}#").find(line_[next]) != word.npos);
   }
 
   void skip_blanks() {

@@ -25,6 +25,11 @@ std::string nested_arrays(int depth) {
   return std::string("x = ").append(count, '[').append(count, ']').append("\n");
 }
 
+std::string repeated(std::string text, const char* more, int times) {
+  for (int i = 0; i < times; ++i) text += more;
+  return text;
+}
+
 std::string dotted(int depth) {
   std::string key;
   for (int i = 0; i < depth; ++i) key += "a.";
@@ -48,6 +53,9 @@ const std::vector<BrokenScene> documents = {
     {"zero_byte", std::string("a\0b", 3), 1, 2, {"control character 0x00"}},
     {"values_nested_deep", nested_arrays(1000) + "[[body]]\n", 1, 21, {"depth"}},
     {"keys_nested_deep", dotted(200'000), 1, 202, {"100 dots", "nest a table"}},
+    {"keys_of_digits", repeated("0", ". 0", 20'000) + " = 1\n", 1, 302, {"100 dots"}},
+    {"header_of_digits", repeated("[0", ". 0", 20'000) + "]\n", 1, 303, {"100 dots"}},
+    {"keys_in_quotes", repeated("1", ". \"a\". 1", 20'000) + " = 1\n", 1, 402, {"100 dots"}},
     {"key_beyond_ascii", "gr\xc3\xb6sse = 1\n[[body]]\n", 1, 3, {"ASCII"}},
     {"string_of_several_lines", "title = \"\"\"\\\nx\"\"\"\n[[body]]\n", 1, 9, {"several lines"}},
     {"literal_of_several_lines", "title = '''\nx'''\n[[body]]\n", 1, 9, {"several lines"}},
