@@ -12,6 +12,8 @@ namespace {
 
 /// rad: edges whose normal is so near to that of a face touch as this face does.
 constexpr double angle_of_face = 0.1;
+/// Of half the boxes' shortest sides: a point that is no further from the depth is as deep.
+constexpr double same_depth = 1e-6;
 
 /// The incident face while it is being clipped: a convex polygon, in the reference face's
 /// coordinates. A square clipped by four lines has at most eight corners; what rounding might
@@ -110,19 +112,19 @@ Polygon shared_face(const FacePair& faces) {
 
 /// What the boxes share of their faces and is no higher than `reach` over the reference face
 /// touches. All points are kept: a choice of the deepest four would change from step to step.
-void add_shared_points(BoxContact& contact, const FacePair& faces, double reach) {
-  const double slope = 1.0 / std::abs(faces.outward.dot(contact.normal));
+/// `cosine`: of the angle from the face's normal to the contact's.
+void add_shared_points(BoxContact& contact, const FacePair& faces, double cosine, double reach) {
   const Polygon polygon = shared_face(faces);
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];
-    const double height = slope * corner.z();  // along the contact's normal
+    const double height = cosine * corner.z();
     if (height > reach) continue;
-    contact.all[at(contact.count++)] = {faces.to_world(corner), std::min(-height, contact.depth)};
+    contact.all[at(contact.count++)] = {faces.to_world(corner), -height};
   }
 }
 
 void add_face_points(BoxContact& contact, const FacePair& faces, double reach) {
-  add_shared_points(contact, faces, reach);
+  add_shared_points(contact, faces, 1.0, reach);
   if (contact.count > 0 || contact.depth < 0.0) return;
   // Of boxes that overlap only when this face was preferred to edges that overlap a little less:
   // the incident box passes the face by its side, and its deepest corner stands for it.
@@ -181,12 +183,19 @@ std::optional<FacePair> face_along(const Vec3& normal, const OrientedBox& first,
 
 /// Of long boxes that cross, of which one is turned a little: its far end is deeper below the
 /// other's face than its edges are below the other's, but what the faces share is what touches.
+/// Where the edges cross beside that, their point is one more.
 void add_points_of_edges(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
                          const MinOverlap& overlap, double reach) {
   if (const auto faces = face_along(overlap.normal, first, second)) {
-    add_shared_points(contact, *faces, reach);
+    add_shared_points(contact, *faces, std::abs(faces->outward.dot(overlap.normal)), reach);
   }
-  if (contact.count == 0) add_edge_point(contact, first, second, overlap);
+  const double allowed = same_depth * (first.half.minCoeff() + second.half.minCoeff());
+  const auto is_nearest = [&](const BoxContactPoint& point) {
+    return point.depth > overlap.overlap - allowed;
+  };
+  if (std::ranges::any_of(contact.points(), is_nearest)) return;
+  contact.count = std::min(contact.count, BoxContact::max_points - 1);
+  add_edge_point(contact, first, second, overlap);
 }
 
 std::optional<BoxContact> touch(const OrientedBox& first, const OrientedBox& second,

@@ -49,6 +49,10 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
     double thickness = 2.0 * std::min(first.half.minCoeff(), second.half.minCoeff());
     if (least->kind == AxisKind::first_face) thickness = 2.0 * first.half[least->first_axis];
     if (least->kind == AxisKind::second_face) thickness = 2.0 * second.half[least->second_axis];
+    const auto& deepest = std::ranges::max(contact->points(), {}, &BoxContactPoint::depth);
+    if (least->kind == AxisKind::edges) {
+      ASSERT_NEAR(deepest.depth, contact->depth, 1e-6) << i;
+    }
     for (const auto& [point, depth] : contact->points()) {
       ASSERT_GE(depth, 0.0);
       ASSERT_LE(depth, contact->depth + rounding);
@@ -67,7 +71,6 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
           ++of_edges;
           if (is_along_a_face(first, n) || is_along_a_face(second, n)) {
             ++of_shared_faces;
-            ASSERT_LE(std::min(outside(first, point), outside(second, point)), rounding);
             break;
           }
           ASSERT_NEAR(depth, 2.0 * above, rounding);
@@ -84,7 +87,7 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
   }
   EXPECT_GT(contacts, 30'000);
   EXPECT_GT(of_edges, 3'000);
-  EXPECT_GT(of_shared_faces, 10);
+  EXPECT_GT(of_shared_faces, 100);
   EXPECT_GT(of_more_than_four, 1'000);
   EXPECT_LT(beyond_a_thin_box, contacts / 3);
 }
