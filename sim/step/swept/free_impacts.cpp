@@ -21,9 +21,9 @@ constexpr double least_restitution = 0.5;
 /// m/s, and of what a step of free fall gains: slower impacts, in a heap that comes to rest, are
 /// not worth parts of a step.
 constexpr double min_approach = 0.1, least_of_fall = 2.0;
-/// Of a heap of more boxes that bounce at once each step would be halved, for little: of what loses
-/// half of its speed. What keeps more keeps it for longer, and what keeps all for ever.
-constexpr double most_boxes = 12.0;
+/// Of a heap of more boxes that bounce at once each step would be halved, for little. A box that
+/// loses less than this part of its speed counts for less, and one that keeps all for nothing.
+constexpr double most_boxes = 12.0, loss_of_one = 0.1;
 /// Of a step: impacts are told apart down to such parts.
 constexpr double least_part = 1.0 / 32.0;
 
@@ -32,8 +32,13 @@ double least_approach(const Settings& settings) {
   return std::max(min_approach, least_of_fall * time_step(settings) * settings.gravity.norm());
 }
 
-bool is_worth_parts(int boxes, double restitution) {
-  return (1.0 - restitution) * boxes <= (1.0 - least_restitution) * most_boxes;
+/// How much the boxes count that are hit.
+double weight_of_hit(std::span<const Partner> boxes) {
+  double sum = 0.0;
+  for (const Partner& box : boxes) {
+    if (box.is_hit) sum += std::min(1.0, (1.0 - box.restitution) / loss_of_one);
+  }
+  return sum;
 }
 
 class FreeImpacts {
@@ -67,7 +72,7 @@ class FreeImpacts {
 
   /// An impact that bounces, of few boxes, was left as it is.
   bool would_gain_by_parts() const {
-    return restitution_left_ > 0.0 && is_worth_parts(boxes_, restitution_left_);
+    return bounces_left_ && weight_of_hit(m_.partners) <= most_boxes;
   }
 
  private:
@@ -93,10 +98,11 @@ class FreeImpacts {
       if (moves_freely(first)) add_contact(i, second, m_.partners[at(first)]);
       if (moves_freely(second)) add_contact(i, first, m_.partners[at(second)]);
     }
-    boxes_ = static_cast<int>(std::ranges::count_if(m_.partners, &Partner::is_hit));
   }
   void add_contact(std::size_t number, int body, Partner& partner) const {
     const bool hits = may_hit(m_.contacts[number]);
+    const double restitution = motion_.material(m_.contacts[number]).restitution;
+    if (hits) partner.restitution = std::min(partner.restitution, restitution);
     if (partner.contacts == 0) partner.first_contact = number;
     partner.is_hit = partner.is_hit || (hits && bounces(m_.contacts[number]));
     partner.is_only_one =
@@ -199,10 +205,7 @@ class FreeImpacts {
   }
 
   /// To the impulses at both ends of the step, or to its parts, which may meet freely.
-  void leave(const SweptContact& contact) {
-    if (!bounces(contact)) return;
-    restitution_left_ = std::max(restitution_left_, motion_.material(contact).restitution);
-  }
+  void leave(const SweptContact& contact) { bounces_left_ = bounces_left_ || bounces(contact); }
 
   /// Whether the sides may meet others in the step, or turn far.
   bool meets_others(const FreeImpact& impact, const std::array<int, 2>& bodies) const {
@@ -288,9 +291,8 @@ class FreeImpacts {
   SweptMemory& m_;
   ContactMotion motion_;
   const MotionStart& start_;
-  double tolerance_;               // m/s
-  int boxes_ = 0;                  // that are hit
-  double restitution_left_ = 0.0;  // the greatest of the impacts that are left; 0: there are none
+  double tolerance_;  // m/s
+  bool bounces_left_ = false;
 };
 
 }  // namespace
@@ -302,9 +304,10 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
     return motion.is_rigid(contact) && motion.material(contact).restitution > least_restitution;
   };
   const double least = least_approach(world.settings);
-  const auto hits = [&](const SweptContact& contact) {
-    return (is_hit(contact) || !contact.is_near) && contact.approach > least && bounces(contact);
+  const auto meets = [&](const SweptContact& contact) {
+    return (is_hit(contact) || !contact.is_near) && contact.approach > least;
   };
+  const auto hits = [&](const SweptContact& contact) { return meets(contact) && bounces(contact); };
   if (std::ranges::none_of(memory.contacts, hits)) return false;
   memory.partners.assign(at(memory.bodies.count()), {});
   const auto each_box = [&](const SweptContact& contact, const auto& visit) {
@@ -315,19 +318,20 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
     }
   };
   bool twice = false;
-  int boxes = 0;
-  double restitution = 0.0;
   for (const SweptContact& contact : memory.contacts) {
-    if (!hits(contact)) continue;
-    restitution = std::max(restitution, motion.material(contact).restitution);
+    if (!meets(contact)) continue;
+    const double restitution = motion.material(contact).restitution;
+    const bool bounces_back = bounces(contact);
     each_box(contact, [&](Partner& partner, int other) {
-      if (partner.contacts == 0) ++boxes;
+      partner.restitution = std::min(partner.restitution, restitution);
+      if (!bounces_back) return;
+      partner.is_hit = true;
       twice = twice || (partner.contacts > 0 && partner.body != other);
       partner.body = other;
       ++partner.contacts;
     });
   }
-  if (!is_worth_parts(boxes, restitution)) return false;
+  if (weight_of_hit(memory.partners) > most_boxes) return false;
   for (const SweptContact& contact : memory.contacts) {
     if (!contact.is_new || !bounces(contact)) continue;
     each_box(contact, [&](const Partner& partner, int other) {

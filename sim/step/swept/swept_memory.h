@@ -87,6 +87,7 @@ struct Partner {
   int body = swept_ground;   // of the last of them
   bool is_only_one = false;  // of all of them, and not near yet
   bool is_hit = false;       // in one of them it may be, and bounce
+  double restitution = 1.0;  // the least of those in which it may be hit
 };
 
 struct SweptMemory {

@@ -151,10 +151,10 @@ TEST(BouncyBoxes, OfAStackComeToRest) {
   }
 }
 
-/// Each box meets a few others in most steps, and is near more. 60 steps/s lost two thirds.
-TEST(ElasticBoxes, InACrowdKeepTheirEnergy) {
+/// 64 cubes turned at random, over the ground.
+World make_crowd(const ContactMaterial& surface) {
   World world = make_swept_world();
-  world.settings.ground = ContactMaterial{1.0, 0.0};
+  world.settings.ground = surface;
   world.settings.steps_per_second = 60;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
@@ -163,12 +163,36 @@ TEST(ElasticBoxes, InACrowdKeepTheirEnergy) {
     world.rigid.push_back(elastic_box(Vec3::Ones(), 2.0 * place + 3.0 * Vec3::UnitZ()));
     world.rigid.back().orientation =
         Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    world.rigid.back().surface = surface;
   }
+  return world;
+}
+
+/// Each box meets a few others in most steps, and is near more. 60 steps/s lost two thirds.
+TEST(ElasticBoxes, InACrowdKeepTheirEnergy) {
+  World world = make_crowd({1.0, 0.0});
   const double before = energy(world).total();
   Stepper stepper(world);
   while (time(world) < 4.0) ASSERT_FALSE(stepper.step(world));
   EXPECT_GT(energy(world).total(), 0.97 * before);
   EXPECT_LT(energy(world).total(), (1.0 + 1e-6) * before);
+}
+
+int parts_of_steps(World world, double seconds) {
+  int parts = 0;
+  StepperOptions options;
+  options.after_part = [&](const World&) { ++parts; };
+  Stepper stepper(world, options);
+  while (time(world) < seconds) EXPECT_FALSE(stepper.step(world));
+  return parts;
+}
+
+/// All of its steps would be halved for an energy that the others lose.
+TEST(ElasticBoxes, OneAloneDoesNotHalveTheStepsOfACrowd) {
+  const World lossy = make_crowd({0.6, 0.0});
+  World with_one = lossy;
+  with_one.rigid.front().surface.restitution = 1.0;
+  EXPECT_LT(parts_of_steps(with_one, 2.0), 1.5 * parts_of_steps(lossy, 2.0));
 }
 
 }  // namespace
