@@ -29,8 +29,10 @@ std::size_t bytes_of(const std::vector<Value>& values) {
 /// But for names and settings, which are little, and meshes, which all frames share.
 std::size_t bytes_of(const SimulatedFrame& frame) {
   const sim::World& world = frame.world;
-  std::size_t bytes = bytes_of(frame.contacts) + bytes_of(world.soft) + bytes_of(world.rigid) +
-                      bytes_of(world.warm_start_impulses) + bytes_of(world.friction_slips);
+  std::size_t bytes = bytes_of(frame.contacts) + bytes_of(frame.step_parts) + bytes_of(world.soft) +
+                      bytes_of(world.rigid) + bytes_of(world.rest) +
+                      bytes_of(world.warm_start_impulses) + bytes_of(world.friction_slips) +
+                      bytes_of(world.depenetrating) + bytes_of(world.lost_energy);
   for (const sim::SoftBody& body : world.soft) {
     const auto numbers = body.positions.rows().size() + body.velocities.rows().size();
     bytes += static_cast<std::size_t>(numbers) * sizeof(double);
@@ -129,12 +131,14 @@ void RunCamera::look_to_the_end(const sim::World& start) {
 }
 
 void RunCamera::keep_frames(std::size_t most_bytes) {
-  keeps_frames_ = true;
+  keeps_frames_ = gives_frames_ = true;
   most_bytes_kept_ = most_bytes;
 }
 
 std::optional<SimulatedFrame> RunCamera::take_frame(std::int64_t frame) {
-  if (looking_) looking_->finish();
+  if (gives_frames_ && looking_) looking_->finish();
+  gives_frames_ = gives_frames_ && keeps_frames_;
+  if (!gives_frames_) return std::nullopt;
   std::optional<SimulatedFrame> taken;
   while (!kept_.empty() && frame_of(kept_.front().world) <= frame) {
     bytes_kept_ -= bytes_of(kept_.front());

@@ -102,6 +102,7 @@ class RunCamera {
   bool ahead_has_ended_ = false;        // by a divergence
   std::deque<render::Camera> cameras_;  // E(k) above
   std::int64_t last_camera_ = 0;        // the k of the last of them
+  bool gives_frames_ = false;           // as far as who takes them knows, without a wait
   bool keeps_frames_ = false;
   std::size_t most_bytes_kept_ = 0, bytes_kept_ = 0;
   std::deque<SimulatedFrame> kept_;  // from one frame to the last that was simulated ahead

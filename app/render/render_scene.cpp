@@ -91,10 +91,17 @@ bool has_moved_bodies(const scenes::Scene& scene) {
   });
 }
 
+bool may_step_implicitly(const scenes::Scene& scene) {
+  return !sim::is_implicit(scene.settings.integrator) &&
+         std::ranges::any_of(scene.bodies, [](const scenes::BodyScene& body) {
+           return body.kind == scenes::BodyKind::soft;
+         });
+}
+
 /// What may help a run that diverged. Once shorter steps have failed, steps of another kind.
 std::string other_steps(const scenes::Scene& scene, const DivergenceError& error) {
-  const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
-  if (error.tried_parts && is_explicit) return "--set simulation.integrator=implicit_euler";
+  if (error.tried_parts && may_step_implicitly(scene))
+    return "--set simulation.integrator=implicit_euler";
   const int steps = std::max(2 * scene.settings.steps_per_second, error.steps_per_second);
   return fmt::format("--set simulation.steps_per_second={}{}", steps,
                      error.tried_parts ? "" : " or --on-divergence substep");
@@ -108,12 +115,11 @@ std::string other_beginning(const scenes::Scene& scene, const DivergenceError& e
         "{} motion.path or motion.rotation leave more room, and begin again with --overwrite",
         is_short_of_room ? "Let" : "Shorter steps do not help: let");
   }
-  const bool is_explicit = !sim::is_implicit(scene.settings.integrator);
   return fmt::format(
       "Shorter steps do not help from here: begin again with --overwrite and {}--set "
       "simulation.steps_per_second={}, or with --set simulation.contact=potential --set "
       "simulation.integrator=sdirk2, which takes several times as long",
-      is_explicit ? "--set simulation.integrator=implicit_euler, or with " : "",
+      may_step_implicitly(scene) ? "--set simulation.integrator=implicit_euler, or with " : "",
       4 * scene.settings.steps_per_second);
 }
 
