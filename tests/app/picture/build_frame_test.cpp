@@ -74,7 +74,7 @@ TEST(BuildFrame, DrawsNothingOfWhatIsNotToBeSeen) {
   const Built built = build({"body.1.drawn=nothing"}, {.field = ColourField::velocity});
   EXPECT_NO_THROW(render::check_frame(built.frame));
   ASSERT_EQ(built.frame.meshes.size(), 3U) << "others keep their places";
-  for (const std::size_t ball : {0, 1}) {
+  for (const std::size_t ball : {0U, 1U}) {
     EXPECT_TRUE(built.frame.meshes[ball].positions.empty());
     EXPECT_TRUE(built.frame.meshes[ball].shape->triangles.empty());
   }
