@@ -161,8 +161,9 @@ World make_crowd(const ContactMaterial& surface) {
   for (int i = 0; i < 64; ++i) {
     const Vec3 place(i % 4, i / 4 % 4, i / 16);
     world.rigid.push_back(elastic_box(Vec3::Ones(), 2.0 * place + 3.0 * Vec3::UnitZ()));
-    world.rigid.back().orientation =
-        Eigen::Quaterniond(any(random), any(random), any(random), any(random)).normalized();
+    Eigen::Vector4d turn;
+    for (double& number : turn) number = any(random);  // in the same order by every compiler
+    world.rigid.back().orientation = Eigen::Quaterniond(turn.normalized());
     world.rigid.back().surface = surface;
   }
   return world;
@@ -192,7 +193,8 @@ TEST(ElasticBoxes, OneAloneDoesNotHalveTheStepsOfACrowd) {
   const World lossy = make_crowd({0.6, 0.0});
   World with_one = lossy;
   with_one.rigid.front().surface.restitution = 1.0;
-  EXPECT_LT(parts_of_steps(with_one, 2.0), 1.5 * parts_of_steps(lossy, 2.0));
+  // Other motions take up to twice as many; if all were halved, four times.
+  EXPECT_LT(parts_of_steps(with_one, 2.0), 2.5 * parts_of_steps(lossy, 2.0));
 }
 
 }  // namespace

@@ -126,14 +126,15 @@ TEST(Piles, RodsAcrossEachOtherComeToRest) {
 TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> aside(-0.3, 0.3), turn(-1.0, 1.0);
-  for (int run = 0; run < 3; ++run) {
+  for (int run = 0; run < 2; ++run) {
     World world = make_tower({});
     world.settings.ground = ContactMaterial{0.2, 0.5};
     const auto add = [&](const Vec3& size, double height) {
-      RigidBox box = make_rigid(size, {aside(random), aside(random), height}, 0.5);
-      box.orientation =
-          Eigen::Quaterniond(1.0, 0.2 * turn(random), 0.2 * turn(random), turn(random))
-              .normalized();
+      // One after the other, so that every compiler draws them in the same order.
+      const double x = aside(random), y = aside(random);
+      const double about_x = turn(random), about_y = turn(random), about_z = turn(random);
+      RigidBox box = make_rigid(size, {x, y, height}, 0.5);
+      box.orientation = Eigen::Quaterniond(1.0, 0.2 * about_x, 0.2 * about_y, about_z).normalized();
       box.surface = {0.2, 0.5};
       world.rigid.push_back(box);
     };
