@@ -16,9 +16,18 @@ double outside(const OrientedBox& box, const Vec3& point) {
   return (box.to_local(point).cwiseAbs() - box.half).maxCoeff();
 }
 
-/// But for 0.1 rad.
-bool is_along_a_face(const OrientedBox& box, const Vec3& normal) {
-  return (box.axes.transpose() * normal).cwiseAbs().maxCoeff() > std::cos(0.1);
+/// How much of the direction is along one of the box's axes.
+double along_a_face(const OrientedBox& box, const Vec3& direction) {
+  return (box.axes.transpose() * direction).cwiseAbs().maxCoeff();
+}
+
+/// m along `normal`, below the face of the box that this direction leaves by, of a point over it.
+double below_face(const OrientedBox& box, const Vec3& normal, const Vec3& point) {
+  int axis = 0;
+  const Vec3 along = box.axes.transpose() * normal;
+  along.cwiseAbs().maxCoeff(&axis);
+  const double height = std::copysign(1.0, along[axis]) * box.to_local(point)[axis];
+  return std::abs(along[axis]) * (box.half[axis] - height);
 }
 
 TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
@@ -69,8 +78,14 @@ TEST(BoxContact, PointsLieInBothBoxesAndAreAsDeepAsTheySay) {
           break;
         case AxisKind::edges:
           ++of_edges;
-          if (is_along_a_face(first, n) || is_along_a_face(second, n)) {
+          if (std::abs(depth - 2.0 * above) > rounding) {
+            // Of a face that the axis is along: on the one box, and so far in the other.
             ++of_shared_faces;
+            const bool is_first = along_a_face(first, n) >= along_a_face(second, n);
+            const OrientedBox &face = is_first ? first : second, &other = is_first ? second : first;
+            ASSERT_GT(along_a_face(face, n), std::cos(0.1));
+            ASSERT_NEAR(depth, below_face(face, is_first ? Vec3(-n) : n, point), rounding) << i;
+            ASSERT_NEAR(outside(other, point), 0.0, rounding) << i;
             break;
           }
           ASSERT_NEAR(depth, 2.0 * above, rounding);
