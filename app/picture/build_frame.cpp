@@ -167,8 +167,9 @@ FrameBuilder::Look FrameBuilder::look(const scenes::BodyScene& body, const Shape
   Look look{shape, static_cast<float>(body.roughness), has_edges};
   if (body.drawn == scenes::Drawn::surface) return look;
   const bool draws_edges = body.drawn == scenes::Drawn::edges;
-  look.bars.emplace(draws_edges ? shape->edges : EdgeBars::Edges(), shape->colours,
-                    static_cast<float>(bar_of_extent * extent));
+  look.bars =
+      std::make_shared<EdgeBars>(draws_edges ? shape->edges : EdgeBars::Edges(), shape->colours,
+                                 static_cast<float>(bar_of_extent * extent));
   return look;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,8 +31,8 @@ class FrameBuilder {
   struct Look {
     std::shared_ptr<const render::MeshShape> shape;
     float roughness;
-    bool has_edges;                               // sharp ones: vertices have no normals
-    std::optional<EdgeBars> bars = std::nullopt;  // in place of the surface
+    bool has_edges;                                  // sharp ones: vertices have no normals
+    std::shared_ptr<const EdgeBars> bars = nullptr;  // in place of the surface; of all copies
   };
   static Look look(const scenes::BodyScene& body,
                    const std::shared_ptr<const render::MeshShape>& shape, bool has_edges,

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/picture/tube.h"
 #include "sim/joints/body_springs.h"
 #include "sim/mesh/measure.h"
 
@@ -35,14 +36,7 @@ std::shared_ptr<const render::MeshShape> tube_shape(int rings, const Colour& col
   const auto vertex = [](int ring, int side) {
     return static_cast<std::uint32_t>(ring * sides + side % sides);
   };
-  for (int ring = 0; ring + 1 < rings; ++ring) {
-    for (int side = 0; side < sides; ++side) {
-      const auto a = vertex(ring, side), b = vertex(ring, side + 1);
-      const auto c = vertex(ring + 1, side + 1), d = vertex(ring + 1, side);
-      shape->triangles.push_back({a, b, c});
-      shape->triangles.push_back({a, c, d});
-    }
-  }
+  add_tube(0, rings, sides, *shape);
   for (int side = 1; side + 1 < sides; ++side) {
     shape->triangles.push_back({vertex(0, 0), vertex(0, side + 1), vertex(0, side)});
     shape->triangles.push_back(
@@ -72,17 +66,12 @@ std::pair<sim::SpringEnd, sim::SpringEnd> nearest_ends(const sim::World& world,
 double diagonal_of(const sim::SoftBody& body) { return sim::bounds(body.positions).size().norm(); }
 
 /// A tube about a line that winds around the axis from a to b.
-struct Coil {
-  Vec3f a, along, across, other;
+struct Coil : LineAxes {
+  Vec3f a;
   float length;
 
   Coil(const Vec3f& from, const Vec3f& to)
-      : a(from), along(Vec3f::UnitX()), length((to - from).norm()) {
-    if (length > 0.0f) along = (to - from) / length;
-    const Vec3f off = std::abs(along.z()) < 0.9f ? Vec3f(Vec3f::UnitZ()) : Vec3f(Vec3f::UnitX());
-    across = off.cross(along).normalized();
-    other = along.cross(across);
-  }
+      : LineAxes(to - from), a(from), length((to - from).norm()) {}
 
   Vec3f radial(float angle) const { return std::cos(angle) * across + std::sin(angle) * other; }
 };
