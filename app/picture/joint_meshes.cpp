@@ -15,7 +15,7 @@ namespace {
 using render::Colour;
 using render::Vec3f;
 
-constexpr int sides = 8;  // of a tube
+constexpr int tube_sides = 8;  // of a tube
 constexpr int rings_per_turn = 16;
 constexpr int rings_of_pipe = 2;
 constexpr int turns_of_spring = 9;
@@ -34,15 +34,15 @@ int ring_count(int turns) { return turns > 0 ? turns * rings_per_turn + 1 : ring
 std::shared_ptr<const render::MeshShape> tube_shape(int rings, const Colour& colour) {
   auto shape = std::make_shared<render::MeshShape>();
   const auto vertex = [](int ring, int side) {
-    return static_cast<std::uint32_t>(ring * sides + side % sides);
+    return static_cast<std::uint32_t>(ring * tube_sides + side % tube_sides);
   };
-  add_tube(0, rings, sides, *shape);
-  for (int side = 1; side + 1 < sides; ++side) {
+  add_tube(0, rings, tube_sides, *shape);
+  for (int side = 1; side + 1 < tube_sides; ++side) {
     shape->triangles.push_back({vertex(0, 0), vertex(0, side + 1), vertex(0, side)});
     shape->triangles.push_back(
         {vertex(rings - 1, 0), vertex(rings - 1, side), vertex(rings - 1, side + 1)});
   }
-  shape->colours.assign(static_cast<std::size_t>(rings * sides), colour);
+  shape->colours.assign(static_cast<std::size_t>(rings * tube_sides), colour);
   return shape;
 }
 
@@ -120,8 +120,9 @@ void JointMeshes::add(const sim::World& world, render::Frame& frame) const {
       const Vec3f tangent = ahead.norm() > 0.0f ? Vec3f(ahead.normalized()) : coil.along;
       const Vec3f one = (coil.across - coil.across.dot(tangent) * tangent).normalized();
       const Vec3f two = tangent.cross(one);
-      for (int side = 0; side < sides; ++side) {
-        const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(side) / sides;
+      for (int side = 0; side < tube_sides; ++side) {
+        const float angle =
+            2.0f * std::numbers::pi_v<float> * static_cast<float>(side) / tube_sides;
         const Vec3f normal = std::cos(angle) * one + std::sin(angle) * two;
         mesh.positions.push_back(here + joint.radius * normal);
         mesh.normals.push_back(normal);
