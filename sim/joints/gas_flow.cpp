@@ -226,6 +226,15 @@ void GasFlow::take_runge_kutta_step(double step) {
   }
 }
 
+/// What has at most the pressure `none` in vacuum: as good as all has flowed out of it. Without gas
+/// a body may lie flat.
+void GasFlow::empty(double none) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (part.is_open && part.outside == 0.0 && pressure(part, gas_[i]) <= none) gas_[i] = {};
+  }
+}
+
 /// Opposite ends of a valve get the same numbers with opposite signs, so that what they have
 /// together changes by rounding only.
 void GasFlow::flow(World& world, double seconds) {
@@ -243,7 +252,10 @@ void GasFlow::flow(World& world, double seconds) {
   if (!any) return;
   for (double left = seconds; left > 0.0;) {
     const Pace pace = rates(gas_, slopes_[0]);
-    if (pace.difference <= even * max_pressure) break;
+    if (pace.difference <= even * max_pressure) {
+      empty(even * max_pressure);
+      break;
+    }
     const double step = std::min(left, part_of_time / pace.rate);
     take_runge_kutta_step(step);
     left -= step;

@@ -74,6 +74,7 @@ class GasFlow {
   void measure(const World& world);
   void take_keys(World& world, double from, double to);
   void flow(World& world, double seconds);
+  void empty(double none);
   void take_runge_kutta_step(double step);
   Pace rates(const std::vector<Gas>& gas, std::vector<Gas>& change) const;
   double pressure(const Part& part, const Gas& gas) const;

@@ -88,6 +88,21 @@ TEST(GasFlow, ALeakEndsAtThePressureOutside) {
   }
 }
 
+/// What is flat holds no gas: nothing is left that its volume, about zero, could press together.
+TEST(GasFlow, ABodyThatLeaksIntoVacuumEmptiesAndLiesFlat) {
+  SoftBody ball = make_ball(0.5, 1e-4, false, {0.0, 0.0, 0.6});
+  ball.material.ambient_pressure = 0.0;
+  ball.material.k = 20.0;
+  give_leak(ball, 0.02);
+  World world = make_free_world(std::move(ball));
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  world.settings.ground = ContactMaterial{};
+  const auto divergence = run(world, 8.0);
+  ASSERT_FALSE(divergence) << divergence->what;
+  EXPECT_EQ(world.soft[0].material.n, 0.0);
+  EXPECT_LT(std::abs(volume_of(world.soft[0])), 1e-3);
+}
+
 World make_joined(double one, double other, bool stiff, double exponent = 1.0) {
   World world = make_free_world(make_ball(0.5, one, stiff));
   world.soft.push_back(make_ball(0.7, other, stiff, {4.0, 0.0, 0.0}));
