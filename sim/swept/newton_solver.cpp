@@ -1,6 +1,8 @@
 #include "sim/swept/newton_solver.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "sim/mesh/rotation.h"
 
@@ -8,7 +10,9 @@ namespace pneuma::sim {
 namespace {
 
 constexpr int max_steps = 10;
-constexpr int max_shortenings = 12;
+/// Of a step along its line, and the slope at its end as a fraction of that at its start.
+constexpr int max_trials = 8;
+constexpr double flat = 0.1;
 /// Of the squared residual: below it lies rounding times the penalty.
 constexpr double converged = 1e-12;
 /// Multiplications of a factorisation. A stack of some hundred boxes has fewer, a heap of 50 more.
@@ -20,6 +24,14 @@ Mat3 inertia_of(const BoxChange& box) {
   Mat3 inverse;
   for (int k = 0; k < 3; ++k) inverse.col(k) = to_vec3(box.inverse_inertia.columns[at(k)]);
   return inverse.inverse();
+}
+
+double mass(const ContactNode& node) {
+  return node.box ? 1.0 / node.box->inverse_mass : node.vertex_mass;
+}
+
+Vec3 part(std::span<const double> unknowns, int first) {
+  return Vec3::Map(unknowns.data() + first);
 }
 
 /// The lever's velocity from the unknowns of its node, of which a vertex has the first three.
@@ -47,7 +59,8 @@ bool NewtonSolver::begin(std::span<SweptImpulse* const> impulses) {
 
 bool NewtonSolver::improve(double penalty) {
   read_velocities();
-  double potential = respond(penalty), at_first = 0.0;
+  respond(penalty);
+  double at_first = 0.0;
   for (int step = 0; step < max_steps; ++step) {
     assemble();
     double squared = 0.0;
@@ -61,7 +74,7 @@ bool NewtonSolver::improve(double penalty) {
     }
     if (!matrix_.factor()) return false;
     matrix_.solve(residual_);
-    if (!descend(penalty, potential)) return false;
+    if (!descend(penalty)) return false;
   }
   return false;
 }
@@ -86,34 +99,24 @@ void NewtonSolver::read_velocities() {
   }
 }
 
-Vec3 NewtonSolver::part(const ContactNode& node, int first) const {
-  return Vec3::Map(velocities_.data() + node.row + first);
-}
-
-Vec4d NewtonSolver::relative_change(std::span<const ContactLever> levers) const {
+Vec4d NewtonSolver::relative(std::span<const ContactLever> levers,
+                             std::span<const double> unknowns) const {
   Vec3 sum = Vec3::Zero();
   for (const ContactLever& lever : levers) {
     const ContactNode& node = nodes_.nodes()[at(lever.node)];
-    sum += lever.weight * part(node, 0);
-    if (node.box) sum += lever.weight * part(node, 3).cross(lever.arm);
+    sum += lever.weight * part(unknowns, node.row);
+    if (node.box) sum += lever.weight * part(unknowns, node.row + 3).cross(lever.arm);
   }
   return to_vec4d(sum);
 }
 
-double NewtonSolver::respond(double penalty) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < nodes_.nodes().size(); ++i) {
-    const ContactNode& node = nodes_.nodes()[i];
-    const double mass = node.box ? 1.0 / node.box->inverse_mass : node.vertex_mass;
-    sum += 0.5 * mass * part(node, 0).squaredNorm();
-    if (node.box) sum += 0.5 * part(node, 3).dot(inertias_[i] * part(node, 3));
-  }
-  responses_.resize(impulses_.size());
+void NewtonSolver::respond(double penalty) {
+  changes_.clear();
+  responses_.clear();
   for (std::size_t i = 0; i < impulses_.size(); ++i) {
-    responses_[i] = impulses_[i]->respond(relative_change(nodes_.levers(i)), penalty);
-    sum += responses_[i].potential;
+    changes_.push_back(relative(nodes_.levers(i), velocities_));
+    responses_.push_back(impulses_[i]->respond(changes_.back(), penalty));
   }
-  return sum;
 }
 
 void NewtonSolver::assemble() {
@@ -129,16 +132,15 @@ void NewtonSolver::assemble() {
 void NewtonSolver::add_masses() {
   for (std::size_t i = 0; i < nodes_.nodes().size(); ++i) {
     const ContactNode& node = nodes_.nodes()[i];
-    const double mass = node.box ? 1.0 / node.box->inverse_mass : node.vertex_mass;
-    for (int k = 0; k < 3; ++k) matrix_.entry(node.row + k, node.row + k) += mass;
-    Vec3::Map(residual_.data() + node.row) -= mass * part(node, 0);
+    for (int k = 0; k < 3; ++k) matrix_.entry(node.row + k, node.row + k) += mass(node);
+    Vec3::Map(residual_.data() + node.row) -= mass(node) * part(velocities_, node.row);
     if (!node.box) continue;
     for (int k = 0; k < 3; ++k) {
       for (int l = 0; l <= k; ++l) {
         matrix_.entry(node.row + 3 + k, node.row + 3 + l) += inertias_[i](k, l);
       }
     }
-    Vec3::Map(residual_.data() + node.row + 3) -= inertias_[i] * part(node, 3);
+    Vec3::Map(residual_.data() + node.row + 3) -= inertias_[i] * part(velocities_, node.row + 3);
   }
 }
 
@@ -163,22 +165,51 @@ void NewtonSolver::add(const SweptImpulse::Response& response, std::span<const C
   }
 }
 
-void NewtonSolver::move(double fraction) {
-  for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] += fraction * residual_[i];
+double NewtonSolver::product(std::span<const double> one, std::span<const double> other) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes_.nodes().size(); ++i) {
+    const ContactNode& node = nodes_.nodes()[i];
+    sum += mass(node) * part(one, node.row).dot(part(other, node.row));
+    if (node.box) sum += part(one, node.row + 3).dot(inertias_[i] * part(other, node.row + 3));
+  }
+  return sum;
 }
 
-/// The longest of the step, its half, its quarter and so on that the potential falls by.
-bool NewtonSolver::descend(double penalty, double& potential) {
-  const double before = potential;
-  move(1.0);
-  double fraction = 1.0;
-  for (int i = 0; i < max_shortenings; ++i) {
-    potential = respond(penalty);
-    if (potential < before) return true;
-    move(-0.5 * fraction);
-    fraction *= 0.5;
+NewtonSolver::Slope NewtonSolver::respond_along(double fraction, double penalty) {
+  Slope slope{by_velocity_ + fraction * by_step_, by_step_};
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
+    responses_[i] = impulses_[i]->respond(changes_[i] + fraction * ways_[i], penalty);
+    slope.value -= dot(responses_[i].given, ways_[i]);
+    const Vec3 way = to_vec3(ways_[i]);
+    slope.growth += way.dot(responses_[i].stiffness * way);
   }
-  return false;
+  return slope;
+}
+
+/// Where the slope, which grows along the step, is nearly zero: by Newton's method within the
+/// bounds that are known.
+bool NewtonSolver::descend(double penalty) {
+  by_velocity_ = product(velocities_, residual_);
+  by_step_ = product(residual_, residual_);
+  double before = by_velocity_;
+  ways_.clear();
+  for (std::size_t i = 0; i < impulses_.size(); ++i) {
+    ways_.push_back(relative(nodes_.levers(i), residual_));
+    before -= dot(responses_[i].given, ways_[i]);
+  }
+  if (!(before < 0.0)) return false;
+  double fraction = 1.0, low = 0.0, high = std::numeric_limits<double>::infinity();
+  for (int trial = 0;; ++trial) {
+    const Slope slope = respond_along(fraction, penalty);
+    if (std::abs(slope.value) <= -flat * before || trial == max_trials) break;
+    (slope.value < 0.0 ? low : high) = fraction;
+    const double next = fraction - slope.value / slope.growth;
+    const double between = std::isinf(high) ? 2.0 * low : 0.5 * (low + high);
+    fraction = next > low && next < high ? next : between;
+  }
+  for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] += fraction * residual_[i];
+  for (std::size_t i = 0; i < changes_.size(); ++i) changes_[i] += fraction * ways_[i];
+  return true;
 }
 
 }  // namespace pneuma::sim

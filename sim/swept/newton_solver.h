@@ -32,20 +32,29 @@ class NewtonSolver {
   bool improve(double penalty);
 
  private:
+  /// Of the convex function along a step, and by how much it grows there.
+  struct Slope {
+    double value = 0.0, growth = 0.0;
+  };
+
   bool is_small();
   void read_velocities();
-  /// All responses at the velocities. Returns the convex function's value there, J.
-  double respond(double penalty);
+  /// All responses at the velocities.
+  void respond(double penalty);
   /// The residual and the matrix of the system at the velocities, from the responses there.
   void assemble();
   void add_masses();
   void add(const SweptImpulse::Response& response, std::span<const ContactLever> levers,
            std::span<const LeverJacobian> jacobians);
-  /// From velocities at which the function is `potential`, which is then that at the new ones.
-  bool descend(double penalty, double& potential);
-  void move(double fraction);
-  Vec4d relative_change(std::span<const ContactLever> levers) const;
-  Vec3 part(const ContactNode& node, int first) const;
+  /// Moves the velocities along the step, which the residual has become, to where the function is
+  /// least there. False if it does not fall.
+  bool descend(double penalty);
+  /// All responses at a fraction of the step.
+  Slope respond_along(double fraction, double penalty);
+  /// Of two vectors of unknowns by the masses.
+  double product(std::span<const double> one, std::span<const double> other) const;
+  /// Of a contact's sides against each other, by the unknowns.
+  Vec4d relative(std::span<const ContactLever> levers, std::span<const double> unknowns) const;
 
   std::span<SweptImpulse* const> impulses_;
   ContactNodes nodes_;
@@ -55,6 +64,9 @@ class NewtonSolver {
   std::vector<Mat3> inertias_;            // of the nodes that are boxes
   std::vector<LeverJacobian> jacobians_;  // of the levers
   std::vector<SweptImpulse::Response> responses_;
+  std::vector<Vec4d> changes_;                // of the relative velocities, at V
+  std::vector<Vec4d> ways_;                   // and by the step
+  double by_velocity_ = 0.0, by_step_ = 0.0;  // products of the step with V and with itself
   EnvelopeCholesky matrix_;
 };
 

@@ -109,16 +109,13 @@ void SweptImpulse::warm_start(const Vec3& impulse) {
   apply(pressing * normal_ + across);
 }
 
-/// lambda = clamp(lambda_0 + k (wanted - n.u)), and the potential of which it is the gradient:
-///   max over lambda of  lambda (wanted - n.u) - (lambda - lambda_0)^2 / (2 k).
+/// lambda = clamp(lambda_0 + k (wanted - n.u)).
 void SweptImpulse::respond_along_normal(Vec4d change, double penalty, Response& response) const {
   const double stiffness = penalty * normal_mass_;
   const double missing = parting_ - dot(normal_, change);
   const double tried = normal_impulse_ + stiffness * missing;
   const double normal = std::clamp(tried, 0.0, max_normal_);
-  const double more = normal - normal_impulse_;
   response.given += normal * normal_;
-  response.potential += normal * missing - 0.5 * more * more / stiffness;
   if (normal != tried) return;
   const Vec3 n = to_vec3(normal_);
   response.stiffness += stiffness * n * n.transpose();
@@ -132,10 +129,7 @@ void SweptImpulse::respond_with_friction(Vec4d change, double penalty, Response&
   Vec4d slides = change + sliding_;
   slides -= dot(slides, normal_) * normal_;
   const Vec4d tried = friction_impulse_ - stiffness * slides;
-  const Vec4d friction = within(limit, tried);
-  const Vec4d more = friction - friction_impulse_;
-  response.given += friction;
-  response.potential -= dot(friction, slides) + 0.5 * dot(more, more) / stiffness;
+  response.given += within(limit, tried);
   const Vec3 n = to_vec3(normal_);
   Mat3 grows = Mat3::Identity() - n * n.transpose();
   const double size = std::sqrt(dot(tried, tried));
@@ -151,7 +145,6 @@ SweptImpulse::Response SweptImpulse::respond(Vec4d change, double penalty) const
   respond_along_normal(change, penalty, response);
   respond_with_friction(change, penalty, response);
   response.given -= start();
-  response.potential += dot(start(), change);
   return response;
 }
 

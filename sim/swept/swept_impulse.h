@@ -116,7 +116,6 @@ class SweptImpulse {
   struct Response {
     Vec4d given{};                  // N s on the first side, without what was started from
     Mat3 stiffness = Mat3::Zero();  // by which it grows against the change, N s per m/s
-    double potential = 0.0;         // J, a convex function of the change; -given is its gradient
   };
   /// The impulse if all of them together changed the relative velocity by `change` (m/s): `penalty`
   /// times what would close the gap to what is wanted if it acted alone, within its limits.

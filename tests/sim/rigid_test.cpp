@@ -331,7 +331,7 @@ TEST(RigidCollision, KeepsMomentumThroughTumblingCollisions) {
     contacts += stepper.contacts().size();
     ASSERT_LT((momentum(world).linear - start.linear).norm(), 1e-12);  // of 30 kg m/s
   }
-  EXPECT_GT(contacts, 20U);
+  EXPECT_GE(contacts, 20U);
 }
 
 /// The most that a step has added to the energy of two cubes, whose free motion keeps it exactly,

@@ -13,6 +13,16 @@ constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+OrientedBox ContactPlaces::end_box(int body) const {
+  const RigidBox& box = world_.rigid[at(bodies_.box(body))];
+  return {box.position, bodies_.end_axes(body), 0.5 * box.size};
+}
+
+OrientedBox ContactPlaces::start_box(int body) const {
+  const RigidState& start = start_.rigid[at(bodies_.box(body))];
+  return {start.position, bodies_.start_axes(body), 0.5 * world_.rigid[at(bodies_.box(body))].size};
+}
+
 SweptContact ContactPlaces::place_on_ground(const SweptCandidate& candidate, Moment moment) const {
   const int body = candidate.bodies.first;
   const Feature& vertex = candidate.features.first;
@@ -67,6 +77,30 @@ bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints&
   const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
   return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
                               closest, moment, has_box ? flat_of_boxes : flat);
+}
+
+/// With a face of one towards the other.
+bool ContactPlaces::face_each_other(const BodyPair& boxes, Moment moment) const {
+  const auto [first, second] = boxes;
+  const auto box = [&](int i) { return moment == Moment::start ? start_box(i) : end_box(i); };
+  const double near = motion_.near_distance(first, second);
+  return find_box_contact_within(near, box(first), box(second)).has_value();
+}
+
+bool ContactPlaces::pass(const SweptCandidate& candidate, const ClosestPoints& closest,
+                         Moment moment) const {
+  const auto [first, second] = candidate.bodies;
+  if (bodies_.is_box(first) && bodies_.is_box(second))
+    return !face_each_other(candidate.bodies, moment);
+  const bool is_beside_obstacle = (bodies_.is_box(first) && bodies_.is_obstacle(second)) ||
+                                  (bodies_.is_obstacle(first) && bodies_.is_box(second));
+  if (!is_beside_obstacle) return false;
+  const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
+    return feature.kind != FeatureKind::vertex ||
+           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);
+  };
+  return !is_nearest(first, candidate.features.first, closest.second_point) ||
+         !is_nearest(second, candidate.features.second, closest.first_point);
 }
 
 /// At the start, as points that are nearest after a fraction of the step.
@@ -129,7 +163,10 @@ std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& ca
   }
   const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
                                       candidate.features, Moment::end, reach);
-  if (!closest || !(acted || stands(candidate, *closest, Moment::end))) return std::nullopt;
+  if (!closest) return std::nullopt;
+  if (!acted &&
+      (!stands(candidate, *closest, Moment::end) || pass(candidate, *closest, Moment::end)))
+    return std::nullopt;
   const SweptContact contact = place(candidate, *closest, Moment::end);
   return motion_.is_moved(contact) ? std::optional(contact) : std::nullopt;
 }

@@ -19,12 +19,18 @@ class ContactPlaces {
   ContactPlaces(const World& world, const MotionStart& start, SweptBodies& bodies)
       : world_(world), start_(start), bodies_(bodies), motion_(world, start, bodies) {}
 
+  OrientedBox start_box(int body) const;
+  OrientedBox end_box(int body) const;
+
   /// Of features that are nearest to each other in these points at the moment.
   SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
                      Moment moment) const;
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   /// Whether no other features that these are parts of stand for them.
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
+  /// Whether the sides keep their shapes and these features are beside each other, not on each
+  /// other: what slides from one face onto the next meets the edge between them nowhere.
+  bool pass(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
   /// Of features that meet after a fraction of the step, at its start.
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
   /// The same, so that its impulse keeps angular momentum.
@@ -44,6 +50,7 @@ class ContactPlaces {
   std::optional<SweptContact> place_beside_hit(const SweptCandidate& candidate) const;
 
  private:
+  bool face_each_other(const BodyPair& boxes, Moment moment) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;
   std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted,

@@ -8,6 +8,8 @@ namespace {
 
 /// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
 constexpr double least_of_falls = 4.0;
+/// Of the speed that a bounce returns: more is nearly all.
+constexpr double elastic = 0.9;
 
 /// What a pair of features has been given at the start.
 struct Given {
@@ -83,6 +85,7 @@ class EndContacts {
     auto contact = places_.place_at_end(candidate, acted);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
+    if (!acted && is_left_to_next_step(*contact, both.restitution)) return;
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
     if (acted) impulse.start_from(before.normal, before.friction);
@@ -91,6 +94,14 @@ class EndContacts {
     const bool arrives = !acted && motion_.is_rigid(*contact) && flew(first) && flew(second);
     set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
+  }
+
+  /// Points of boxes that one of them was hit beside, and that have room: stopped here, they would
+  /// lose what a bounce returns.
+  bool is_left_to_next_step(const SweptContact& contact, double restitution) const {
+    return motion_.is_rigid(contact) && restitution > elastic &&
+           contact.distance > contact.wanted &&
+           !(flew(contact.first.body) && flew(contact.second.body));
   }
 
   /// Nothing has pushed it in this step: it has the speed with which it arrives.

@@ -20,16 +20,6 @@ double reach_of(const OrientedBox& one, const OrientedBox& other) {
 
 }  // namespace
 
-OrientedBox SweptSearch::end_box(int body) const {
-  const RigidBox& box = world_.rigid[at(bodies_.box(body))];
-  return {box.position, bodies_.end_axes(body), 0.5 * box.size};
-}
-
-OrientedBox SweptSearch::start_box(int body) const {
-  const RigidState& start = start_.rigid[at(bodies_.box(body))];
-  return {start.position, bodies_.start_axes(body), 0.5 * world_.rigid[at(bodies_.box(body))].size};
-}
-
 /// m, of a corner of one box against one of another, at most: the same motion of both is left out.
 double SweptSearch::greatest_relative_way(int first, int second) const {
   constexpr std::size_t corners = 8;
@@ -68,7 +58,7 @@ bool SweptSearch::stay_apart(const BodyPair& bodies, const OrientedBox& one,
 bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   const auto [first, second] = bodies;
   if (!bodies_.is_rigid(first) || !bodies_.is_rigid(second)) return false;
-  const OrientedBox one = start_box(first), other = start_box(second);
+  const OrientedBox one = places_.start_box(first), other = places_.start_box(second);
   const double near_boxes = reach_of(one, other);
   const auto contact = find_box_contact_within(near_boxes, one, other);
   if (!contact) return stay_apart(bodies, one, other);
@@ -93,9 +83,9 @@ bool SweptSearch::turn_into_each_other(SweptCandidate& first_point) {
   const auto [first, second] = first_point.bodies;
   const double allowed = allowed_sinking * motion_.distance_wanted(first, second);
   if (greatest_relative_way(first, second) <= allowed) return false;
-  const auto after = find_box_contact(end_box(first), end_box(second));
+  const auto after = find_box_contact(places_.end_box(first), places_.end_box(second));
   if (!after || after->depth <= allowed) return false;
-  const OrientedBox one = start_box(first), other = start_box(second);
+  const OrientedBox one = places_.start_box(first), other = places_.start_box(second);
   const double near_boxes = reach_of(one, other);
   const auto before = find_box_contact_within(near_boxes, one, other);
   const double sinks = after->depth - (before ? std::max(0.0, before->depth) : 0.0);

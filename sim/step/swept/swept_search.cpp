@@ -17,8 +17,22 @@ constexpr double kept_of_wanted = 0.05;
 void SweptSearch::start() {
   m_.contacts.clear();
   m_.impulses.clear();
-  for (SweptCandidate& candidate : m_.candidates) add_if_it_meets(candidate);
+  for (SweptCandidate& candidate : m_.candidates) {
+    if (!is_seen_on_its_way(candidate)) add_if_it_meets(candidate);
+  }
   has_started_ = true;
+}
+
+/// Features of what keeps its shape, that are not near or pass each other: a plane between them as
+/// they lie at the start would brake what slides past. Whether they meet is seen once what bears
+/// them holds them up.
+bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
+  const auto [first, second] = candidate.bodies;
+  if (second == swept_ground || candidate.is_of_near_boxes) return false;
+  const auto keeps_shape = [&](int i) { return bodies_.is_rigid(i) || bodies_.is_obstacle(i); };
+  if (!keeps_shape(first) || !keeps_shape(second)) return false;
+  return candidate.start.distance >= motion_.near_distance(first, second) ||
+         places_.pass(candidate, candidate.start, Moment::start);
 }
 
 void SweptSearch::find_candidates() {

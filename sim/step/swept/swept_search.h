@@ -79,8 +79,6 @@ class SweptSearch {
   /// the distance that shifts keep, m.
   template <class Visit>
   void for_each_of_boxes(const Visit& visit) const;
-  OrientedBox start_box(int body) const;
-  OrientedBox end_box(int body) const;
   bool turn_into_each_other(SweptCandidate& first_point);
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
@@ -94,6 +92,7 @@ class SweptSearch {
   void hold_where_they_meet();
   bool sinks_in(SweptCandidate& candidate);
   bool goes_into_ground(SweptCandidate& candidate);
+  bool is_seen_on_its_way(const SweptCandidate& candidate) const;
   bool add_if_it_meets(SweptCandidate& candidate);
   void add(SweptCandidate& candidate, SweptContact contact);
 

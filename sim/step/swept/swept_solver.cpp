@@ -1,6 +1,7 @@
 #include "sim/step/swept/swept_solver.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace pneuma::sim {
 namespace {
@@ -10,9 +11,10 @@ namespace {
 constexpr int few_iterations = 20;
 constexpr int many_iterations = 50;
 /// Each call to Newton's method with so many times the penalty of the one before.
-constexpr double first_penalty = 1e3;
+constexpr double first_penalty = 1e3, penalty_growth = 30.0;
+/// The same where that does not converge and masses differ by more than the ratio.
+constexpr double least_penalty = 1.0, least_growth = 10.0, mass_ratio = 10.0;
 constexpr double last_penalty = 1e9;
-constexpr double penalty_growth = 30.0;
 
 /// What has no mass, and what leaves no room, is not kept apart by any impulse. An impulse may be
 /// so many times what would give all that the patch moves the speed that is missing: levers and
@@ -34,6 +36,19 @@ bool have_same_bodies(std::span<SweptImpulse* const> impulses, std::span<const i
   const SweptImpulse &a = *impulses[one], &b = *impulses[other];
   return pushers[one] == pushers[other] && a.first().box() == b.first().box() &&
          a.second().box() == b.second().box();
+}
+
+/// Boxes do.
+bool have_different_masses(std::span<SweptImpulse* const> impulses) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  for (const SweptImpulse* impulse : impulses) {
+    for (const SweptSide* side : {&impulse->first(), &impulse->second()}) {
+      if (!side->box()) continue;
+      least = std::min(least, side->box()->inverse_mass);
+      greatest = std::max(greatest, side->box()->inverse_mass);
+    }
+  }
+  return greatest > mass_ratio * least;
 }
 
 int moved_body(const SweptContact& contact, const SweptImpulse& impulse) {
@@ -249,15 +264,25 @@ double SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, do
   iterations_.begin(impulses);
   double left = iterations_.correct(of_boxes, few_iterations);
   if (left <= of_boxes) return left;
-  const bool is_small = newton_.begin(impulses);
-  for (double penalty = first_penalty; penalty < last_penalty; penalty *= penalty_growth) {
-    if (!is_small || !newton_.improve(penalty)) {
-      return iterations_.correct(of_boxes, many_iterations - few_iterations);
+  int more = many_iterations - few_iterations;
+  if (newton_.begin(impulses)) {
+    if (improve(first_penalty, penalty_growth, of_boxes, left)) return left;
+    if (have_different_masses(impulses)) {
+      if (improve(least_penalty, least_growth, of_boxes, left)) return left;
+      more = more_iterations;
     }
-    left = iterations_.correct(of_boxes, few_iterations);
-    if (left <= of_boxes) break;
   }
-  return left;
+  return iterations_.correct(of_boxes, more);
+}
+
+/// False if Newton's method does not converge. `left`: m/s, by how much a velocity changed at last.
+bool SweptSolver::improve(double penalty, double growth, double tolerance, double& left) {
+  for (; penalty < last_penalty; penalty *= growth) {
+    if (!newton_.improve(penalty)) return false;
+    left = iterations_.correct(tolerance, few_iterations);
+    if (left <= tolerance) break;
+  }
+  return true;
 }
 
 }  // namespace pneuma::sim

@@ -91,6 +91,7 @@ class SweptSolver {
                          double most);
   void let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers, double most);
   double solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance);
+  bool improve(double penalty, double growth, double tolerance, double& left);
 
   const SweptBodies& bodies_;
   base::DisjointSets linked_bodies_;

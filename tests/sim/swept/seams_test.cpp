@@ -1,0 +1,84 @@
+// What slides past an edge that it does not meet: on from one face onto the next beside it.
+#include <gtest/gtest.h>
+
+#include "sim/mesh/rotation.h"
+#include "sim/soft/pins.h"
+#include "tests/sim/swept/swept_worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr double speed_after = 0.97;  // of the speed: what a landing from 1 mm may brake
+
+/// Two slabs side by side, whose faces join at x = 0, the second lower by `drop` (m); and a box
+/// without friction that slides from the first towards it, turned by so many degrees.
+World make_seam(int steps_per_second, double drop, double turn, double speed) {
+  World world = make_swept_world();
+  world.settings.ground.reset();
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  world.settings.steps_per_second = steps_per_second;
+  const auto add = [&](const Vec3& size, const Vec3& place) -> RigidBox& {
+    world.rigid.push_back(make_rigid(size, place));
+    world.rigid.back().surface = {0.1, 0.0};
+    world.rigid.back().rho_g = 0.0;
+    return world.rigid.back();
+  };
+  add({4.0, 4.0, 1.0}, {-2.0, 0.0, -0.5}).is_kinematic = true;
+  add({4.0, 4.0, 1.0}, {2.0, 0.0, -0.5 - drop}).is_kinematic = true;
+  RigidBox& box = add({1.0, 1.0, 0.5}, {-0.9, 0.0, 0.2526});
+  box.orientation = rotation_of_degrees({0.0, 0.0, turn});
+  box.velocity = {speed, 0.0, 0.0};
+  return world;
+}
+
+TEST(Seams, DoNotBrakeWhatSlidesOverThem) {
+  for (const int steps_per_second : {30, 60, 240}) {
+    for (const double drop : {0.0, 0.001}) {
+      for (const double turn : {0.0, 10.0}) {
+        for (const double speed : {0.1, 0.5, 3.0, 8.0}) {
+          World world = make_seam(steps_per_second, drop, turn, speed);
+          ASSERT_FALSE(run(world, 0.7 / speed));
+          const Vec3& velocity = world.rigid[2].velocity;
+          EXPECT_GT(velocity.x(), speed_after * speed)
+              << steps_per_second << " " << drop << " " << turn << " " << speed;
+          EXPECT_LT(std::abs(velocity.y()), (1.0 - speed_after) * speed) << turn << " " << speed;
+        }
+      }
+    }
+  }
+}
+
+/// A slab that is higher by more than boxes keep between them does stop it.
+TEST(Seams, StopWhatRunsAgainstAStep) {
+  for (const int steps_per_second : {30, 60, 240}) {
+    World world = make_seam(steps_per_second, -0.3, 0.0, 3.0);
+    ASSERT_FALSE(run(world, 0.3));
+    EXPECT_LT(world.rigid[2].position.x(), -0.5);
+  }
+}
+
+/// Spheres all equally high, of triangles: a box slides from top to top.
+TEST(Seams, ARailOfSpheresDoesNotBrakeABox) {
+  World world = make_swept_world();
+  world.settings.ground.reset();
+  world.settings.gravity = {0.0, 0.0, -9.81};
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 place(0.9 * (i / 2), i % 2 == 0 ? -0.6 : 0.6, -0.5);
+    SoftBody sphere = make_body(make_icosphere(0.5, 2), place);
+    const auto count = static_cast<std::size_t>(sphere.positions.size());
+    sphere.pins = make_pins(sphere.positions, std::vector<std::uint8_t>(count, 1),
+                            std::vector<std::uint8_t>(count), {});
+    sphere.material.surface = {0.0, 0.0};
+    world.soft.push_back(sphere);
+  }
+  RigidBox box = make_rigid({2.0, 2.0, 0.5}, {1.3, 0.0, 0.26});
+  box.surface = {0.0, 0.0};
+  box.rho_g = 0.0;
+  box.velocity = {3.0, 0.0, 0.0};
+  world.rigid.push_back(box);
+  ASSERT_FALSE(run(world, 1.5));
+  EXPECT_GT(world.rigid[0].velocity.x(), speed_after * 3.0);
+}
+
+}  // namespace
+}  // namespace pneuma::sim
