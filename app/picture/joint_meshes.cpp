@@ -23,7 +23,11 @@ constexpr float straight = 0.12f;  // of a spring's length, at either end
 // Of the length that it has at the start.
 constexpr double wire_of_length = 0.018;
 constexpr double coil_of_length = 0.075;
-constexpr double pipe_of_size = 0.045;  // of the smaller body's extent
+// Of the smaller body's extent.
+constexpr double pipe_of_size = 0.045;
+/// A shorter spring is as wide as one of this length: of one whose ends touch at the start nothing
+/// would be seen.
+constexpr double least_length_of_size = 0.35;
 
 const Colour steel(0.55f, 0.57f, 0.60f);
 const Colour brass(0.72f, 0.58f, 0.30f);
@@ -63,7 +67,20 @@ std::pair<sim::SpringEnd, sim::SpringEnd> nearest_ends(const sim::World& world,
   return {end(valve.first, valve.second), end(valve.second, valve.first)};
 }
 
-double diagonal_of(const sim::SoftBody& body) { return sim::bounds(body.positions).size().norm(); }
+/// m, of the smaller one of two soft bodies.
+double smaller_size(const sim::World& world, int first, int second) {
+  const auto diagonal = [&](int body) {
+    return sim::bounds(world.soft[sim::at(body)].positions).size().norm();
+  };
+  return std::min(diagonal(first), diagonal(second));
+}
+
+/// m, of which a spring's wire and coil are parts.
+double drawn_length(const sim::World& world, const sim::BodySpring& spring) {
+  const double size = smaller_size(world, spring.first.body, spring.second.body);
+  return std::max(
+      {spring.rest_length, sim::spring_between(world, spring).norm(), least_length_of_size * size});
+}
 
 /// A tube about a line that winds around the axis from a to b.
 struct Coil : LineAxes {
@@ -80,15 +97,14 @@ struct Coil : LineAxes {
 
 JointMeshes::JointMeshes(const sim::World& world) {
   for (const sim::BodySpring& spring : world.springs) {
-    const double length = std::max(spring.rest_length, sim::spring_between(world, spring).norm());
+    const double length = drawn_length(world, spring);
     joints_.push_back({spring.first, spring.second, tube_shape(ring_count(turns_of_spring), steel),
                        turns_of_spring, static_cast<float>(wire_of_length * length),
                        static_cast<float>(coil_of_length * length)});
   }
   for (const sim::Valve& valve : world.valves) {
     auto [first, second] = nearest_ends(world, valve);
-    const double size = std::min(diagonal_of(world.soft[sim::at(valve.first)]),
-                                 diagonal_of(world.soft[sim::at(valve.second)]));
+    const double size = smaller_size(world, valve.first, valve.second);
     joints_.push_back({std::move(first), std::move(second), tube_shape(rings_of_pipe, brass), 0,
                        static_cast<float>(pipe_of_size * size), 0.0f});
   }
