@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/host/errors.h"
+#include "app/host/thread_count.h"
 #include "app/world/build_world.h"
 #include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
@@ -25,11 +26,21 @@ int picture_side(const char* name, const std::optional<int>& given, int of_scene
                                scenes::smallest_picture_side, scenes::greatest_picture_side));
 }
 
+/// Before the scene is read, which may take long.
+scenes::Scene opened(const std::string& scene, const std::vector<std::string>& overrides,
+                     int threads) {
+  if (threads < 1 || threads > max_threads) {
+    throw UsageError(
+        fmt::format("threads = {}: a simulation has 1 to {} threads", threads, max_threads));
+  }
+  return open_scene(scene, overrides);
+}
+
 }  // namespace
 
 ScriptedWorld::ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides,
                              int threads)
-    : scene_(open_scene(scene, overrides)),
+    : scene_(opened(scene, overrides, threads)),
       world_(checked_world(scene_)),
       stepper_(world_, {.threads = threads, .plan = {}}),
       camera_(scene_, world_, threads) {}

@@ -24,7 +24,8 @@ struct PictureSize {
 
 class ScriptedWorld {
  public:
-  /// As `pneuma check SCENE --set ...` loads it, with the same errors.
+  /// As `pneuma check SCENE --set ...` loads it, with the same errors; UsageError also for threads
+  /// that --threads refuses.
   ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides, int threads);
 
   /// One step. Throws DivergenceError; the world is then in its last valid state.

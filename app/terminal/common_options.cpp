@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 
+#include "app/host/thread_count.h"
 #include "assets/model_file.h"
 
 namespace pneuma::app {
@@ -83,7 +84,7 @@ void add_backend_option(CLI::App& command, std::optional<render::Backend>& backe
 
 void add_threads_option(CLI::App& command, int& threads) {
   command.add_option("--threads", threads, "Threads of the simulation [1]")
-      ->check(CLI::Range(1, 256));
+      ->check(CLI::Range(1, max_threads));
 }
 
 void add_examples(CLI::App& command, std::initializer_list<std::string> lines) {

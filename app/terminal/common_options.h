@@ -34,7 +34,7 @@ void add_frames_option(CLI::App& command, std::string& frames);
 /// --backend: osmesa or egl.
 void add_backend_option(CLI::App& command, std::optional<render::Backend>& backend);
 
-/// --threads of the simulation, 1 to 256.
+/// --threads of the simulation: see thread_count.h.
 void add_threads_option(CLI::App& command, int& threads);
 
 /// Below a command's help: what one may type, each line a whole command.

@@ -91,6 +91,13 @@ class Module(unittest.TestCase):
         self.assertEqual(as_list.scene_toml, as_dict.scene_toml)
         self.assertIn("k = 80", as_dict.scene_toml)
 
+    def test_threads_are_those_of_the_command(self):
+        self.assertEqual(len(pneuma.load(str(self.scene), threads=2).soft), 1)
+        for threads in (-1, 0, 257, 1000):
+            with self.assertRaisesRegex(pneuma.UsageError, f"threads = {threads}: .* 1 to 256"):
+                pneuma.load(str(self.scene), threads=threads)
+        self.assertIn("range 1 to 256", self.command("check", self.scene, "--threads", "257").stderr)
+
     def test_volume_and_energy_are_those_of_the_arrays(self):
         world = pneuma.load(str(self.scene), set={"body.1.rho_g": 0})
         world.step(20)
