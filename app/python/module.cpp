@@ -1,17 +1,21 @@
-// The Python module: names, arrays and exceptions; what they do is in scripted_world.h.
+// The Python module: names, overrides, arrays and exceptions; what they do is in scripted_world.h.
 //
 // Arrays of the state (positions, velocities) are copies, because the stepper exchanges the memory
 // of a body with its own from step to step: a view would show another step than the one it was
 // taken in. Arrays of what never changes (triangles) are read-only views that keep their mesh
 // alive.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/files/scene_catalogue.h"
@@ -66,14 +70,90 @@ struct PyRigidBox {
   const sim::RigidBox& box() const { return world->scripted.world().rigid[index]; }
 };
 
-std::vector<std::string> as_overrides(const py::object& given) {
+std::string type_name(const py::handle& value) {
+  return py::str(py::type::handle_of(value).attr("__name__"));
+}
+
+bool is_text(const py::handle& value) { return py::isinstance<py::str>(value); }
+
+bool is_mapping(const py::handle& value) { return py::hasattr(value, "items"); }
+
+/// Of what has an order.
+bool is_sequence(const py::handle& value) {
+  return !is_text(value) && !is_mapping(value) && !py::isinstance<py::bytes>(value) &&
+         py::hasattr(value, "__getitem__");
+}
+
+[[noreturn]] void refuse_set(const std::string& what) {
+  throw py::type_error(fmt::format(
+      "set: expected a dict, such as {{\"body.k\": 200}}, or a list of \"PATH=VALUE\", such as "
+      "[\"body.k=200\"], got {}",
+      what));
+}
+
+[[noreturn]] void refuse_value(const std::string& path, const py::handle& value) {
+  throw py::type_error(
+      fmt::format("set: {}: expected a number, a bool, a str, a path, or a list, tuple or array of "
+                  "these, got {}",
+                  path, type_name(value)));
+}
+
+/// As TOML.
+std::string toml_text(const std::string& path, const py::handle& value) {
+  if (is_text(value)) return nlohmann::json(value.cast<std::string>()).dump();
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  // Of numpy's arrays and scalars: the same as Python's own.
+  if (py::hasattr(value, "tolist")) return toml_text(path, value.attr("tolist")());
+  if (py::hasattr(value, "__fspath__")) return toml_text(path, value.attr("__fspath__")());
+  if (is_sequence(value)) {
+    std::vector<std::string> items;
+    for (const py::handle& item : value) items.push_back(toml_text(path, item));
+    return fmt::format("[{}]", fmt::join(items, ", "));
+  }
+  if (py::hasattr(value, "__index__")) return py::str(value.attr("__index__")());
+  if (py::hasattr(value, "__float__")) return py::repr(value.attr("__float__")());
+  refuse_value(path, value);
+}
+
+std::string key_text(const py::handle& key) {
+  if (!is_text(key) && !py::hasattr(key, "__index__")) {
+    refuse_set(fmt::format("a dict with a key of type {}", type_name(key)));
+  }
+  return py::str(key);
+}
+
+void add_overrides(const std::string& table, const py::handle& values,
+                   std::vector<std::string>& overrides) {
+  for (const py::handle& item : values.attr("items")()) {
+    const auto [key, value] = item.cast<std::pair<py::object, py::object>>();
+    const std::string path = table + key_text(key);
+    if (is_mapping(value)) {
+      add_overrides(path + '.', value, overrides);
+    } else {
+      overrides.push_back(fmt::format(
+          "{}={}", path, is_text(value) ? value.cast<std::string>() : toml_text(path, value)));
+    }
+  }
+}
+
+/// The texts "PATH=VALUE" of a dict of values, also with dicts in it for tables, or of a list of
+/// such texts; none of None. Values are numbers, bools, texts, paths, and sequences of these; with
+/// numpy's arrays and scalars. A text is what may stand behind the = of --set. Throws
+/// py::type_error.
+std::vector<std::string> set_argument(const py::object& given) {
   std::vector<std::string> overrides;
   if (given.is_none()) return overrides;
-  if (!py::isinstance<py::dict>(given)) return given.cast<std::vector<std::string>>();
-  for (const auto& [key, value] : given.cast<py::dict>()) {
-    std::string text = py::str(value);
-    if (py::isinstance<py::bool_>(value)) text = value.cast<bool>() ? "true" : "false";
-    overrides.push_back(fmt::format("{}={}", key.cast<std::string>(), text));
+  if (is_mapping(given)) {
+    add_overrides("", given, overrides);
+    return overrides;
+  }
+  if (!is_sequence(given)) {
+    refuse_set(is_text(given) ? std::string(py::repr(given)) : type_name(given));
+  }
+  for (const py::handle& item : given) {
+    if (!is_text(item))
+      refuse_set(fmt::format("a {} with an item of type {}", type_name(given), type_name(item)));
+    overrides.push_back(item.cast<std::string>());
   }
   return overrides;
 }
@@ -332,12 +412,14 @@ PYBIND11_MODULE(pneuma, module) {
   define_world(module);
   module.def(
       "load",
-      [](const std::string& scene, const py::object& overrides, int threads) {
-        return std::make_shared<PyWorld>(scene, as_overrides(overrides), threads);
+      [](const std::filesystem::path& scene, const py::object& overrides, int threads) {
+        return std::make_shared<PyWorld>(scene.string(), set_argument(overrides), threads);
       },
       py::arg("scene"), py::arg("set") = py::none(), py::arg("threads") = 1,
-      "The world of a scene: a file, the name of one, or a model. `set`: a dict, or a list of "
-      "\"PATH=VALUE\" as for `pneuma --set`.");
+      "The world of a scene: a file, the name of one, or a model. `set`: a dict, such as "
+      "{\"body.k\": 200, \"simulation\": {\"gravity\": (0, 0, -1.62)}}, or a list of "
+      "\"PATH=VALUE\" "
+      "as for `pneuma --set`. Results do not depend on `threads`.");
   module.def(
       "scenes",
       [] {

@@ -91,11 +91,50 @@ class Module(unittest.TestCase):
         self.assertEqual(as_list.scene_toml, as_dict.scene_toml)
         self.assertIn("k = 80", as_dict.scene_toml)
 
+    def loaded(self, overrides):
+        return pneuma.load(self.scene, set=overrides).scene_toml
+
+    def test_values_of_overrides_are_pythons_and_numpys(self):
+        texts = ["ball.velocity=[1, 2.5, 3]", "duration=0.5", "picture.width=32", "picture.caption=false"]
+        expected = self.loaded(texts)
+        vectors = ([1, 2.5, 3], (1, 2.5, 3), np.array([1, 2.5, 3]), (np.int8(1), np.float32(2.5), np.int64(3)))
+        for vector in vectors:
+            for half, width, no in ((0.5, 32, False), (np.float64(0.5), np.int64(32), np.bool_(False))):
+                values = {"ball.velocity": vector, "duration": half, "picture.width": width, "picture.caption": no}
+                self.assertEqual(self.loaded(values), expected)
+        self.assertEqual(self.loaded({"duration": np.array(0.5)}), self.loaded({"duration": 0.5}))
+        self.assertEqual(self.loaded({"simulation.integrator": "rk4"}), self.loaded(["simulation.integrator=rk4"]))
+        self.assertEqual(self.loaded({"ball.colours": ("#d62828",)}), self.loaded(["ball.colours=['#d62828']"]))
+        rows = np.array([[-1, -1, 0, 1, 1, 0.5], [-1, -1, 1.5, 1, 1, 3]])
+        self.assertEqual(self.loaded({"ball.pinned": rows}), self.loaded([f"ball.pinned={rows.tolist()}"]))
+
+    def test_dicts_within_overrides_are_tables(self):
+        simulation = {"contact": "impulses", "particles": {"max_sweeps": 3}}
+        nested = {"ball": {"k": 80}, "body": {2: {"mass": 3}}, "simulation": simulation}
+        flat = {"ball.k": 80, "body.2.mass": 3, "simulation.contact": "impulses"}
+        flat["simulation.particles.max_sweeps"] = 3
+        self.assertEqual(self.loaded(nested), self.loaded(flat))
+
+    def test_other_overrides_are_refused_with_what_is_allowed(self):
+        for given in ("body.k=200", 5, b"body.k=200", [5], {5.5: 1}, {"body.k=200"}):
+            with self.assertRaisesRegex(TypeError, r'set: expected a dict, such as {"body.k": 200}, or a list'):
+                self.loaded(given)
+        for value in (None, {1, 2}, [{"k": 1}], object(), b"200"):
+            with self.assertRaisesRegex(TypeError, "set: body.k: expected a number, a bool, a str"):
+                self.loaded({"body.k": value})
+        with self.assertRaisesRegex(pneuma.SceneError, "k: expected a number"):
+            self.loaded({"body.k": (1, 2)})
+
+    def test_a_scene_may_be_a_path(self):
+        self.assertEqual(pneuma.load(self.scene).state_hash, pneuma.load(str(self.scene)).state_hash)
+        with self.assertRaises(TypeError):
+            pneuma.load(5)
+
     def test_threads_are_those_of_the_command(self):
-        self.assertEqual(len(pneuma.load(str(self.scene), threads=2).soft), 1)
+        self.assertEqual(len(pneuma.load(self.scene, threads=2).soft), 1)
         for threads in (-1, 0, 257, 1000):
             with self.assertRaisesRegex(pneuma.UsageError, f"threads = {threads}: .* 1 to 256"):
-                pneuma.load(str(self.scene), threads=threads)
+                pneuma.load(self.scene, threads=threads)
         self.assertIn("range 1 to 256", self.command("check", self.scene, "--threads", "257").stderr)
 
     def test_volume_and_energy_are_those_of_the_arrays(self):
