@@ -263,6 +263,31 @@ py::dict contacts(PyWorld& held) {
   return result;
 }
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// What no step changes, so that it can be printed at any time.
+std::string described(const PyWorld& held) {
+  const sim::World& world = held.scripted.world();
+  return fmt::format("<pneuma.World '{}': {}, {}, {} steps per second>", held.scripted.scene().name,
+                     counted(world.soft.size(), "soft body", "soft bodies"),
+                     counted(world.rigid.size(), "rigid box", "rigid boxes"),
+                     world.settings.steps_per_second);
+}
+
+std::string described(const PySoftBody& soft) {
+  const sim::MeshTopology& topology = soft.body().mesh->topology;
+  return fmt::format("<pneuma.SoftBody '{}': {} vertices, {} triangles>", soft.body().name,
+                     topology.vertex_count(), topology.triangle_count());
+}
+
+std::string described(const PyRigidBox& rigid) {
+  const sim::RigidBox& box = rigid.box();
+  return fmt::format("<pneuma.RigidBox '{}': {:g} x {:g} x {:g} m>", box.name, box.size.x(),
+                     box.size.y(), box.size.z());
+}
+
 /// What a member of the module reads of a world, under its lock.
 template <class Read>
 auto reads(const Read& read) {
@@ -296,6 +321,7 @@ void define_errors(py::module_& module) {
 void define_bodies(py::module_& module) {
   using app::ScriptedWorld;
   py::class_<PySoftBody>(module, "SoftBody", "A soft body of a world, in its present state.")
+      .def("__repr__", [](const PySoftBody& soft) { return described(soft); })
       .def_property_readonly("name", [](const PySoftBody& soft) { return soft.body().name; })
       .def_property_readonly("positions", reads_of<PySoftBody>([](const PySoftBody& soft) {
                                return copied(soft.body().positions);
@@ -313,6 +339,7 @@ void define_bodies(py::module_& module) {
                              }),
                              "m^3");
   py::class_<PyRigidBox>(module, "RigidBox", "A rigid box of a world, in its present state.")
+      .def("__repr__", [](const PyRigidBox& rigid) { return described(rigid); })
       .def_property_readonly("name", [](const PyRigidBox& rigid) { return rigid.box().name; })
       .def_property_readonly(
           "size", [](const PyRigidBox& rigid) { return copied(rigid.box().size); },
@@ -353,6 +380,7 @@ py::bytes save(PyWorld& world) {
 void define_world(py::module_& module) {
   using app::ScriptedWorld;
   py::class_<PyWorld, WorldPointer>(module, "World", "The world of a scene; pneuma.load makes it.")
+      .def("__repr__", [](const PyWorld& world) { return described(world); })
       .def("step", step, py::arg("count") = 1, "Advance by so many steps.")
       .def(
           "draw", draw, py::arg("width") = py::none(), py::arg("height") = py::none(),

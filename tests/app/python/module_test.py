@@ -137,6 +137,14 @@ class Module(unittest.TestCase):
                 pneuma.load(self.scene, threads=threads)
         self.assertIn("range 1 to 256", self.command("check", self.scene, "--threads", "257").stderr)
 
+    def test_representations_say_what_there_is(self):
+        world = pneuma.load(self.scene)
+        self.assertEqual(repr(world), "<pneuma.World 'ball': 1 soft body, 1 rigid box, 60 steps per second>")
+        ball = world.soft[0]
+        counts = f"{len(ball.positions)} vertices, {len(ball.triangles)} triangles"
+        self.assertEqual(repr(ball), f"<pneuma.SoftBody 'ball': {counts}>")
+        self.assertEqual(repr(world.rigid[0]), "<pneuma.RigidBox 'box': 2 x 2 x 2 m>")
+
     def test_volume_and_energy_are_those_of_the_arrays(self):
         world = pneuma.load(str(self.scene), set={"body.1.rho_g": 0})
         world.step(20)
