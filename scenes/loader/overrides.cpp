@@ -187,9 +187,25 @@ class Override {
                       base::printable(fmt::format("{}", fmt::join(names.begin(), end, ", "))),
                       names.size() > most_named ? ", ..." : "")};
     }
+    const auto index = static_cast<std::size_t>(found - names.begin());
+    if (names_copy(index, path)) {
+      throw RefusedOverride{
+          fmt::format("the copies of {0} cannot be set one by one: {0}.{1} sets it for all of "
+                      "them; for one alone write a [[body]] of its own in place of that copy",
+                      base::printable(path[0]), fmt::join(path.begin() + 2, path.end(), "."))};
+    }
     const auto key = key_at(path, 1);
     if (!key) throw RefusedOverride{"expected NAME.KEY=VALUE"};
-    put_into((*bodies_)[static_cast<std::size_t>(found - names.begin())], *key, false);
+    put_into((*bodies_)[index], *key, false);
+  }
+
+  /// "ball.2.k", where the body "ball" has copies.
+  bool names_copy(std::size_t index, const std::vector<std::string>& path) const {
+    if (path.size() < 3 || path[1].find_first_not_of("0123456789") != std::string::npos) {
+      return false;
+    }
+    const auto* table = std::get_if<Table>(&(*bodies_)[index].data);
+    return table != nullptr && find(*table, "copies") != nullptr;
   }
 
   std::string body_name(std::size_t i) const {

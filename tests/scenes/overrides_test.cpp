@@ -152,6 +152,19 @@ TEST(Overrides, PathsThatLeadNowhere) {
   expect_refusal("simulation.\x1b[2J.x=1", {"'simulation.\\x1b[2J' is no table"});
 }
 
+TEST(Overrides, OfOneCopyAreRefusedWithWhatCanBeSet) {
+  const std::string copies = "[[body]]\nname = \"ball\"\ncopies = [2, 1, 1]\nspacing = [9, 0, 0]\n";
+  const std::string message = refusal_of({"ball.2.k=200"}, copies);
+  for (const char* part : {"--set ball.2.k=200: the copies of ball", "one by one", "ball.k sets",
+                           "a [[body]] of its own"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  EXPECT_NE(refusal_of({"ball.2.model.file=x"}, copies).find("ball.model.file sets"),
+            std::string::npos);
+  EXPECT_EQ(overridden({"ball.k=200"}, copies).bodies[0].material.k, 200.0);
+  EXPECT_NE(refusal_of({"ball.two.k=200"}, copies).find("NAME.KEY=VALUE"), std::string::npos);
+}
+
 TEST(Overrides, ValuesThatAreNone) {
   expect_refusal("simulation.gravity=[0,0", {"cannot be read"});
   expect_refusal("title=\"open", {"cannot be read"});
