@@ -88,7 +88,14 @@ nlohmann::json accuracy_json(const AccuracyStudy& study) {
   return {{"scene", study.name},
           {"seconds", study.seconds},
           {"uncertainty", study.uncertainty},
+          {"max_contacts", study.max_contacts},
           {"rows", std::move(rows)}};
+}
+
+std::string contacts_of(const std::vector<AccuracyStudy>& studies) {
+  std::string text;
+  for (const AccuracyStudy& study : studies) text += contacts_text(study) + '\n';
+  return text;
 }
 
 AccuracyOptions options_of(const StudyAccuracyArguments& typed) {
@@ -119,8 +126,9 @@ ExitCode run_accuracy_study(const StudyAccuracyArguments& typed) {
   for (const AccuracyStudy& study : studies) json["scenes"].push_back(accuracy_json(study));
   folder.write("accuracy.json", json.dump(2) + '\n');
   folder.write("accuracy.csv", accuracy_csv(studies));
-  fmt::print("{}us: microseconds of processor time per simulated second.\n{}{}", table_of(studies),
-             provenance_text(json["date"]), warnings_text(warnings));
+  fmt::print("{}us: microseconds of processor time per simulated second.\n{}{}{}",
+             table_of(studies), contacts_of(studies), provenance_text(json["date"]),
+             warnings_text(warnings));
   return code;
 }
 

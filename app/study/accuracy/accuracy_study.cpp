@@ -22,6 +22,17 @@ ErrorRun measure(const sim::Settings& settings, const Flight& flight, ErrorMeter
 
 }  // namespace
 
+std::string contacts_text(const AccuracyStudy& study) {
+  if (study.max_contacts == 0) {
+    return fmt::format(
+        "{}: nothing touched anything in the {:.4g} s compared; errors with contacts may be "
+        "greater.",
+        study.name, study.seconds);
+  }
+  return fmt::format("{}: up to {} contact{} at a time in the {:.4g} s compared.", study.name,
+                     study.max_contacts, study.max_contacts == 1 ? "" : "s", study.seconds);
+}
+
 AccuracyStudy study_accuracy(const std::string& name, const std::vector<std::string>& overrides,
                              const AccuracyOptions& options,
                              const std::function<void(const std::string&)>& say) {
@@ -32,7 +43,11 @@ AccuracyStudy study_accuracy(const std::string& name, const std::vector<std::str
   say("the reference");
   const Reference reference = make_reference(flight, options.finest_steps_per_second);
   ErrorMeter meter(flight.world, reference.trajectory);
-  AccuracyStudy study{scene.name, reference.seconds, reference.uncertainty, {}};
+  AccuracyStudy study{scene.name,
+                      reference.seconds,
+                      reference.uncertainty,
+                      max_contacts(flight, reference.seconds),
+                      {}};
   study.rows.push_back({"", 0.0, measure(flight.world.settings, flight, meter, options, say)});
   for (const Accuracy accuracy : {Accuracy::picture, Accuracy::hundredth, Accuracy::thousandth}) {
     const scenes::Scene chosen = open_scene(name, overrides, {}, accuracy).scene;

@@ -29,8 +29,12 @@ struct AccuracyStudy {
   std::string name;
   double seconds = 0.0;           // compared
   double uncertainty = 0.0;       // how well the motion is known
+  int max_contacts = 0;           // of a step in the compared time
   std::vector<AccuracyRow> rows;  // the scene's own first
 };
+
+/// How many contacts there were: an error without any says little about one with some.
+std::string contacts_text(const AccuracyStudy& study);
 
 /// Throws what study_errors and choose_step do.
 AccuracyStudy study_accuracy(const std::string& name, const std::vector<std::string>& overrides,

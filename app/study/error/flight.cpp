@@ -101,14 +101,23 @@ void set_tumbling(sim::SoftBody& body) {
   }
 }
 
-std::optional<double> find_first_contact(sim::World world, double seconds) {
+sim::World with_looking_steps(sim::World world) {
   world.settings.integrator = sim::Integrator::rk4;
   world.settings.steps_per_second =
       std::max(world.settings.steps_per_second, looking_steps_per_second);
+  return world;
+}
+
+std::int64_t steps_in(double seconds, const sim::World& world) {
+  return std::llround(seconds * world.settings.steps_per_second);
+}
+
+std::optional<double> find_first_contact(const sim::World& start, double seconds) {
+  sim::World world = with_looking_steps(start);
   sim::Stepper stepper(world);
   const bool by_potential = world.settings.contact == sim::ContactMethod::potential;
   if (!by_potential && !stepper.plan().runs(sim::Stage::find_contacts)) return std::nullopt;
-  const auto steps = std::llround(seconds * world.settings.steps_per_second);
+  const auto steps = steps_in(seconds, world);
   for (std::int64_t i = 0; i < steps; ++i) {
     throw_if_interrupted();
     if (stepper.step(world) || !stepper.contacts().empty()) return sim::time(world);
@@ -156,6 +165,20 @@ Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options) 
   }
   if (options.tumbling) flight.description += "; starts with spin, shear and slack springs";
   return flight;
+}
+
+int max_contacts(const Flight& flight, double seconds) {
+  if (!flight.contacts) return 0;
+  sim::World world = with_looking_steps(flight.world);
+  sim::Stepper stepper(world);
+  const auto steps = steps_in(seconds, world);
+  std::size_t most = 0;
+  for (std::int64_t i = 0; i < steps; ++i) {
+    throw_if_interrupted();
+    if (stepper.step(world)) break;
+    most = std::max(most, stepper.contacts().size());
+  }
+  return static_cast<int>(most);
 }
 
 }  // namespace pneuma::app

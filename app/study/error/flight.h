@@ -41,4 +41,8 @@ double whole_samples(double seconds);
 /// equation; and scenes::SceneError.
 Flight prepare_flight(const scenes::Scene& scene, const FlightOptions& options);
 
+/// The most contacts that a step has in the first `seconds` of a flight, by the steps that
+/// first_contact is found by; of a run that diverges, until then.
+int max_contacts(const Flight& flight, double seconds);
+
 }  // namespace pneuma::app

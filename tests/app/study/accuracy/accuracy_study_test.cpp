@@ -27,6 +27,20 @@ TEST(AccuracyStudy, KeepsWhatIsOverridden) {
   for (const AccuracyRow& row : study.rows) EXPECT_EQ(row.run.method, "velocity_verlet");
 }
 
+// The ball starts above the ground.
+TEST(AccuracyStudy, SaysWhetherAnythingTouched) {
+  const auto study_of = [](double seconds) {
+    return study_accuracy("one_sphere", {},
+                          {.seconds = seconds, .finest_steps_per_second = 960, .repeats = 1},
+                          [](const std::string&) {});
+  };
+  const AccuracyStudy falling = study_of(0.2), landed = study_of(0.8);
+  EXPECT_EQ(falling.max_contacts, 0);
+  EXPECT_NE(contacts_text(falling).find("nothing touched"), std::string::npos);
+  EXPECT_GT(landed.max_contacts, 0);
+  EXPECT_NE(contacts_text(landed).find("contacts at a time in the"), std::string::npos);
+}
+
 TEST(AccuracyStudy, AnUnstableRunReachesNothing) {
   AccuracyRow row;
   row.max_error = 5e-2;
