@@ -43,10 +43,14 @@ struct CheckOptions {
 ExitCode check_model_file(const CheckOptions& options) {
   const std::filesystem::path path = find_model(options.scene, "");
   const ModelCheck checked = check_model(path, options.model);
-  fmt::print("{}", options.json ? model_check_json(checked).dump(2) + "\n"
-                                : model_check_text(checked) +
-                                      "\nThe scene that `pneuma render` makes of it\n\n" +
-                                      model_scene_text(path, options.model));
+  if (options.json) {
+    fmt::print("{}\n", model_check_json(checked).dump(2));
+    return ExitCode::done;
+  }
+  const std::string text = model_scene_text(path, options.model);
+  const int steps = scenes::parse_scene(text, model_scene_file(path)).settings.steps_per_second;
+  fmt::print("{}{}\nThe scene that `pneuma render` makes of it\n\n{}", model_check_text(checked),
+             many_steps_text(checked.report, steps), text);
   return ExitCode::done;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/host/interrupt.h"
@@ -14,12 +15,24 @@ namespace {
 
 using nlohmann::json;
 
+/// More are worth a word.
+constexpr int usual_steps_per_second = 5000;
+/// Of the mean: so many springs on a vertex make its motion the fastest.
+constexpr double many_springs = 2.0;
+
 std::string component_text(const assets::Component& component, std::size_t number, bool kept) {
   return fmt::format("{}{}: {} vertices, {} triangles, {} boundary edges, {} non-manifold edges{}",
                      number, component.name.empty() ? "" : fmt::format(" '{}'", component.name),
                      grouped(component.vertices), grouped(component.triangles),
                      grouped(component.boundary_edges), grouped(component.non_manifold_edges),
                      kept ? "" : "; left out");
+}
+
+/// "(0, 0, 1)", to a thousandth of about the size.
+std::string place_text(const sim::Vec3& place, double size) {
+  const double grain = std::pow(10.0, std::floor(std::log10(size)) - 3.0);
+  const sim::Vec3 at = grain * (place / grain).array().round() + 0.0;  // of -0 it makes 0
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", at.x(), at.y(), at.z());
 }
 
 json component_json(const assets::Component& component) {
@@ -86,6 +99,21 @@ std::string model_check_text(const ModelCheck& check) {
     text += named_line(&done == &check.model.repaired.front() ? "repaired" : "", done);
   }
   return text;
+}
+
+std::string many_steps_text(const ModelReport& report, int steps_per_second) {
+  if (steps_per_second <= usual_steps_per_second) return "";
+  // The springs on a vertex are alike whatever their lengths, and so are the masses of vertices.
+  const bool has_hub = report.most_springs > many_springs * report.springs_per_vertex;
+  const std::string cause =
+      has_hub ? fmt::format("the {} springs at the vertex {}, where about {:.0f} would do",
+                            grouped(report.most_springs),
+                            place_text(report.most_springs_at, report.size.maxCoeff()),
+                            report.springs_per_vertex)
+              : fmt::format("{} vertices, each with little mass; a coarser mesh needs fewer",
+                            grouped(report.vertices));
+  return named_line("steps", fmt::format("{} per second are many: because of {}",
+                                         grouped(steps_per_second), cause));
 }
 
 json model_check_json(const ModelCheck& check) {

@@ -20,6 +20,11 @@ struct ModelCheck {
 ModelCheck check_model(const std::filesystem::path& path, const ModelChoice& choice = {});
 
 std::string model_check_text(const ModelCheck& check);
+
+/// A line about what makes the steps of its scene so short, if there are very many of them; else
+/// nothing.
+std::string many_steps_text(const ModelReport& report, int steps_per_second);
+
 nlohmann::json model_check_json(const ModelCheck& check);
 
 }  // namespace pneuma::app

@@ -66,7 +66,9 @@ ModelReport report_on(const assets::CleanModel& model) {
   for (int v = 0; v < report.vertices; ++v) {
     const int springs = static_cast<int>(topology.ring(v).size());
     report.fewest_springs = std::min(report.fewest_springs, springs);
-    report.most_springs = std::max(report.most_springs, springs);
+    if (springs <= report.most_springs) continue;
+    report.most_springs = springs;
+    report.most_springs_at = positions[v];
   }
   return report;
 }

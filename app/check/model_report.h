@@ -24,6 +24,7 @@ struct ModelReport {
   double springs_per_vertex = 0;       // the mean
   int fewest_springs = 0;              // of a vertex
   int most_springs = 0;
+  sim::Vec3 most_springs_at = sim::Vec3::Zero();  // m, the first vertex that has so many
 };
 
 /// `model` as clean_mesh made it.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "app/check/check_model.h"
 #include "sim/mesh/primitives.h"
 #include "tests/assets/model_writers.h"
 
@@ -43,6 +45,26 @@ TEST(ModelReport, OfATorus) {
   // Of the smooth torus 2 pi^2 R r^2 = 394.8; 16 chords of a circle take 2.6 % of its area, twice.
   EXPECT_NEAR(report.volume, 2.0 * std::numbers::pi * std::numbers::pi * 5.0 * 4.0, 0.06 * 395.0);
   EXPECT_LT(report.volume, 2.0 * std::numbers::pi * std::numbers::pi * 5.0 * 4.0);
+}
+
+/// A ball with a pole of so many triangles at either end.
+sim::TriangleMesh ball_with_poles(int slices) { return sim::make_sphere(1.0, 8, slices); }
+
+TEST(ModelReport, FindsTheVertexWithTheMostSprings) {
+  const ModelReport report = report_of(ball_with_poles(40));
+  EXPECT_EQ(report.most_springs, 40);
+  EXPECT_NEAR(std::abs(report.most_springs_at.z()), 1.0, 1e-12);
+}
+
+TEST(ManySteps, NameTheirCause) {
+  EXPECT_EQ(many_steps_text(report_of(ball_with_poles(40)), 5000), "");
+  const std::string of_poles = many_steps_text(report_of(ball_with_poles(40)), 29'190);
+  EXPECT_NE(
+      of_poles.find("29,190 per second are many: because of the 40 springs at the vertex (0, 0, "),
+      std::string::npos)
+      << of_poles;
+  const std::string of_all = many_steps_text(report_of(sim::make_icosphere(1.0, 2)), 6000);
+  EXPECT_NE(of_all.find("because of 162 vertices"), std::string::npos) << of_all;
 }
 
 }  // namespace
