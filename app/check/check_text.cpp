@@ -134,9 +134,11 @@ std::string self_crossings_text(const RunStatistics& run) {
   std::string text = crossings_text("self-crossings", run.self_crossings, run.frames);
   if (run.self_crossings.frames > 0) {
     text += named_line("", "a surface folds through itself; the check does not fail for it");
-    text += named_line("",
-                       "with simulation.contact = \"potential\" it cannot, soonest done with "
-                       "integrator = \"implicit_euler\"");
+    if (run.may_use_potential) {
+      text += named_line("",
+                         "with simulation.contact = \"potential\" it cannot, soonest done with "
+                         "integrator = \"implicit_euler\"");
+    }
   }
   return text;
 }

@@ -12,6 +12,7 @@
 #include "app/record/shape_deviation.h"
 #include "app/record/two_bodies.h"
 #include "app/world/build_world.h"
+#include "app/world/may_start.h"
 #include "app/world/touch.h"
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/overlap.h"
@@ -346,7 +347,10 @@ RunStatistics run_statistics(const scenes::Scene& scene, int threads, OnDivergen
     observer.after_step(simulation);
     if (world.steps % steps_per_frame == 0) observer.after_frame(world);
   }
-  return observer.finish(world);
+  RunStatistics result = observer.finish(world);
+  result.may_use_potential =
+      result.self_crossings.frames > 0 && may_use_potential(scene, "implicit_euler");
+  return result;
 }
 
 }  // namespace pneuma::app

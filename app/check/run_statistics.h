@@ -108,6 +108,7 @@ struct RunStatistics {
   SunkStatistics sunk;
   StartOverlapStatistics start_overlap;
   CrossingStatistics self_crossings;  // of bodies with themselves
+  bool may_use_potential = false;     // which would rule them out, where there are some
   double end_overlap = 0.0;           // m, of the pair deepest in each other at the end (overlap.h)
   std::string end_overlap_bodies;     // empty: none
   ContactTally contacts;

@@ -25,6 +25,7 @@
 #include "app/render/video.h"
 #include "app/world/build_world.h"
 #include "app/world/gas_warnings.h"
+#include "app/world/may_start.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -117,10 +118,13 @@ std::string other_beginning(const scenes::Scene& scene, const DivergenceError& e
   }
   return fmt::format(
       "Shorter steps do not help from here: begin again with --overwrite and {}--set "
-      "simulation.steps_per_second={}, or with --set simulation.contact=potential --set "
-      "simulation.integrator=sdirk2, which takes several times as long",
+      "simulation.steps_per_second={}{}",
       may_step_implicitly(scene) ? "--set simulation.integrator=implicit_euler, or with " : "",
-      4 * scene.settings.steps_per_second);
+      4 * scene.settings.steps_per_second,
+      may_use_potential(scene, "sdirk2") ? ", or with --set simulation.contact=potential --set "
+                                           "simulation.integrator=sdirk2, which "
+                                           "takes several times as long"
+                                         : "");
 }
 
 DivergenceError with_advice(const DivergenceError& error, const RenderRequest& request,

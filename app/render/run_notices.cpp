@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/record/pressed_volume.h"
+#include "app/world/may_start.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -29,7 +30,10 @@ void DividedSteps::summarise(Progress& progress) const {
 
 void CrossedFrames::add(const Simulation& simulation, const FrameState& state, Progress& progress) {
   ++frames_;
-  if (!state.crosses_itself.empty() && of_themselves_++ == 0) itself_ = state.crosses_itself;
+  if (!state.crosses_itself.empty() && of_themselves_++ == 0) {
+    itself_ = state.crosses_itself;
+    may_use_potential_ = may_use_potential(simulation.scene(), "sdirk2");
+  }
   if (state.bodies_that_cross.empty()) return;
   if (count_++ > 0) return;
   const bool is_swept = simulation.world().settings.contact != sim::ContactMethod::impulses;
@@ -46,10 +50,12 @@ void CrossedFrames::summarise(Progress& progress, bool is_resumed) const {
   }
   if (of_themselves_ > 0) {
     progress.say(
-        fmt::format("{} passes through itself in {} of {}; bending of the body makes that "
-                    "rarer, and simulation.contact = \"potential\" with simulation.integrator = "
-                    "\"sdirk2\" rules it out, for several times the time",
-                    itself_, of_themselves_, frames));
+        fmt::format("{} passes through itself in {} of {}; bending of the body makes that rarer{}",
+                    itself_, of_themselves_, frames,
+                    may_use_potential_
+                        ? ", and simulation.contact = \"potential\" with simulation.integrator = "
+                          "\"sdirk2\" rules it out, for several times the time"
+                        : ""));
   }
 }
 

@@ -37,6 +37,7 @@ class CrossedFrames {
   std::int64_t count_ = 0;
   std::int64_t of_themselves_ = 0;
   std::string itself_;  // the first body that did
+  bool may_use_potential_ = false;
 };
 
 /// Says in the end which body that keeps its gas was pressed to less than a tenth of its shape's

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/world/gas_warnings.h"
+#include "app/world/may_start.h"
 #include "scenes/loader/integrator_names.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/inspect/closed_surface.h"
@@ -146,12 +147,13 @@ void add_long_steps(const scenes::Scene& scene, const sim::World& start,
       sim::body_count(start) < 2) {
     return;
   }
+  const std::string integrator = scenes::integrator_name(scene.settings.integrator);
   warnings.push_back(warning_of_file(
       scene,
       fmt::format("simulation.contact = \"impulses\" may let bodies into each other, and add "
                   "energy, in steps as long as simulation.integrator = \"{}\" bears; set "
-                  "simulation.contact to \"swept\" or \"potential\", or another integrator",
-                  scenes::integrator_name(scene.settings.integrator))));
+                  "simulation.contact to \"swept\"{}, or another integrator",
+                  integrator, may_use_potential(scene, integrator) ? " or \"potential\"" : "")));
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class Simulation {
   /// In place of advance_frame(), from any frame before.
   void adopt(SimulatedFrame frame);
 
+  const scenes::Scene& scene() const { return scene_; }
   const sim::World& world() const { return world_; }
   const sim::Stepper& stepper() const { return stepper_; }
   /// Of the last step, or of the last of its parts: see Stepper.

@@ -178,16 +178,20 @@ class Checks {
     if (scene_.settings.contact != sim::ContactMethod::impulses) return;
     if (!body.pinned.empty()) {
       report_.add(reader_.origin({&body.pinned, &scene_.settings.contact}, header),
-                  "pinned vertices need swept contacts or the contact potential; set "
-                  "simulation.contact = \"swept\" or \"potential\" and no method = \"paper\", or "
-                  "leave pinned out");
+                  fmt::format("pinned vertices need {}, or leave pinned out", other_contacts()));
     }
     if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
     report_.add(reader_.origin({&body.kind, &scene_.settings.contact}, header),
-                fmt::format("kind = \"{}\" needs swept contacts or the contact potential; set "
-                            "simulation.contact = \"swept\" or \"potential\" and no method = "
-                            "\"paper\", or make the body rigid",
-                            kind_word(body.kind)));
+                fmt::format("kind = \"{}\" needs {}, or make the body rigid", kind_word(body.kind),
+                            other_contacts()));
+  }
+
+  /// Than impulses: those that the scene can have.
+  const char* other_contacts() const {
+    return scene_.springs.empty()
+               ? "swept contacts or the contact potential; set simulation.contact = \"swept\" or "
+                 "\"potential\" and no method = \"paper\""
+               : "swept contacts; set simulation.contact = \"swept\" and no method = \"paper\"";
   }
 
   void check_integrator(const BodyScene& body, Origin header) {

@@ -42,6 +42,13 @@ TEST(PinnedKeys, NeedSweptContacts) {
             {"pinned vertices need swept contacts or the contact potential"});
 }
 
+TEST(PinnedKeys, AreNotAdvisedAPotentialBesideSprings) {
+  const std::string said = refusal_of_body(
+      "pinned = [[0, 0, 0, 1, 1, 1]]\n[[body]]\n[[spring]]\nfrom = \"body1\"\nto = \"body2\"\n"
+      "k = 1\n[simulation]\ncontact = \"impulses\"\n");
+  expect_in(said, {"pinned vertices need swept contacts; set simulation.contact = \"swept\" and"});
+}
+
 TEST(Obstacles, AreBoxesUnlessToldOtherwise) {
   for (const char* kind : {"static", "moved"}) {
     const std::string line = "kind = \"" + std::string(kind) + "\"\n";

@@ -49,6 +49,27 @@ TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
   }
 }
 
+TEST(CrossedFrames, AreNotToBeRuledOutByWhatTheSceneCannotHave) {
+  const std::string two = "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = [9, 0, 4]\n";
+  const std::string tied = two + "[[spring]]\nfrom = \"body1\"\nto = \"body2\"\nk = 1\n";
+  const auto said_of_scene = [](const std::string& text) {
+    const scenes::Scene scene = scenes::parse_scene(text, "two.toml");
+    const Simulation simulation(scene, build_world(scene), 1);
+    FrameState state;
+    state.crosses_itself = "body1";
+    CrossedFrames crossed;
+    Progress progress(Progress::Style::lines);
+    crossed.add(simulation, state, progress);
+    testing::internal::CaptureStderr();
+    crossed.summarise(progress, false);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(said_of_scene(two).find("potential"), std::string::npos);
+  const std::string said = said_of_scene(tied);
+  EXPECT_NE(said.find("passes through itself"), std::string::npos) << said;
+  EXPECT_EQ(said.find("potential"), std::string::npos) << said;
+}
+
 TEST(PressedBodies, AreNamedWithTheShareThatIsLeft) {
   const std::string said = said_of(0.05);
   EXPECT_NE(said.find("body 'ball' was pressed to 5 % of its shape's volume"), std::string::npos)
