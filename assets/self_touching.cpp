@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/base/exact.h"
+#include "assets/simplify/grid_triangle.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::assets {
@@ -35,28 +35,10 @@ std::vector<base::GridPoint> to_grid(const std::vector<Vec3>& vertices) {
   return points;
 }
 
-struct Box {
-  base::GridPoint low = {base::grid_steps, base::grid_steps, base::grid_steps};
-  base::GridPoint high = {0, 0, 0};
-
-  void include(const Box& other) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], other.low[i]);
-      high[i] = std::max(high[i], other.high[i]);
-    }
-  }
-  bool overlaps(const Box& other) const {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (low[i] > other.high[i] || other.low[i] > high[i]) return false;
-    }
-    return true;
-  }
-};
-
 /// A binary tree of boxes over the triangles, each half of its triangles in either branch.
 class Tree {
  public:
-  explicit Tree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+  explicit Tree(std::vector<GridBox> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     nodes_.reserve(2 * boxes_.size() / leaf_size + 2);
     build(0, order_.size());
@@ -90,7 +72,7 @@ class Tree {
   static constexpr std::size_t leaf_size = 4;
 
   struct Node {
-    Box box;
+    GridBox box;
     std::size_t begin = 0, end = 0;  // in order_
     int first = -1, second = -1;     // branches
     bool is_leaf() const { return first < 0; }
@@ -115,7 +97,7 @@ class Tree {
   }
 
   /// By the boxes' middles along the longest axis, so that the tree is as deep as its count says.
-  void split(const Box& box, std::size_t begin, std::size_t middle, std::size_t end) {
+  void split(const GridBox& box, std::size_t begin, std::size_t middle, std::size_t end) {
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {
       if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
@@ -124,7 +106,7 @@ class Tree {
     using Offset = std::vector<int>::difference_type;
     std::nth_element(start + static_cast<Offset>(begin), start + static_cast<Offset>(middle),
                      start + static_cast<Offset>(end), [&](int a, int b) {
-                       const Box &left = boxes_[at(a)], &right = boxes_[at(b)];
+                       const GridBox &left = boxes_[at(a)], &right = boxes_[at(b)];
                        return left.low[axis] + left.high[axis] < right.low[axis] + right.high[axis];
                      });
   }
@@ -140,72 +122,9 @@ class Tree {
     return true;
   }
 
-  std::vector<Box> boxes_;
+  std::vector<GridBox> boxes_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
-};
-
-class Tests {
- public:
-  Tests(const std::vector<base::GridPoint>& points, const std::vector<Triangle>& triangles)
-      : points_(points), triangles_(triangles) {}
-
-  Box box(int t) const {
-    Box box;
-    for (const int v : triangles_[at(t)]) box.include({point(v), point(v)});
-    return box;
-  }
-
-  bool is_flat(int t) const {
-    const auto& [a, b, c] = triangles_[at(t)];
-    return base::on_one_line(point(a), point(b), point(c));
-  }
-
-  bool touch(int s, int t) const {
-    const Triangle a = shared_first(triangles_[at(s)], triangles_[at(t)]);
-    const Triangle b = shared_first(triangles_[at(t)], triangles_[at(s)]);
-    switch (shared(a, b)) {
-      case 0:
-        return any_side_meets(a, b, 3) || any_side_meets(b, a, 3);
-      case 1:  // beyond the shared vertex only if the side opposite to it meets the other triangle
-        return any_side_meets(a, b, 1) || any_side_meets(b, a, 1);
-      case 2:  // beyond the shared side only if they lie on each other
-        return base::side_of_plane(point(a[0]), point(a[1]), point(a[2]), point(b[2])) == 0 &&
-               base::same_side_of_edge(point(a[0]), point(a[1]), point(a[2]), point(b[2]));
-      default:
-        return true;
-    }
-  }
-
- private:
-  const base::GridPoint& point(int vertex) const { return points_[at(vertex)]; }
-
-  static bool has(const Triangle& triangle, int vertex) {
-    return std::find(triangle.begin(), triangle.end(), vertex) != triangle.end();
-  }
-
-  static Triangle shared_first(Triangle triangle, const Triangle& other) {
-    std::stable_partition(triangle.begin(), triangle.end(), [&](int v) { return has(other, v); });
-    return triangle;
-  }
-
-  static int shared(const Triangle& a, const Triangle& b) {
-    return static_cast<int>(std::count_if(a.begin(), a.end(), [&](int v) { return has(b, v); }));
-  }
-
-  /// The first `count` sides of a, from the one opposite to its first corner on, against b.
-  bool any_side_meets(const Triangle& a, const Triangle& b, std::size_t count) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (base::segment_meets_triangle(point(a[(i + 1) % 3]), point(a[(i + 2) % 3]), point(b[0]),
-                                       point(b[1]), point(b[2]))) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  const std::vector<base::GridPoint>& points_;
-  const std::vector<Triangle>& triangles_;
 };
 
 }  // namespace
@@ -214,13 +133,18 @@ SelfTouching find_self_touching(const sim::TriangleMesh& mesh, std::size_t max_p
   SelfTouching result;
   if (mesh.triangles.empty()) return result;
   const std::vector<base::GridPoint> points = to_grid(mesh.vertices);
-  const Tests tests(points, mesh.triangles);
-  std::vector<Box> boxes;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) boxes.push_back(tests.box(t));
+  std::vector<GridTriangle> triangles;
+  std::vector<GridBox> boxes;
+  for (const Triangle& triangle : mesh.triangles) {
+    const auto& [a, b, c] = triangle;
+    triangles.push_back({triangle, {points[at(a)], points[at(b)], points[at(c)]}});
+    boxes.push_back(box_of(triangles.back()));
+  }
   std::size_t pairs = 0;
   result.complete = Tree(std::move(boxes)).visit_pairs([&](int s, int t) {
     if (++pairs > most_pairs) return false;
-    if (tests.is_flat(s) || tests.is_flat(t) || !tests.touch(s, t)) return true;
+    const GridTriangle &first = triangles[at(s)], &second = triangles[at(t)];
+    if (is_flat(first) || is_flat(second) || !touch(first, second)) return true;
     ++result.count;
     result.first.push_back({std::min(s, t), std::max(s, t)});
     if (result.first.size() >= 2 * max_places + 100) {

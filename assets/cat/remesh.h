@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "assets/cat/editable_mesh.h"
+#include "assets/simplify/editable_mesh.h"
 
 namespace pneuma::assets {
 

@@ -32,6 +32,8 @@ class EditableMesh {
 
   bool has_edge(int a, int b) const { return !triangles_with(a, b).empty(); }
 
+  /// The two triangles at an edge: the one that runs from a to b first.
+  std::array<int, 2> sides(int a, int b) const;
   /// The two vertices opposite an edge: of the triangle that runs from a to b, then of the other.
   std::array<int, 2> opposite(int a, int b) const;
 
@@ -52,8 +54,6 @@ class EditableMesh {
 
  private:
   std::vector<int> triangles_with(int a, int b) const;
-  /// The two triangles at an edge: the one that runs from a to b first.
-  std::array<int, 2> sides(int a, int b) const;
   void detach(int triangle);
   void attach(int triangle, const sim::Triangle& corners);
 

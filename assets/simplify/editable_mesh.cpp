@@ -1,4 +1,4 @@
-#include "assets/cat/editable_mesh.h"
+#include "assets/simplify/editable_mesh.h"
 
 #include <algorithm>
 #include <iterator>
