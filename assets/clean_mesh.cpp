@@ -11,6 +11,8 @@
 #include "assets/choose_component.h"
 #include "assets/part_from_itself.h"
 #include "assets/repair_mesh.h"
+#include "assets/self_touching.h"
+#include "assets/simplify/simplify_mesh.h"
 #include "assets/weld.h"
 #include "sim/mesh/rotation.h"
 
@@ -24,6 +26,7 @@ constexpr double max_extent = 1e30;
 constexpr double min_extent = 1e-30;
 constexpr std::size_t most_triangles = 100'000'000;  // their corners are numbered by an int
 constexpr double min_volume = 1e-9;                  // of the cubed diagonal
+constexpr double max_volume_change = 1e-3;           // of a model that is simplified
 
 void check_input(const sim::TriangleMesh& mesh) {
   const auto& [vertices, triangles] = mesh;
@@ -59,6 +62,20 @@ double diagonal(const sim::TriangleMesh& mesh) {
   return box.size().norm();
 }
 
+/// Between the triangle and the first vertex of all.
+double volume_below(const sim::TriangleMesh& mesh, const Triangle& triangle) {
+  const Vec3& origin = mesh.vertices.front();
+  const Vec3 a = mesh.vertices[at(triangle[0])] - origin;
+  const Vec3 b = mesh.vertices[at(triangle[1])] - origin;
+  return a.dot(b.cross(mesh.vertices[at(triangle[2])] - origin)) / 6.0;
+}
+
+double volume_of(const sim::TriangleMesh& mesh) {
+  double volume = 0.0;
+  for (const Triangle& triangle : mesh.triangles) volume += volume_below(mesh, triangle);
+  return volume;
+}
+
 class Cleaner {
  public:
   Cleaner(const Model& model, const CleanOptions& options) : model_(model), options_(options) {}
@@ -72,6 +89,7 @@ class Cleaner {
     if (options_.repair) repair();
     keep_component();
     make_surface();
+    if (options_.simplify_to) simplify(*options_.simplify_to);
     place();
     return std::move(result_);
   }
@@ -256,15 +274,36 @@ class Cleaner {
     check_self_touching(work_, options_.repair);
   }
 
+  void simplify(int most_vertices) {
+    const sim::TriangleMesh full = work_.mesh;
+    if (full.vertices.size() <= at(most_vertices)) return;
+    work_.mesh = simplify_mesh(full, most_vertices);
+    const std::size_t count = work_.mesh.vertices.size();
+    if (count > at(most_vertices)) {
+      throw SimplifyError(fmt::format(
+          "{} vertices cannot be simplified to {}, but to {}; ask for as many (in a scene by "
+          "model.vertices)",
+          full.vertices.size(), most_vertices, count));
+    }
+    check_simplified(full);
+    result_.simplified = fmt::format("{} vertices simplified to {}", full.vertices.size(), count);
+  }
+
+  void check_simplified(const sim::TriangleMesh& full) const {
+    const double volume = volume_of(work_.mesh), wanted = volume_of(full);
+    const bool is_full = std::abs(volume - wanted) <= max_volume_change * wanted;
+    if (is_full && find_self_touching(work_.mesh, 0).count == 0) return;
+    throw SimplifyError(fmt::format(
+        "{} vertices cannot be simplified to {}: {}; ask for more (in a scene by model.vertices)",
+        full.vertices.size(), work_.mesh.vertices.size(),
+        is_full ? "the surface would touch itself"
+                : fmt::format("the volume would be {:.3g} of {:.3g}", volume, wanted)));
+  }
+
   void turn_outwards(const Orientation& orientation) {
     double volume = 0.0;  // as the first triangle has it
-    const Vec3 origin = work_.mesh.vertices.front();
     for (std::size_t t = 0; t < work_.mesh.triangles.size(); ++t) {
-      const auto& [a, b, c] = work_.mesh.triangles[t];
-      const double part = (work_.mesh.vertices[at(a)] - origin)
-                              .dot((work_.mesh.vertices[at(b)] - origin)
-                                       .cross(work_.mesh.vertices[at(c)] - origin)) /
-                          6.0;
+      const double part = volume_below(work_.mesh, work_.mesh.triangles[t]);
       volume += orientation.turned[t] ? -part : part;
     }
     const double extent = diagonal(work_.mesh);

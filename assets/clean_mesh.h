@@ -1,6 +1,7 @@
 // From the triangles of a file to one closed surface that can hold gas.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,13 @@ struct CleanOptions {
   Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z, after scaling
   bool centre = true;            // the middle of the turned bounding box comes to the origin
   bool repair = false;           // also mends what needs a guess: repair_mesh.h, part_from_itself.h
-  int most_vertices = 100'000;   // of the component, after welding
+  std::optional<int> simplify_to = {};  // vertices at most, of what is repaired; none: all
+  int most_vertices = 100'000;          // of the component, after welding
+};
+
+/// A model that cannot be as coarse as is asked for.
+struct SimplifyError : ModelError {
+  using ModelError::ModelError;
 };
 
 /// What hangs together by vertices, after welding.
@@ -35,6 +42,7 @@ struct CleanModel {
   sim::TriangleMesh mesh;             // m; closed, manifold, outwards: fit for sim::make_soft_mesh
   std::vector<std::string> mended;    // in plain words: "24 vertices welded to 8"
   std::vector<std::string> repaired;  // likewise, what CleanOptions::repair did, and where
+  std::string simplified;             // likewise, what CleanOptions::simplify_to did; may be empty
   std::vector<Component> components;
   int kept = 0;             // index into components
   int vertices_before = 0;  // of the whole file
@@ -48,8 +56,9 @@ inline constexpr double smallest_model = 1e-6;
 /// Repairs what needs no guess: drops vertices without triangles, welds vertices
 /// (weld.h), drops triangles with a vertex twice and triangles that are there twice, leaves out all
 /// but one component, turns triangles so that all face outwards; with `repair` also what needs one.
-/// Then scales, turns and centres.
+/// With `simplify_to`, simplify_mesh.h. Then scales, turns and centres.
 ///
+/// Throws SimplifyError when the surface cannot have so few vertices.
 /// Throws ModelError for all else, with counts, up to five places and what to do: no triangles,
 /// indices out of range, coordinates that are not finite, too large or too small, too many
 /// vertices, several closed components, a surface that is open, not manifold at an edge or a

@@ -23,6 +23,8 @@ CleanModel load_model(const std::filesystem::path& path, const CleanOptions& opt
   const Model model = import_model(path, limits);
   try {
     return clean_mesh(model, options);
+  } catch (const SimplifyError& error) {
+    throw SimplifyError(fmt::format("{}: {}", path.string(), error.what()));
   } catch (const ModelError& error) {
     throw ModelError(fmt::format("{}: {}", path.string(), error.what()));
   }

@@ -19,6 +19,7 @@ struct ValueJson {
     return *value;
   }
   json operator()(const scenes::Vec3* value) const { return list(*value); }
+  json operator()(const std::optional<int>* value) const { return *value ? json(**value) : json(); }
   json operator()(const std::optional<double>* value) const {
     return *value ? json(**value) : json();
   }

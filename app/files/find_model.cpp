@@ -111,6 +111,7 @@ sim::TriangleMesh load_mesh(const scenes::Scene& scene, const scenes::BodyScene&
   options.rotation = body.model.rotation;
   options.centre = body.model.centre;
   options.repair = body.model.repair;
+  options.simplify_to = body.model.vertices;
   options.most_vertices = scene.limits.vertices_per_body;
   const auto most_bytes = static_cast<std::size_t>(scene.limits.model_file_mib * 1024.0 * 1024.0);
   try {

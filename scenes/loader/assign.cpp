@@ -29,6 +29,9 @@ class Assignment {
   void operator()(bool* member) const { *member = flag(); }
   void operator()(std::string* member) const { *member = text(value_); }
   void operator()(Vec3* member) const { *member = vector(); }
+  void operator()(std::optional<int>* member) const {
+    *member = static_cast<int>(integer(value_, key_.name));
+  }
   void operator()(std::optional<double>* member) const { *member = number(value_, key_.name); }
   void operator()(std::optional<Vec3>* member) const { *member = vector(); }
 

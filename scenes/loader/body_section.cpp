@@ -146,6 +146,9 @@ Section body_section(BodyScene& body) {
           only(models, {"model.repair", &body.model.repair, any(), "",
                         "closes cracks and small holes, splits what meets in a point, parts a "
                         "surface from itself"}),
+          only(models, {"model.vertices", &body.model.vertices,
+                        between(min_model_vertices, max_model_vertices), "",
+                        "at most; a finer model is simplified to so many, after repairs"}),
 
           only(soft_bodies, {"rest", word(body.rest, rests), any(), "",
                              "of the springs: in the shape, or so that it holds its gas"}),

@@ -52,6 +52,9 @@ struct ValueText {
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return string_text(*value); }
   std::string operator()(const Vec3* value) const { return vector_text(*value); }
+  std::string operator()(const std::optional<int>* value) const {
+    return *value ? fmt::format("{}", **value) : std::string();
+  }
   std::string operator()(const std::optional<double>* value) const {
     return *value ? number_text(**value) : std::string();
   }
@@ -86,6 +89,7 @@ struct TypeText {
   std::string operator()(const bool*) const { return "true or false"; }
   std::string operator()(const std::string*) const { return "string"; }
   std::string operator()(const Vec3*) const { return "3 numbers"; }
+  std::string operator()(const std::optional<int>*) const { return "whole number"; }
   std::string operator()(const std::optional<double>*) const { return "number"; }
   std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
   std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }

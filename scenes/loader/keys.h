@@ -35,11 +35,12 @@ struct Word {
 
 /// The member that a key sets. An optional surface is set by a boolean: there or not. Nothing when
 /// the key does not apply and its member does not exist.
-using Slot = std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
-                          std::optional<double>*, std::optional<Vec3>*, std::array<int, 3>*,
-                          std::vector<std::string>*, std::vector<sim::KeyFrame>*,
-                          std::vector<Region>*, std::vector<TimedValue>*, std::vector<CameraKey>*,
-                          std::optional<sim::ContactMaterial>*, Word>;
+using Slot =
+    std::variant<std::monostate, double*, int*, std::uint64_t*, bool*, std::string*, Vec3*,
+                 std::optional<int>*, std::optional<double>*, std::optional<Vec3>*,
+                 std::array<int, 3>*, std::vector<std::string>*, std::vector<sim::KeyFrame>*,
+                 std::vector<Region>*, std::vector<TimedValue>*, std::vector<CameraKey>*,
+                 std::optional<sim::ContactMaterial>*, Word>;
 
 /// The address that identifies a slot's member.
 const void* member_of(const Slot& slot);

@@ -153,7 +153,7 @@ class Loader {
       const ModelScene& model = body.model;
       if (is_box(body) || body.shape != Shape::model || model.file.empty()) continue;
       if (!reader_.valid({&body.kind, &model.file, &model.component, &model.scale, &model.rotation,
-                          &model.centre, &model.repair})) {
+                          &model.centre, &model.repair, &model.vertices})) {
         continue;
       }
       const std::string reason = check_model(scene_, body);

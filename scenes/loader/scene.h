@@ -46,6 +46,9 @@ enum class Drawn {
   nothing,
 };
 
+/// Allowed for ModelScene::vertices: with fewer a body has no shape.
+inline constexpr int min_model_vertices = 20, max_model_vertices = 100'000'000;
+
 /// A triangle model from a file of anyone's.
 struct ModelScene {
   std::string file;              // beside the scene file, or as app/files/find_model.h says
@@ -54,6 +57,7 @@ struct ModelScene {
   Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z: how the model is set up
   bool centre = true;            // the middle of its bounding box is its centre, else its origin
   bool repair = false;           // assets/repair_mesh.h
+  std::optional<int> vertices;   // at most: assets/simplify/simplify_mesh.h; none: all of them
 };
 
 /// Where something was written, for errors that only show when the world is built.

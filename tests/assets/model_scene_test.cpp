@@ -180,6 +180,26 @@ TEST_F(ModelScene, ARunIsNotContinuedWithAnotherModel) {
   EXPECT_NE(other.output.find("models: was"), std::string::npos) << other.output;
 }
 
+TEST_F(ModelScene, HasAtMostAsManyVerticesAsItSays) {
+  write_text(folder_ / "it.ply", assets::ply_text(sim::make_icosphere(1.0, 3)));
+  for (const char* kind : {"soft", "static", "moved"}) {
+    const Strings overrides = {"model.vertices=100", fmt::format("body.kind={}", kind)};
+    EXPECT_EQ(build_world(load(overrides)).soft.at(0).mesh->topology.vertex_count(), 100) << kind;
+  }
+  const scenes::Scene many = load({"model.vertices=900"}), all = load();
+  EXPECT_EQ(model_fingerprints(many, build_world(many)), model_fingerprints(all, build_world(all)));
+  write_text(folder_ / "it.toml", scene_text + "model.vertices = 3\n");
+  try {
+    load();
+    FAIL() << "loaded";
+  } catch (const scenes::SceneError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("it.toml:10:18: model.vertices = 3 is out of range; allowed: 20"),
+              std::string::npos)
+        << message;
+  }
+}
+
 TEST_F(ModelScene, TheShippedSceneTakesAnyonesModel) {
   const scenes::Scene scene = scenes::load_scene(
       find_scene("model"), Strings{"model.file=" + (folder_ / "it.ply").string()});

@@ -71,6 +71,9 @@ struct SetAtRandom {
     if (key.name != "name") *member = any_text();
   }
   void operator()(Vec3* member) const { *member = any_vector(key.range); }
+  void operator()(std::optional<int>* member) const {
+    if (*rc::gen::arbitrary<bool>()) *member = any_integer(key.range);
+  }
   void operator()(std::optional<double>* member) const {
     if (*rc::gen::arbitrary<bool>()) *member = any_number(key.range);
   }

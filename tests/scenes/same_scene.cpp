@@ -68,13 +68,14 @@ void compare(Comparison& c, const sim::SoftMaterial& a, const sim::SoftMaterial&
 }
 
 void compare(Comparison& c, const ModelScene& a, const ModelScene& b) {
-  const auto& [file, component, scale, rotation, centre, repair] = a;
+  const auto& [file, component, scale, rotation, centre, repair, vertices] = a;
   c.member("model.file", file, b.file);
   c.member("model.component", component, b.component);
   c.member("model.scale", scale, b.scale);
   c.member("model.rotation", rotation, b.rotation);
   c.member("model.centre", centre, b.centre);
   c.member("model.repair", repair, b.repair);
+  c.member("model.vertices", vertices, b.vertices);
 }
 
 void compare(Comparison& c, const BodyScene& a, const BodyScene& b) {
