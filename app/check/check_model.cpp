@@ -5,10 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "app/host/interrupt.h"
 #include "app/record/vector_json.h"
 #include "app/terminal/table.h"
-#include "assets/load_model.h"
 
 namespace pneuma::app {
 namespace {
@@ -49,15 +47,7 @@ json component_json(const assets::Component& component) {
 ModelCheck check_model(const std::filesystem::path& path, const ModelChoice& choice) {
   ModelCheck check;
   check.path = path;
-  assets::CleanOptions options;
-  options.component = choice.component;
-  options.repair = choice.repair;
-  try {
-    check.model = assets::load_model(path, options);
-  } catch (const assets::ModelError&) {
-    throw_if_interrupted();  // Ctrl-C ends the importer first
-    throw;
-  }
+  check.model = chosen_model(path, choice);
   check.report = report_on(check.model);
   return check;
 }
@@ -98,6 +88,7 @@ std::string model_check_text(const ModelCheck& check) {
   for (const std::string& done : check.model.repaired) {
     text += named_line(&done == &check.model.repaired.front() ? "repaired" : "", done);
   }
+  if (!check.model.simplified.empty()) text += named_line("simplified", check.model.simplified);
   return text;
 }
 
@@ -146,7 +137,8 @@ json model_check_json(const ModelCheck& check) {
           {"components", std::move(components)},
           {"component_kept", check.model.kept + 1},
           {"mended", check.model.mended},
-          {"repaired", check.model.repaired}};
+          {"repaired", check.model.repaired},
+          {"simplified", check.model.simplified}};
 }
 
 }  // namespace pneuma::app

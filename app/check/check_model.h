@@ -16,7 +16,8 @@ struct ModelCheck {
   ModelReport report;
 };
 
-/// Reads and mends the model as it is: without scale and turn. Throws assets::ModelError.
+/// Reads, mends and simplifies the model as for its scene, but without scale and turn. Throws
+/// assets::ModelError.
 ModelCheck check_model(const std::filesystem::path& path, const ModelChoice& choice = {});
 
 std::string model_check_text(const ModelCheck& check);

@@ -1,5 +1,7 @@
 #include "app/terminal/common_options.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -7,6 +9,7 @@
 
 #include "app/host/thread_count.h"
 #include "assets/model_file.h"
+#include "scenes/loader/scene.h"
 
 namespace pneuma::app {
 
@@ -61,6 +64,12 @@ void add_model_options(CLI::App& command, ModelChoice& choice) {
           "says, z of others]")
       ->type_name("AXIS")
       ->check(CLI::IsMember({"x", "y", "z"}));
+  command
+      .add_option("--vertices", choice.vertices,
+                  fmt::format("Of a model file: simplify a finer one to so many [{}]",
+                              most_chosen_vertices))
+      ->type_name("N")
+      ->check(CLI::Range(scenes::min_model_vertices, scenes::max_model_vertices));
 }
 
 void add_frames_option(CLI::App& command, std::string& frames) {

@@ -25,7 +25,7 @@ void add_override_option(CLI::App& command, std::vector<std::string>& overrides)
 /// --accuracy: picture, 1e-2 or 1e-3.
 void add_accuracy_option(CLI::App& command, std::optional<Accuracy>& accuracy);
 
-/// --component, --repair and --up, of a model file.
+/// --component, --repair, --up and --vertices, of a model file.
 void add_model_options(CLI::App& command, ModelChoice& choice);
 
 /// --frames, as typed: see frame_range.h.

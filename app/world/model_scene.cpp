@@ -68,7 +68,7 @@ struct Choice {
   bool implicit = false;
 };
 
-assets::CleanModel load(const fs::path& path, const assets::CleanOptions& options) {
+assets::CleanModel read_model(const fs::path& path, const assets::CleanOptions& options) {
   try {
     return assets::load_model(path, options);
   } catch (const assets::ModelError&) {
@@ -183,6 +183,14 @@ std::string choice_text(ModelChoice given) {
   return text;
 }
 
+/// The key, where it changes the mesh or was asked for.
+std::string vertices_text(const assets::CleanModel& model, const ModelChoice& given) {
+  if (given.vertices) return fmt::format("model.vertices = {}\n", *given.vertices);
+  if (model.simplified.empty()) return "";
+  return fmt::format("model.vertices = {}  # {}; --vertices N takes others\n", most_chosen_vertices,
+                     model.simplified);
+}
+
 /// What the file is called, as far as a body may be called so.
 std::string body_name(const fs::path& model) {
   constexpr std::size_t longest = 40;
@@ -206,16 +214,28 @@ sim::Vec3 model_rotation(const fs::path& model, const ModelChoice& choice) {
   return choice.rotation ? *choice.rotation : rotation_of_up(assets::up_axis(model));
 }
 
+assets::CleanModel chosen_model(const fs::path& path, const ModelChoice& choice,
+                                assets::CleanOptions placing) {
+  placing.component = choice.component;
+  placing.repair = choice.repair;
+  placing.simplify_to = choice.vertices.value_or(most_chosen_vertices);
+  try {
+    return read_model(path, placing);
+  } catch (const assets::SimplifyError&) {
+    if (choice.vertices) throw;
+    placing.simplify_to.reset();
+    return read_model(path, placing);
+  }
+}
+
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   assets::CleanOptions options;
-  options.component = given.component;
-  options.repair = given.repair;
   options.rotation = model_rotation(path, given);
   const auto size_of = [](const assets::CleanModel& model) {
     return sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
   };
-  options.scale = extent / size_of(load(path, options)).maxCoeff();
-  const assets::CleanModel model = load(path, options);
+  options.scale = extent / size_of(chosen_model(path, given, options)).maxCoeff();
+  const assets::CleanModel model = chosen_model(path, given, options);
   const double height = size_of(model).z();
   const Choice choice = choose(model.mesh);
   const sim::SoftMaterial& material = choice.body.material;
@@ -238,7 +258,7 @@ frames_per_second = {}
 name = "{}"
 shape = "model"
 model.file = {}
-{}model.scale = {}  # the longest side is {} m
+{}{}model.scale = {}  # the longest side is {} m
 model.rotation = {}
 position = [0.0, 0.0, {}]
 angular_velocity = {}  # rad/s: so that it does not stand on a point
@@ -253,9 +273,10 @@ rest = "{}"
       choice.body.positions.size() > long_run_vertices ? short_duration : duration,
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
       ambient_pressure, frames_per_second, name, scenes::value_text(&file), choice_text(given),
-      options.scale, extent, scenes::value_text(&options.rotation), 0.5 * height + drop, slow_turn,
-      material.k, material.k_max, material.vertex_mass, mass, material.rho_g,
-      bending_text(material), choice.gauge_pressure, choice.held ? "equilibrium" : "shape");
+      vertices_text(model, given), options.scale, extent, scenes::value_text(&options.rotation),
+      0.5 * height + drop, slow_turn, material.k, material.k_max, material.vertex_mass, mass,
+      material.rho_g, bending_text(material), choice.gauge_pressure,
+      choice.held ? "equilibrium" : "shape");
 }
 
 fs::path model_scene_file(const fs::path& model) {

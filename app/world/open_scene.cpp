@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "app/files/find_model.h"
 #include "app/files/find_scene.h"
@@ -58,25 +59,43 @@ void choose_step(scenes::Scene& scene) {
   steps = shortest->steps_per_second;
 }
 
+/// Where the file does not say how it is to be read.
+std::vector<std::string> notes(const std::filesystem::path& model, const ModelChoice& choice,
+                               const scenes::ModelScene& made) {
+  std::vector<std::string> result;
+  const std::string file = model.filename().string();
+  if (!choice.rotation && assets::up_axis(model) == "z") {
+    result.push_back(fmt::format(
+        "note: {}: z is taken to point upwards; --up y if the model lies where it should stand",
+        file));
+  }
+  if (!choice.vertices && made.vertices) {
+    result.push_back(fmt::format(
+        "note: {}: simplified to {} vertices; --vertices N takes more, and longer, or fewer", file,
+        *made.vertices));
+  }
+  return result;
+}
+
 /// A model that an override turns is measured as it then stands, so that it starts above the
-/// ground.
+/// ground; one that an override gives more or fewer vertices has the step that these need.
 scenes::Scene model_scene(const std::filesystem::path& model, ModelChoice choice,
                           std::span<const std::string> overrides) {
-  const auto parse = [&] {
-    return scenes::parse_scene(model_scene_text(model, choice), model_scene_file(model), overrides);
-  };
-  scenes::Scene scene = parse();
-  const sim::Vec3 rotation = scene.bodies.front().model.rotation;
-  if (rotation == model_rotation(model, choice)) {
-    if (!choice.rotation && assets::up_axis(model) == "z") {
-      scene.warnings.push_back(fmt::format(
-          "note: {}: z is taken to point upwards; --up y if the model lies where it should stand",
-          model.filename().string()));
-    }
-    return scene;
+  const std::filesystem::path file = model_scene_file(model);
+  const std::string text = model_scene_text(model, choice);
+  scenes::Scene scene = scenes::parse_scene(text, file, overrides);
+  const scenes::ModelScene made = scenes::parse_scene(text, file).bodies.front().model;
+  const scenes::ModelScene wanted = scene.bodies.front().model;
+  const bool is_turned = wanted.rotation != made.rotation;
+  const bool is_remeshed = wanted.vertices != made.vertices;
+  if (is_turned) choice.rotation = wanted.rotation;
+  if (is_remeshed) choice.vertices = wanted.vertices;
+  if (is_turned || is_remeshed) {
+    scene = scenes::parse_scene(model_scene_text(model, choice), file, overrides);
   }
-  choice.rotation = rotation;
-  return parse();
+  std::ranges::move(notes(model, choice, scene.bodies.front().model),
+                    std::back_inserter(scene.warnings));
+  return scene;
 }
 
 /// The scene made of a model names the file.
@@ -95,10 +114,11 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
     check_path(model);
     return model_scene(model, choice, overrides);
   }
-  if (choice.repair || choice.rotation || !choice.component.empty()) {
+  if (choice.repair || choice.rotation || choice.vertices || !choice.component.empty()) {
     throw UsageError(
-        "--repair, --component and --up are of a model file; for a model in a scene use --set "
-        "body.model.repair=true, body.model.component=NAME and body.model.rotation=[90,0,0]");
+        "--repair, --component, --up and --vertices are of a model file; for a model in a scene "
+        "use --set body.model.repair=true, body.model.component=NAME, "
+        "body.model.rotation=[90,0,0] and body.model.vertices=N");
   }
   scenes::Scene scene = scenes::load_scene(find_scene(name), overrides, model_error);
   choose_step(scene);

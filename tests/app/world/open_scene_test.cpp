@@ -174,6 +174,40 @@ TEST_F(OpenScene, RepairsAModelAndSaysSoInItsText) {
   EXPECT_NEAR(volume_of(world.soft.at(0)), 6.0 * 6.0 * 6.0 * volume, 1e-3);
 }
 
+/// More vertices than most_chosen_vertices.
+sim::TriangleMesh fine_ball() { return sim::make_icosphere(1.0, 5); }
+
+int vertices_of(const scenes::Scene& scene) {
+  return build_world(scene).soft.at(0).mesh->topology.vertex_count();
+}
+
+// The text that is kept has the key, and makes the same body as the run has.
+TEST_F(OpenScene, SimplifiesALargeModelAndSaysSo) {
+  const scenes::Scene scene = open(fine_ball());
+  EXPECT_EQ(scene.bodies.at(0).model.vertices, most_chosen_vertices);
+  EXPECT_NE(scene.warnings.back().find(
+                fmt::format("simplified to {} vertices; --vertices", most_chosen_vertices)),
+            std::string::npos)
+      << scene.warnings.back();
+  const sim::World world = build_world(scene);
+  EXPECT_EQ(world.soft.at(0).mesh->topology.vertex_count(), most_chosen_vertices);
+  const scenes::Scene again = scenes::parse_scene(scenes::print_scene(scene), "it.toml");
+  EXPECT_EQ(model_fingerprints(again, build_world(again)), model_fingerprints(scene, world));
+  EXPECT_EQ(scenes::scene_fingerprint(again), scenes::scene_fingerprint(scene));
+}
+
+// Steps and masses are of the mesh that there is.
+TEST_F(OpenScene, AModelHasAsManyVerticesAsAskedFor) {
+  const scenes::Scene coarse = open(sim::make_icosphere(1.0, 4), {"body.model.vertices=300"});
+  EXPECT_EQ(vertices_of(coarse), 300);
+  EXPECT_NEAR(300 * coarse.bodies.at(0).material.vertex_mass, 5.0, 1e-9);
+  const scenes::Scene by_option = open_scene(file().string(), {}, {.vertices = 300});
+  EXPECT_EQ(scenes::scene_fingerprint(by_option), scenes::scene_fingerprint(coarse));
+  const scenes::Scene whole = open(sim::make_icosphere(1.0, 4));
+  EXPECT_FALSE(whole.bodies.at(0).model.vertices);
+  EXPECT_EQ(vertices_of(whole), 2562);
+}
+
 TEST_F(OpenScene, TakesOneComponentOfSeveral) {
   const sim::TriangleMesh two = assets::both(
       assets::cube(), assets::moved(sim::make_box({2.0, 1.0, 1.0}, 2), {9.0, 0.0, 0.0}));
@@ -189,6 +223,7 @@ TEST(OpenAScene, ThatIsNoModelRefusesAModelsOptions) {
   EXPECT_THROW(open_scene("one_sphere", {}, {.repair = true}), UsageError);
   EXPECT_THROW(open_scene("one_sphere", {}, {.component = "1"}), UsageError);
   EXPECT_THROW(open_scene("one_sphere", {}, {.rotation = rotation_of_up("y")}), UsageError);
+  EXPECT_THROW(open_scene("one_sphere", {}, {.vertices = 300}), UsageError);
 }
 
 /// A scene file of its own for each.
