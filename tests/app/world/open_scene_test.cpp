@@ -198,14 +198,14 @@ TEST_F(OpenScene, SimplifiesALargeModelAndSaysSo) {
 
 // Steps and masses are of the mesh that there is.
 TEST_F(OpenScene, AModelHasAsManyVerticesAsAskedFor) {
-  const scenes::Scene coarse = open(sim::make_icosphere(1.0, 4), {"body.model.vertices=300"});
+  const scenes::Scene coarse = open(sim::make_icosphere(1.0, 3), {"body.model.vertices=300"});
   EXPECT_EQ(vertices_of(coarse), 300);
   EXPECT_NEAR(300 * coarse.bodies.at(0).material.vertex_mass, 5.0, 1e-9);
   const scenes::Scene by_option = open_scene(file().string(), {}, {.vertices = 300});
   EXPECT_EQ(scenes::scene_fingerprint(by_option), scenes::scene_fingerprint(coarse));
-  const scenes::Scene whole = open(sim::make_icosphere(1.0, 4));
+  const scenes::Scene whole = open(sim::make_icosphere(1.0, 3));
   EXPECT_FALSE(whole.bodies.at(0).model.vertices);
-  EXPECT_EQ(vertices_of(whole), 2562);
+  EXPECT_EQ(vertices_of(whole), 642);
 }
 
 TEST_F(OpenScene, TakesOneComponentOfSeveral) {
