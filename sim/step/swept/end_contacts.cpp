@@ -8,8 +8,8 @@ namespace {
 
 /// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
 constexpr double least_of_falls = 4.0;
-/// Of the speed that a bounce returns: more is nearly all.
-constexpr double elastic = 0.9;
+/// Of the speed that a bounce returns: more is all of it.
+constexpr double elastic = 0.99;
 
 /// What a pair of features has been given at the start.
 struct Given {
