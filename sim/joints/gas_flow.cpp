@@ -16,7 +16,7 @@ namespace {
 /// one step of Runge-Kutta.
 constexpr double part_of_time = 0.05;
 
-/// Of the highest pressure there was: a difference below this is none.
+/// Of the higher pressure that there was: a difference below this is none.
 constexpr double even = 1e-12;
 
 double value(const std::vector<KeyFrame>& keys, bool smooth, double time) {
@@ -156,8 +156,9 @@ double GasFlow::temperature(const Part& part, const Gas& gas) const {
   return pressure(part, gas) * part.volume / (gas.n * gas_constant);
 }
 
-GasFlow::Pace GasFlow::rates(const std::vector<Gas>& gas, std::vector<Gas>& change) const {
-  Pace pace;
+/// Returns how fast the fastest difference of pressure goes, 1/s; 0: all are even.
+double GasFlow::rates(const std::vector<Gas>& gas, std::vector<Gas>& change) const {
+  double fastest = 0.0;
   for (Gas& of_part : change) of_part = {};
   /// d(nRT at the start volume) by dn moles of a temperature.
   const auto add = [&](std::size_t i, double moles, double their_temperature) {
@@ -172,14 +173,13 @@ GasFlow::Pace GasFlow::rates(const std::vector<Gas>& gas, std::vector<Gas>& chan
     const Part& part = parts_[i];
     const double slope =
         part.exponent * gas_constant * temperature(part, gas[i]) / part.volume;  // Pa per mol
-    pace.rate = std::max(pace.rate, flux / difference * slope);
-    pace.difference = std::max(pace.difference, difference);
+    fastest = std::max(fastest, flux / difference * slope);
   };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
     if (!part.is_open || part.leak == 0.0) continue;
     const double inside = pressure(part, gas[i]);
-    if (inside == part.outside) continue;
+    if (std::abs(inside - part.outside) <= even * part.reference) continue;
     const bool leaves = inside > part.outside;
     const double from = leaves ? temperature(part, gas[i]) : part.outside_temperature;
     const double moles = part.leak * orifice_flux(std::max(inside, part.outside), from,
@@ -191,7 +191,9 @@ GasFlow::Pace GasFlow::rates(const std::vector<Gas>& gas, std::vector<Gas>& chan
     if (!parts_[valve.first].is_open || !parts_[valve.second].is_open) continue;
     const double one = pressure(parts_[valve.first], gas[valve.first]);
     const double other = pressure(parts_[valve.second], gas[valve.second]);
-    if (one == other) continue;
+    const double reference =
+        std::max(parts_[valve.first].reference, parts_[valve.second].reference);
+    if (std::abs(one - other) <= even * reference) continue;
     const std::size_t from = one > other ? valve.first : valve.second;
     const std::size_t to = one > other ? valve.second : valve.first;
     const double their = temperature(parts_[from], gas[from]);
@@ -202,7 +204,7 @@ GasFlow::Pace GasFlow::rates(const std::vector<Gas>& gas, std::vector<Gas>& chan
     meet(from, moles, std::abs(one - other));
     meet(to, moles, std::abs(one - other));
   }
-  return pace;
+  return fastest;
 }
 
 /// From the first slopes.
@@ -226,19 +228,19 @@ void GasFlow::take_runge_kutta_step(double step) {
   }
 }
 
-/// What has at most the pressure `none` in vacuum: as good as all has flowed out of it. Without gas
-/// a body may lie flat.
-void GasFlow::empty(double none) {
+/// What has leaked into vacuum until next to nothing of it was left. Without gas a body may lie
+/// flat.
+void GasFlow::empty() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const Part& part = parts_[i];
-    if (part.is_open && part.outside == 0.0 && pressure(part, gas_[i]) <= none) gas_[i] = {};
+    if (!part.is_open || part.leak == 0.0 || part.outside > 0.0) continue;
+    if (pressure(part, gas_[i]) <= even * part.reference) gas_[i] = {};
   }
 }
 
 /// Opposite ends of a valve get the same numbers with opposite signs, so that what they have
 /// together changes by rounding only.
 void GasFlow::flow(World& world, double seconds) {
-  double max_pressure = 0.0;  // Pa
   bool any = false;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
@@ -246,20 +248,17 @@ void GasFlow::flow(World& world, double seconds) {
     part.temperature = material.temperature;
     gas_[i] = {material.n, gas_strength(material)};
     any = any || part.is_open;
-    if (part.is_open)
-      max_pressure = std::max({max_pressure, pressure(part, gas_[i]), part.outside});
+    if (part.is_open) part.reference = std::max(pressure(part, gas_[i]), part.outside);
   }
   if (!any) return;
   for (double left = seconds; left > 0.0;) {
-    const Pace pace = rates(gas_, slopes_[0]);
-    if (pace.difference <= even * max_pressure) {
-      empty(even * max_pressure);
-      break;
-    }
-    const double step = std::min(left, part_of_time / pace.rate);
+    const double fastest = rates(gas_, slopes_[0]);
+    if (fastest == 0.0) break;
+    const double step = std::min(left, part_of_time / fastest);
     take_runge_kutta_step(step);
     left -= step;
   }
+  empty();
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!parts_[i].is_open) continue;
     SoftMaterial& material = world.soft[at(parts_[i].body)].material;

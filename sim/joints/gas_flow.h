@@ -53,6 +53,7 @@ class GasFlow {
     double outside_temperature = 0.0;
     double per_strength = 0.0;  // Pa per J: the pressure is this times nRT at the start volume
     double temperature = 0.0;   // K, of an exponent of 1
+    double reference = 0.0;     // Pa, the greater of its own and that outside as the flow begins
     double start_n = 0.0;       // mol, before the step
     double start_temperature = 0.0;
   };
@@ -65,18 +66,12 @@ class GasFlow {
     std::size_t first = 0, second = 0;  // into parts_
     double area = 0.0;                  // m^2, effective
   };
-  /// Of the flow as a whole: how fast it changes, 1/s, and the largest difference of pressure, Pa.
-  struct Pace {
-    double rate = 0.0;
-    double difference = 0.0;
-  };
-
   void measure(const World& world);
   void take_keys(World& world, double from, double to);
   void flow(World& world, double seconds);
-  void empty(double none);
+  void empty();
   void take_runge_kutta_step(double step);
-  Pace rates(const std::vector<Gas>& gas, std::vector<Gas>& change) const;
+  double rates(const std::vector<Gas>& gas, std::vector<Gas>& change) const;
   double pressure(const Part& part, const Gas& gas) const;
   double temperature(const Part& part, const Gas& gas) const;
   double energy(const World& world) const;

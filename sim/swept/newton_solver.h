@@ -46,8 +46,8 @@ class NewtonSolver {
   void add_masses();
   void add(const SweptImpulse::Response& response, std::span<const ContactLever> levers,
            std::span<const LeverJacobian> jacobians);
-  /// Moves the velocities along the step, which the residual has become, to where the function is
-  /// least there. False if it does not fall.
+  /// Moves the velocities along the step, which the residual has become, to about where the
+  /// function is least there. False if it does not fall at first.
   bool descend(double penalty);
   /// All responses at a fraction of the step.
   Slope respond_along(double fraction, double penalty);

@@ -87,8 +87,8 @@ bool ContactPlaces::face_each_other(const BodyPair& boxes, Moment moment) const 
   return find_box_contact_within(near, box(first), box(second)).has_value();
 }
 
-bool ContactPlaces::pass(const SweptCandidate& candidate, const ClosestPoints& closest,
-                         Moment moment) const {
+bool ContactPlaces::are_beside_each_other(const SweptCandidate& candidate,
+                                          const ClosestPoints& closest, Moment moment) const {
   const auto [first, second] = candidate.bodies;
   if (bodies_.is_box(first) && bodies_.is_box(second))
     return !face_each_other(candidate.bodies, moment);
@@ -164,8 +164,8 @@ std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& ca
   const auto closest = closest_points(bodies_.surface(first), bodies_.surface(second),
                                       candidate.features, Moment::end, reach);
   if (!closest) return std::nullopt;
-  if (!acted &&
-      (!stands(candidate, *closest, Moment::end) || pass(candidate, *closest, Moment::end)))
+  if (!acted && (!stands(candidate, *closest, Moment::end) ||
+                 are_beside_each_other(candidate, *closest, Moment::end)))
     return std::nullopt;
   const SweptContact contact = place(candidate, *closest, Moment::end);
   return motion_.is_moved(contact) ? std::optional(contact) : std::nullopt;

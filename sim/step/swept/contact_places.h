@@ -30,7 +30,8 @@ class ContactPlaces {
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
   /// Whether the sides keep their shapes and these features are beside each other, not on each
   /// other: what slides from one face onto the next meets the edge between them nowhere.
-  bool pass(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
+  bool are_beside_each_other(const SweptCandidate& candidate, const ClosestPoints& closest,
+                             Moment moment) const;
   /// Of features that meet after a fraction of the step, at its start.
   SweptContact place_at(const SweptCandidate& candidate, double fraction) const;
   /// The same, so that its impulse keeps angular momentum.

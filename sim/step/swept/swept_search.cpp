@@ -32,7 +32,7 @@ bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
   const auto keeps_shape = [&](int i) { return bodies_.is_rigid(i) || bodies_.is_obstacle(i); };
   if (!keeps_shape(first) || !keeps_shape(second)) return false;
   return candidate.start.distance >= motion_.near_distance(first, second) ||
-         places_.pass(candidate, candidate.start, Moment::start);
+         places_.are_beside_each_other(candidate, candidate.start, Moment::start);
 }
 
 void SweptSearch::find_candidates() {

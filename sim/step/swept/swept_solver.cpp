@@ -12,8 +12,9 @@ constexpr int few_iterations = 20;
 constexpr int many_iterations = 50;
 /// Each call to Newton's method with so many times the penalty of the one before.
 constexpr double first_penalty = 1e3, penalty_growth = 30.0;
-/// The same where that does not converge and masses differ by more than the ratio.
-constexpr double least_penalty = 1.0, least_growth = 10.0, mass_ratio = 10.0;
+/// The same where that does not converge, masses differ by more than the ratio, and so many times
+/// the tolerance is left: a third of the thinnest skin in a step.
+constexpr double least_penalty = 1.0, least_growth = 10.0, mass_ratio = 10.0, unsolved = 300.0;
 constexpr double last_penalty = 1e9;
 
 /// What has no mass, and what leaves no room, is not kept apart by any impulse. An impulse may be
@@ -267,7 +268,7 @@ double SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, do
   int more = many_iterations - few_iterations;
   if (newton_.begin(impulses)) {
     if (improve(first_penalty, penalty_growth, of_boxes, left)) return left;
-    if (have_different_masses(impulses)) {
+    if (left > unsolved * tolerance && have_different_masses(impulses)) {
       if (improve(least_penalty, least_growth, of_boxes, left)) return left;
       more = more_iterations;
     }
