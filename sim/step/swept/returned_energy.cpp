@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/inspect/state_energy.h"
+#include "sim/joints/body_springs.h"
 #include "sim/response/group_motion.h"
 #include "sim/response/vibration.h"
 
@@ -244,6 +245,12 @@ Holder holder_of(const World& world, SweptMemory& memory, int island) {
   return any([&](std::size_t i) { return memory.on_ground[i].is_held; }) ? Holder::at_rest : holder;
 }
 
+/// By springs to other bodies.
+bool is_pulled(const World& world, SweptMemory& memory, int island) {
+  return any_soft_body(world, memory, island,
+                       [&](std::size_t i) { return has_springs(world, static_cast<int>(i)); });
+}
+
 /// J, of one step from rest.
 double energy_of_fall(const Settings& settings, double mass) {
   return 0.5 * mass * (time_step(settings) * settings.gravity).squaredNorm();
@@ -328,8 +335,8 @@ double size_of_impulses(const SweptMemory& memory, int island) {
 /// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
 /// against each other shrink by the same factor, so that at contacts what parts still parts.
 /// Nothing is asked for if pins, or bodies that keep their velocities, hold the island. Of one that
-/// nothing holds, whose energy its loads cannot change, none may be left but what rounding leaves,
-/// and the `tolerance` (m/s) to which velocities are solved for.
+/// nothing holds or pulls, whose energy its loads cannot change, none may be left but what rounding
+/// leaves, and the `tolerance` (m/s) to which velocities are solved for.
 Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, Due due,
                                  double tolerance) {
   const Holder holder = due.holder;
@@ -342,7 +349,8 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
     due.forgive(energy_of_fall(world.settings, motion.mass()));
   }
   const double taken = motion.take(due.of(motion.energy())), left = due.must - taken;
-  if (holder != Holder::none || !(left > 0.0)) return {.taken = taken};
+  if (holder != Holder::none || !(left > 0.0) || is_pulled(world, memory, island))
+    return {.taken = taken};
   // What is left at each contact adds up from body to body.
   const double bodies = static_cast<double>(memory.members.size());
   const double of_solution = 0.5 * motion.mass() * bodies * tolerance * tolerance +

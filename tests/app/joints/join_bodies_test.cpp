@@ -1,6 +1,7 @@
 // Valves and springs of a scene in its world, and motions that turn too fast.
 #include "app/joints/join_bodies.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/check/run_statistics.h"
@@ -125,6 +126,24 @@ TEST(RunStatistics, BookWhatGasDoesToTheEnergy) {
   EXPECT_GT(std::abs(*run.gas_work), 10.0);
   EXPECT_NEAR(run.energy_end.total() - run.energy_start.total(), *run.gas_work,
               1e-3 * std::abs(*run.gas_work));
+}
+
+/// The loads of two of them that touch in the air come from the springs to the others, and change
+/// their energy.
+TEST(JoinBodies, BallsOnAChainHangAndLand) {
+  std::string chain =
+      "duration = 6\n[simulation]\nsteps_per_second = 120\n"
+      "[[body]]\nname = \"b0\"\nkind = \"static\"\nshape = \"sphere\"\n"
+      "radius = 0.5\nposition = [0, 0, 14]\n";
+  for (int i = 1; i <= 5; ++i) {
+    chain += fmt::format(
+        "[[body]]\nname = \"b{}\"\nradius = 1\nrest = \"equilibrium\"\ngauge_pressure = 30\n"
+        "mass = 1\nposition = [0, 0, {}]\n"
+        "[[spring]]\nfrom = \"b{}\"\nto = \"b{}\"\nk = 100\ndamping = 2\n",
+        i, 14.5 - 2.0 * i, i - 1, i);
+  }
+  const RunStatistics run = run_statistics(scenes::parse_scene(chain, "chain.toml"), 1);
+  EXPECT_FALSE(run.divergence) << *run.divergence;
 }
 
 }  // namespace
