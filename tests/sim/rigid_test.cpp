@@ -314,7 +314,7 @@ TEST(RigidCollision, ACornerOffTheCentreFollowsTheClosedForm) {
 
 TEST(RigidCollision, KeepsMomentumThroughTumblingCollisions) {
   World world = make_free_boxes({}, 0.5);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 9; ++i) {
     RigidBox box =
         make_rigid({1.0 + 0.1 * i, 1.0, 2.0}, {1.7 * (i % 3), 1.7 * (i / 3), 0.3 * i}, 1.0 + i);
     box.rho_g = 0.0;
@@ -331,7 +331,7 @@ TEST(RigidCollision, KeepsMomentumThroughTumblingCollisions) {
     contacts += stepper.contacts().size();
     ASSERT_LT((momentum(world).linear - start.linear).norm(), 1e-12);  // of 30 kg m/s
   }
-  EXPECT_GE(contacts, 20U);
+  EXPECT_GT(contacts, 20U);
 }
 
 /// The most that a step has added to the energy of two cubes, whose free motion keeps it exactly,

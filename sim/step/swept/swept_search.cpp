@@ -23,8 +23,8 @@ void SweptSearch::start() {
   has_started_ = true;
 }
 
-/// Features of what keeps its shape, that are not near or pass each other: a plane between them as
-/// they lie at the start would brake what slides past. Whether they meet is seen once what bears
+/// Features of what keeps its shape that are not near, or beside each other: a plane between them
+/// as they lie at the start would brake what slides past. Whether they meet is seen once what bears
 /// them holds them up.
 bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;

@@ -32,18 +32,23 @@ std::string said_of(double share, bool leaks = false) {
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
-  const scenes::Scene scene = scenes::parse_scene("[[body]]\n", "one.toml");
+/// Of one frame in which body1 of the scene crosses itself.
+std::string said_of_crossing(const std::string& text, bool is_resumed) {
+  const scenes::Scene scene = scenes::parse_scene(text, "crossed.toml");
   const Simulation simulation(scene, build_world(scene), 1);
   FrameState state;
   state.crosses_itself = "body1";
   CrossedFrames crossed;
   Progress progress(Progress::Style::lines);
   crossed.add(simulation, state, progress);
+  testing::internal::CaptureStderr();
+  crossed.summarise(progress, is_resumed);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
   for (const bool is_resumed : {false, true}) {
-    testing::internal::CaptureStderr();
-    crossed.summarise(progress, is_resumed);
-    const std::string said = testing::internal::GetCapturedStderr();
+    const std::string said = said_of_crossing("[[body]]\n", is_resumed);
     const char* of = is_resumed ? "in 1 of the 1 frames drawn now;" : "in 1 of 1 frames;";
     EXPECT_NE(said.find(of), std::string::npos) << said;
   }
@@ -52,20 +57,8 @@ TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
 TEST(CrossedFrames, AreNotToBeRuledOutByWhatTheSceneCannotHave) {
   const std::string two = "[[body]]\nposition = [0, 0, 4]\n[[body]]\nposition = [9, 0, 4]\n";
   const std::string tied = two + "[[spring]]\nfrom = \"body1\"\nto = \"body2\"\nk = 1\n";
-  const auto said_of_scene = [](const std::string& text) {
-    const scenes::Scene scene = scenes::parse_scene(text, "two.toml");
-    const Simulation simulation(scene, build_world(scene), 1);
-    FrameState state;
-    state.crosses_itself = "body1";
-    CrossedFrames crossed;
-    Progress progress(Progress::Style::lines);
-    crossed.add(simulation, state, progress);
-    testing::internal::CaptureStderr();
-    crossed.summarise(progress, false);
-    return testing::internal::GetCapturedStderr();
-  };
-  EXPECT_NE(said_of_scene(two).find("potential"), std::string::npos);
-  const std::string said = said_of_scene(tied);
+  EXPECT_NE(said_of_crossing(two, false).find("potential"), std::string::npos);
+  const std::string said = said_of_crossing(tied, false);
   EXPECT_NE(said.find("passes through itself"), std::string::npos) << said;
   EXPECT_EQ(said.find("potential"), std::string::npos) << said;
 }

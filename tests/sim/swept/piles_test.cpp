@@ -136,7 +136,7 @@ TEST(Piles, RodsOfManyMassesAcrossEachOtherComeToRest) {
 
 /// Some of these heaps had no way on, though nothing in them moved faster than a hand.
 TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
-  std::mt19937 random(1);
+  std::mt19937 random(2);
   std::uniform_real_distribution<double> aside(-0.3, 0.3), turn(-1.0, 1.0);
   for (int run = 0; run < 2; ++run) {
     World world = make_tower({});
@@ -152,7 +152,7 @@ TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
     };
     for (int i = 0; i < 20; ++i) add({4.0, 0.2, 0.2}, 1.5 + 1.5 * i);
     for (int i = 0; i < 4; ++i) add({3.0, 3.0, 0.03}, 32.0 + 2.0 * i);
-    EXPECT_LT(run_pile(world, 12.0).speed, 0.05) << run;
+    EXPECT_LT(run_pile(world, 10.0).speed, 0.05) << run;
   }
 }
 
