@@ -41,15 +41,12 @@ scenes::Scene opened(const std::string& scene, const std::vector<std::string>& o
 ScriptedWorld::ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides,
                              int threads)
     : scene_(opened(scene, overrides, threads)),
-      world_(checked_world(scene_)),
-      stepper_(world_, {.threads = threads, .plan = {}}),
-      camera_(scene_, world_, threads) {}
+      simulation_(scene_, checked_world(scene_), threads),
+      camera_(scene_, world(), threads) {}
 
 void ScriptedWorld::step() {
-  if (const auto divergence = stepper_.step(world_)) {
-    throw divergence_error(scene_.name, *divergence, world_);
-  }
-  camera_.see(world_);
+  simulation_.advance_step();
+  camera_.see(world());
 }
 
 render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
@@ -59,11 +56,11 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
   options.samples = scene_.picture.samples;
   if (!builder_) builder_.emplace(scene_, build_world(scene_));
   if (!drawing_) drawing_.emplace();
-  return drawing_->draw(options, builder_->build(world_, camera_.at(world_), contacts(), show));
+  return drawing_->draw(options, builder_->build(world(), camera_.at(world()), contacts(), show));
 }
 
 std::vector<std::string> ScriptedWorld::warnings() const {
-  return scene_warnings(scene_, world_, step_advices(world_), {});
+  return scene_warnings(scene_, world(), step_advices(world()), {});
 }
 
 }  // namespace pneuma::app

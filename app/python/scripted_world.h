@@ -10,9 +10,8 @@
 #include "app/picture/build_frame.h"
 #include "app/picture/run_camera.h"
 #include "app/python/drawing_thread.h"
+#include "app/world/simulation.h"
 #include "scenes/loader/scene.h"
-#include "sim/step/stepper.h"
-#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -28,7 +27,8 @@ class ScriptedWorld {
   /// that --threads refuses.
   ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides, int threads);
 
-  /// One step. Throws DivergenceError; the world is then in its last valid state.
+  /// One step, in parts where `pneuma render` would take it so. Throws DivergenceError; the world
+  /// is then in its last valid state.
   void step();
 
   /// The picture that `pneuma render` would make of this state, on any thread. For an
@@ -37,15 +37,14 @@ class ScriptedWorld {
   render::Image draw(const PictureSize& size, Show show);
 
   const scenes::Scene& scene() const { return scene_; }
-  const sim::World& world() const { return world_; }
-  std::span<const sim::Contact> contacts() const { return stepper_.contacts(); }
+  const sim::World& world() const { return simulation_.world(); }
+  std::span<const sim::Contact> contacts() const { return simulation_.contacts(); }
   /// What the program would warn of before a run.
   std::vector<std::string> warnings() const;
 
  private:
   scenes::Scene scene_;
-  sim::World world_;
-  sim::Stepper stepper_;
+  Simulation simulation_;
   RunCamera camera_;
   std::optional<FrameBuilder> builder_;
   std::optional<DrawingThread> drawing_;

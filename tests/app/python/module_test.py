@@ -85,6 +85,14 @@ class Module(unittest.TestCase):
             self.assertEqual(world.soft[0].volume, run["volumes_m3"][0]["end"])
             self.assertEqual(world.time, run["seconds"])
 
+    def test_steps_are_divided_as_the_commands(self):
+        thrown = "body.1.velocity=[0, 0, -200]"
+        run = self.checked_run("--set", thrown)
+        self.assertGreater(run["divided_steps"], 0)
+        world = pneuma.load(str(self.scene), set=[thrown])
+        world.step(run["steps"])
+        self.assertEqual(world.state_hash, run["state_hash"])
+
     def test_overrides_are_a_dict_or_a_list(self):
         as_list = pneuma.load(str(self.scene), set=["body.k=80", "picture.caption=false"])
         as_dict = pneuma.load(str(self.scene), set={"body.k": 80, "picture.caption": False})
