@@ -28,6 +28,7 @@ EdgeBars::EdgeBars(Edges edges, const std::vector<render::Colour>& colours, floa
 render::Mesh EdgeBars::mesh(const std::vector<Vec3f>& positions) const {
   render::Mesh bars;
   bars.shape = shape_;
+  bars.takes_light = false;
   for (const auto& edge : edges_) {
     const LineAxes axes(positions[edge[1]] - positions[edge[0]]);
     const Vec3f across = radius_ * axes.across, other = radius_ * axes.other;

@@ -9,6 +9,7 @@ void IndirectLighting::take_bodies(const std::vector<Mesh>& meshes, const Vec3f&
   std::erase_if(shapes_, [](const auto& entry) { return entry.first.expired(); });
   bodies_.clear();
   for (const Mesh& mesh : meshes) {
+    if (!mesh.takes_light) continue;
     const Shape& shape = shape_of(mesh.shape);
     std::vector<Vec3f> own;
     for (const Colour& colour : mesh.colours) own.push_back(to_linear(colour));

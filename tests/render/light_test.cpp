@@ -12,6 +12,7 @@
 #include "render/light/environment.h"
 #include "render/light/gather.h"
 #include "render/light/ground_light.h"
+#include "render/light/indirect.h"
 #include "render/passes/full_screen.h"
 #include "render/passes/look.h"
 #include "render/passes/target.h"
@@ -111,6 +112,16 @@ TEST(Gather, OfPointsTogetherIsThatOfEach) {
     EXPECT_GT(taken(x, 1), 0.1f);
     EXPECT_NEAR(taken(x, 8), taken(x, 1), 0.01f) << x;
   }
+}
+
+TEST(IndirectLighting, TakesNoLightByWhatIsThin) {
+  std::vector<Mesh> meshes = {fine_ball(Vec3f::Zero()), fine_ball({3, 0, 0})};
+  meshes[1].takes_light = false;
+  IndirectLighting lighting;
+  lighting.take_bodies(
+      meshes, Vec3f::UnitZ(), [](const Vec3f&) { return true; }, false);
+  ASSERT_EQ(lighting.bodies().bodies().size(), 1U);
+  EXPECT_LT(lighting.bodies().bodies()[0].whole.centre.x(), 1.0f);
 }
 
 /// A crowd of balls around an empty middle.

@@ -68,6 +68,8 @@ TEST(BuildFrame, DrawsEdgesAsBarsAroundThem) {
     }
   }
   EXPECT_EQ(bars.shape->triangles.size(), 12U * 8U);
+  EXPECT_TRUE(surface.takes_light);
+  EXPECT_FALSE(bars.takes_light);
 }
 
 TEST(BuildFrame, DrawsNothingOfWhatIsNotToBeSeen) {
