@@ -83,6 +83,11 @@ std::string what_is_crushed(const sim::World& world, const sim::Divergence& dive
   return crushed_between(world, divergence.body, are_one);
 }
 
+sim::StageTimes sum(sim::StageTimes times, const sim::StageTimes& others) {
+  std::ranges::transform(times, others, times.begin(), std::plus{});
+  return times;
+}
+
 /// No step helps a body that has no room, and after parts of the step no shorter one of that size.
 std::string what_to_do(const sim::World& world, const sim::Divergence& divergence,
                        const std::optional<StepAdvice>& advice, const std::string& crushed,
@@ -127,12 +132,13 @@ Simulation::Simulation(const scenes::Scene& scene, sim::World world, int threads
 
 void Simulation::advance_frame() {
   step_parts_.clear();
-  const sim::StageTimes before = stepper_.stage_times();
+  const sim::StageTimes before = sum(stepper_.stage_times(), times_of_parts_);
   do step();
   while (world_.steps % steps_per_frame_ != 0);
   stepper_.place_obstacles(world_);
   require_all_near();
-  std::ranges::transform(stepper_.stage_times(), before, stage_times_.begin(), std::minus{});
+  std::ranges::transform(sum(stepper_.stage_times(), times_of_parts_), before, stage_times_.begin(),
+                         std::minus{});
 }
 
 void Simulation::advance_step() {
@@ -196,13 +202,16 @@ bool Simulation::step_in_parts(int parts) {
   sim::World finer = world_;
   finer.settings.steps_per_second *= parts;
   finer.steps *= parts;
-  sim::Stepper stepper(finer, {.threads = threads_, .plan = {}});
+  sim::Stepper stepper(finer, {.threads = threads_, .profile = true, .plan = {}});
   double driven_work = 0.0, gas_work = 0.0;
-  for (int i = 0; i < parts; ++i) {
-    if (stepper.step(finer)) return false;
+  bool is_valid = true;
+  for (int i = 0; i < parts && is_valid; ++i) {
+    is_valid = !stepper.step(finer);
     driven_work += stepper.driven_work();
     gas_work += stepper.gas_work();
   }
+  times_of_parts_ = sum(times_of_parts_, stepper.stage_times());
+  if (!is_valid) return false;
   has_other_contacts_ = true;
   other_contacts_.assign(stepper.contacts().begin(), stepper.contacts().end());
   driven_work_ = driven_work;

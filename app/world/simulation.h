@@ -64,7 +64,7 @@ class Simulation {
   double gas_work() const { return gas_work_; }
   /// Of the steps to the present frame that were done in parts: in how many.
   const std::vector<int>& step_parts() const { return step_parts_; }
-  /// s, of each stage in the steps to the present frame.
+  /// s, of each stage in the steps to the present frame, with those that were taken back.
   const sim::StageTimes& stage_times() const { return stage_times_; }
   /// The frame that shows the present state; frame 0 is the start.
   std::int64_t frame() const { return world_.steps / steps_per_frame_; }
@@ -84,6 +84,7 @@ class Simulation {
   sim::Stepper stepper_;
   std::vector<int> step_parts_;
   sim::StageTimes stage_times_{};
+  sim::StageTimes times_of_parts_{};  // s, of all steps that were tried in parts
   std::vector<sim::Contact> other_contacts_;
   bool has_other_contacts_ = false;  // the stepper has not made the last step
   double driven_work_ = 0.0;
