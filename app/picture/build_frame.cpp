@@ -104,8 +104,16 @@ std::string pressure_lines(const sim::World& world) {
   return lines;
 }
 
-render::Caption caption(const std::string& title, const sim::World& world, bool pressures) {
-  return {fmt::format("{}\nt = {:.2f} s   step {}{}", title, sim::time(world), world.steps,
+/// Of the times on captions, in s: no two frames have the same.
+int time_digits(int frames_per_second) {
+  int digits = 2;
+  for (int frames = 100; frames < frames_per_second; frames *= 10) ++digits;
+  return digits;
+}
+
+render::Caption caption(const std::string& title, const sim::World& world, int digits,
+                        bool pressures) {
+  return {fmt::format("{}\nt = {:.{}f} s   step {}{}", title, sim::time(world), digits, world.steps,
                       pressures ? pressure_lines(world) : std::string())};
 }
 
@@ -135,6 +143,7 @@ void add_overlays(const sim::World& world, std::span<const sim::Contact> contact
 FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start)
     : title_(scene.title.empty() ? scene.name : scene.title),
       caption_(scene.picture.caption),
+      time_digits_(time_digits(scene.picture.frames_per_second)),
       pressures_(scene.picture.pressures),
       rounded_(scene.picture.rounded),
       joints_(start) {
@@ -197,7 +206,7 @@ render::Frame FrameBuilder::build(const sim::World& world, const render::Camera&
   const bool only_surfaces = !show.wireframe && !show.particles && !show.contacts && !show.impulses;
   if (rounded_ && only_surfaces) set_rounding_room(frame.meshes);
   joints_.add(world, frame);
-  if (caption_) frame.caption = caption(title_, world, pressures_);
+  if (caption_) frame.caption = caption(title_, world, time_digits_, pressures_);
   add_overlays(world, contacts, show, frame);
   return frame;
 }

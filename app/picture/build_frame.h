@@ -41,6 +41,7 @@ class FrameBuilder {
 
   std::string title_;
   bool caption_ = false;
+  int time_digits_ = 2;     // on the caption
   bool pressures_ = false;  // on the caption
   bool rounded_ = true;
   render::Frame scenery_;          // all that is the same in every frame

@@ -180,6 +180,18 @@ TEST(BuildFrame, SaysSceneTimeAndStep) {
   EXPECT_FALSE(build({"picture.caption=false"}).frame.caption);
 }
 
+TEST(BuildFrame, TellsTheTimesOfFramesApart) {
+  const auto said = [](int frames) {
+    Built built = build({"picture.frames_per_second=" + std::to_string(frames),
+                         "simulation.steps_per_second=" + std::to_string(2 * frames)});
+    built.world.steps = 2 * frames + 2;
+    return FrameBuilder(built.scene, built.world).build(built.world, {}).caption->text;
+  };
+  EXPECT_NE(said(100).find("t = 1.01 s "), std::string::npos);
+  EXPECT_NE(said(1000).find("t = 1.001 s "), std::string::npos);
+  EXPECT_NE(said(2000).find("t = 1.0005 s "), std::string::npos);
+}
+
 TEST(BuildFrame, KeepsTheLettersOfAName) {
   Built built = build({"title=\"\""});
   built.scene.name = "Bälle × 2";  // from the name of the file, which may be anything
