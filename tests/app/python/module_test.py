@@ -143,7 +143,9 @@ class Module(unittest.TestCase):
         for threads in (-1, 0, 257, 1000):
             with self.assertRaisesRegex(pneuma.UsageError, f"threads = {threads}: .* 1 to 256"):
                 pneuma.load(self.scene, threads=threads)
-        self.assertIn("range 1 to 256", self.command("check", self.scene, "--threads", "257").stderr)
+        # The parser's versions word the range otherwise.
+        refusal = self.command("check", self.scene, "--threads", "257").stderr
+        self.assertRegex(refusal, "1 to 256|\\[1 - 256\\]")
 
     def test_representations_say_what_there_is(self):
         world = pneuma.load(self.scene)
