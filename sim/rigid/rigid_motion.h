@@ -35,7 +35,8 @@ Eigen::Quaterniond turned_freely(const RigidBox& box, const Eigen::Quaterniond& 
 ///
 /// A box that is not a cube also gets the gyroscopic term (ERRATA row 9), by keeping its angular
 /// momentum instead of its angular velocity: exactly kept, whatever the step. Drag takes the
-/// fraction rho_g of both velocities per 1/60 s (ERRATA row 35).
+/// fraction rho_g of both velocities per 1/60 s, and velocities are those of v' = g - gamma v in
+/// closed form (ERRATA row 35).
 void move_freely(RigidBox& box, const Vec3& gravity, double step);
 /// m. What such a step leaves out of the way of a box that nothing touches, of which `start` is the
 /// start: half of what the velocity has changed by. With it a flight without drag is a parabola; in

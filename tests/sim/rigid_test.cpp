@@ -92,6 +92,24 @@ TEST(RigidMotion, AFastSpinKeepsItsEnergy) {
   }
 }
 
+TEST(RigidMotion, DragIsThatOfTheClosedFormWhateverTheStep) {
+  const Vec3 gravity(0.0, 0.0, -9.81), start(3.0, 0.0, 5.0);
+  for (const double rho_g : {0.0, 1e-12, 0.01, 0.3}) {
+    const double rate = -60.0 * std::log(1.0 - rho_g);
+    for (const int steps : {1, 60, 960}) {
+      RigidBox box = make_rigid({1.0, 1.0, 1.0}, Vec3::Zero());
+      box.rho_g = rho_g;
+      box.velocity = start;
+      for (int i = 0; i < steps; ++i) move_freely(box, gravity, 1.0 / steps);
+      const Vec3 expected =
+          rho_g < 1e-6  // then to the first order
+              ? Vec3(start * (1.0 - rate) + gravity * (1.0 - 0.5 * rate))
+              : Vec3(std::exp(-rate) * start + (1.0 - std::exp(-rate)) / rate * gravity);
+      EXPECT_LT((box.velocity - expected).norm(), 1e-11) << rho_g << ' ' << steps;
+    }
+  }
+}
+
 /// A rod's least moment is a thousandth of the others: a little of the angular momentum across it,
 /// on its own axis, would be many times its energy.
 TEST(RigidMotion, AThinRodKeepsItsEnergy) {
@@ -182,16 +200,16 @@ TEST(RigidMotion, NoRotationIsNoNaN) {
 }
 
 TEST(RigidMotion, FallsByTheRecurrenceOfEulerCromer) {
-  // By turns p += v h and v = (1 - rho)(v + g h), beginning with p.
+  // By turns p += v h and v' = g - gamma v for h, beginning with p.
   World world = make_free_boxes({make_rigid({1.0, 2.0, 3.0}, {0.0, 0.0, 50.0})}, 0.0);
   world.settings.contact = ContactMethod::impulses;
   world.settings.gravity = {0.0, 0.0, -g};
   world.rigid[0].rho_g = 0.01;
   world.rigid[0].velocity = {3.0, 0.0, 10.0};
   constexpr double h = 1.0 / 60.0;
-  // v_n = v_inf + (v_0 - v_inf) s^n with s = 0.99 and v_inf = -g h s / (1 - s); the places are the
+  // v_n = v_inf + (v_0 - v_inf) s^n with s = 0.99 and v_inf = -g / gamma; the places are the
   // geometric series' sums.
-  const double s = 0.99, limit = -g * h * s / (1.0 - s);
+  const double s = 0.99, limit = g / (60.0 * std::log(s));
   Stepper stepper(world);
   for (int n = 1; n <= 240; ++n) {
     ASSERT_FALSE(stepper.step(world));

@@ -103,7 +103,7 @@ World make_log_cabin(int courses, double mass) {
     const Vec3 size = is_along_x ? Vec3(4.0, 0.2, 0.2) : Vec3(0.2, 4.0, 0.2);
     for (const double aside : {-1.0, 1.0}) {
       const Vec3 across = is_along_x ? Vec3(0.0, aside, 0.0) : Vec3(aside, 0.0, 0.0);
-      world.rigid.push_back(make_rigid(size, across + (0.1 + 0.21 * i) * Vec3::UnitZ(), mass));
+      world.rigid.push_back(make_rigid(size, across + (0.1 + 0.207 * i) * Vec3::UnitZ(), mass));
       world.rigid.back().surface = {0.2, 0.5};
     }
   }
