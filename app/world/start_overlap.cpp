@@ -173,7 +173,32 @@ StartOverlap in_another(const sim::World& world, int first, int second, std::str
           first};
 }
 
-StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap) {
+/// Impulses would throw out what no surface parts from the gas around it.
+StartOverlap within_another(const sim::World& world, int first, int second) {
+  const auto extent = [&](int body) { return body_bounds(world, body).size().norm(); };
+  if (extent(first) < extent(second)) std::swap(first, second);
+  return {second,
+          fmt::format("starts inside of body '{}', and a soft body is full of gas, in which there "
+                      "is nothing else; {}",
+                      name_of(world, first), way_apart(world, first, second)),
+          first};
+}
+
+bool is_pair(const sim::CrossingPair& pair, const sim::Overlap& overlap) {
+  return std::minmax(pair.first, pair.second) == std::minmax(overlap.first, overlap.second);
+}
+
+/// `crossings`: all of the world.
+StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap,
+                        std::span<const sim::CrossingPair> crossings) {
+  const auto is_soft = [&](int body) {
+    return sim::at(body) < world.soft.size() && !sim::is_kinematic(world, body);
+  };
+  const bool are_soft = is_soft(overlap.first) && is_soft(overlap.second);
+  const auto crosses = [&](const sim::CrossingPair& pair) { return is_pair(pair, overlap); };
+  if (are_soft && std::ranges::none_of(crossings, crosses)) {
+    return within_another(world, overlap.first, overlap.second);
+  }
   return in_another(world, overlap.first, overlap.second,
                     fmt::format("{:.3g} m deep in", overlap.depth));
 }
@@ -185,17 +210,19 @@ StartOverlap through_another(const sim::World& world, const sim::CrossingPair& p
 std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
   std::vector<StartOverlap> found;
   std::vector<std::pair<int, int>> pairs;
+  const std::vector<sim::CrossingPair> crossings = sim::crossings(world).pairs;
   for (const sim::Overlap& overlap : sim::overlaps(world)) {
     if (!is_deep(world, overlap)) continue;
     if (found.size() >= most_shown) {
       found.push_back({.body = overlap.first, .reason = ""});
     } else {
       const bool on_ground = overlap.second == sim::ground_body;
-      found.push_back(on_ground ? in_the_ground(world, overlap) : in_another(world, overlap));
+      found.push_back(on_ground ? in_the_ground(world, overlap)
+                                : in_another(world, overlap, crossings));
     }
     pairs.emplace_back(overlap.first, overlap.second);
   }
-  for (const sim::CrossingPair& pair : sim::crossings(world).pairs) {
+  for (const sim::CrossingPair& pair : crossings) {
     // Boxes that only touch may cross by a rounding; how deep they lie in each other is exact.
     if (pair.first == pair.second || sim::at(pair.first) >= world.soft.size()) continue;
     if (std::ranges::find(pairs, std::pair(pair.first, pair.second)) != pairs.end()) continue;

@@ -24,7 +24,7 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\n";
   const std::string rod =
       "[[body]]\nname = \"rod\"\nkind = \"rigid\"\nsize = [20, 0.1, 0.1]\nposition = ";
-  const std::string pea = "[[body]]\nname = \"pea\"\nradius = 0.1\nposition = [0, 0, 4]\n";
+  const std::string pea = "[[body]]\nname = \"pea\"\nradius = 0.1\nposition = [0, 0, 7]\n";
   const std::string box =
       "[[body]]\nname = \"box\"\nkind = \"rigid\"\nsize = [2, 2, 2]\nposition = ";
   struct Case {
@@ -46,6 +46,20 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
   // What touches does not overlap.
   EXPECT_EQ(refusal_of(box + "[0, 0, 1]\n" + "copies = [1, 1, 3]\nspacing = [0, 0, 2]\n"), "");
   EXPECT_EQ(refusal_of("[[body]]\nposition = [0, 0, 3]\n"), "");
+}
+
+TEST(StartOverlap, WithinAnotherIsNotPartedByImpulses) {
+  const std::string pea = "[[body]]\nname = \"pea\"\nradius = 0.1\nposition = ";
+  const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\n";
+  for (const std::string& scene : {ball + pea + "[0, 0, 4]\n", pea + "[0, 0, 4]\n" + ball}) {
+    const std::string refusal = refusal_of(scene);
+    EXPECT_NE(refusal.find("body 'pea': starts inside of body 'ball'"), std::string::npos)
+        << refusal;
+    EXPECT_EQ(refusal.find("impulses"), std::string::npos) << refusal;
+  }
+  const std::string through = refusal_of(ball + pea + "[0, 0, 7]\n");
+  EXPECT_NE(through.find("deep in body"), std::string::npos) << through;
+  EXPECT_NE(through.find("impulses"), std::string::npos) << through;
 }
 
 TEST(StartOverlap, OfBoxesMayBeWhatFourDigitsLeave) {
