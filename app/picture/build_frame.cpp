@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/picture/body_colours.h"
 #include "app/picture/colour_field.h"
@@ -11,6 +13,7 @@
 #include "app/picture/impulse_arrows.h"
 #include "app/picture/overlay.h"
 #include "app/picture/rounding_room.h"
+#include "app/world/touch.h"
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
 #include "sim/soft/gas_law.h"
@@ -84,6 +87,25 @@ render::Mesh rigid_mesh(const sim::RigidBox& box, const ShapePointer& shape) {
   return mesh;
 }
 
+/// m, along the diagonal of the largest body that is not given its motion; of any, if all are.
+double largest_extent(const sim::World& start) {
+  double free = 0.0, given = 0.0;
+  for (int body = 0; body < static_cast<int>(start.soft.size() + start.rigid.size()); ++body) {
+    double& largest = sim::is_kinematic(start, body) ? given : free;
+    largest = std::max(largest, body_bounds(start, body).size().norm());
+  }
+  return free > 0.0 ? free : given;
+}
+
+/// m, between lines: 1, but for bodies that are beyond a hand's breadth and a house another power
+/// of ten.
+float grid_spacing(const sim::World& start) {
+  constexpr double smallest_beside_metres = 0.3, largest_beside_metres = 50.0;
+  const double extent = largest_extent(start);
+  if (extent >= smallest_beside_metres && extent <= largest_beside_metres) return 1.0f;
+  return extent > 0.0 ? static_cast<float>(std::pow(10.0, std::floor(std::log10(extent)))) : 1.0f;
+}
+
 /// The radius of bars that are drawn along the edges of a body, of its extent.
 constexpr double bar_of_extent = 0.003;
 
@@ -148,6 +170,7 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start)
       rounded_(scene.picture.rounded),
       joints_(start) {
   scenery_.light.shadows = scene.picture.shadows;
+  scenery_.ground->grid_spacing = grid_spacing(start);
   if (!scene.settings.ground || !scene.picture.grid) scenery_.ground.reset();
 
   // build_world puts a body's copies one after the other, in the order of the scene.

@@ -207,27 +207,29 @@ Section camera_section(Scene& scene) {
 
 Section picture_section(Scene& scene) {
   PictureScene& picture = scene.picture;
-  return {
-      .table = "picture",
-      .what = "the picture",
-      .keys = {
-          {"width", &picture.width, between(smallest_picture_side, greatest_picture_side), "pixels",
-           "of a frame"},
-          {"height", &picture.height, between(smallest_picture_side, greatest_picture_side),
-           "pixels", "of a frame"},
-          {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
-           "of simulated time; divides steps_per_second"},
-          {"samples", &picture.samples, one_of({1, 2, 4}), "",
-           "per pixel; one smooths the edges of bodies, four also where they pass through each "
-           "other"},
-          {"shadows", &picture.shadows, any(), "", "draw shadows"},
-          {"caption", &picture.caption, any(), "", "draw the caption"},
-          {"pressures", &picture.pressures, any(), "",
-           "the caption gives the pressure in each body with gas, above ambient_pressure"},
-          {"grid", &picture.grid, any(), "", "draw the ground with its grid, where there is one"},
-          {"rounded", &picture.rounded, any(), "",
-           "draw coarse soft bodies round; false: as the flat triangles that are simulated"},
-      }};
+  return {.table = "picture",
+          .what = "the picture",
+          .keys = {
+              {"width", &picture.width, between(smallest_picture_side, greatest_picture_side),
+               "pixels", "of a frame"},
+              {"height", &picture.height, between(smallest_picture_side, greatest_picture_side),
+               "pixels", "of a frame"},
+              {"frames_per_second", &picture.frames_per_second, between(1, 1e6), "frames/s",
+               "of simulated time; divides steps_per_second"},
+              {"samples", &picture.samples, one_of({1, 2, 4}), "",
+               "per pixel; one smooths the edges of bodies, four also where they pass through each "
+               "other"},
+              {"shadows", &picture.shadows, any(), "", "draw shadows"},
+              {"caption", &picture.caption, any(), "", "draw the caption"},
+              {"pressures", &picture.pressures, any(), "",
+               "the caption gives the pressure in each body with gas, above ambient_pressure"},
+              {"grid", &picture.grid, any(), "",
+               "draw the ground with its grid, where there is one: of 1 m, or of another power of "
+               "ten where "
+               "the largest body is smaller than 0.3 m or larger than 50 m"},
+              {"rounded", &picture.rounded, any(), "",
+               "draw coarse soft bodies round; false: as the flat triangles that are simulated"},
+          }};
 }
 
 Section limits_section(Scene& scene) {

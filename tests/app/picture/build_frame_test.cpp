@@ -165,6 +165,23 @@ TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
   EXPECT_FALSE(build({"ground.present=false"}).frame.ground);
 }
 
+TEST(BuildFrame, ItsGridIsOfTheSizeOfTheBodies) {
+  const auto spacing = [](const std::string& scale) {
+    Built built;
+    built.scene =
+        scenes::parse_scene("[[body]]\nradius = " + scale + "\nposition = [0, 0, " + scale +
+                                "]\n[[body]]\nkind = \"static\"\nsize = [900, 900, 1]\n"
+                                "position = [0, 0, -5000]\n",
+                            "test.toml");
+    built.world = build_world(built.scene);
+    return FrameBuilder(built.scene, built.world).build(built.world, {}).ground->grid_spacing;
+  };
+  EXPECT_FLOAT_EQ(spacing("0.0002"), 1e-4f);
+  EXPECT_FLOAT_EQ(spacing("0.2"), 1.0f);
+  EXPECT_FLOAT_EQ(spacing("10"), 1.0f);
+  EXPECT_FLOAT_EQ(spacing("1000"), 1000.0f);
+}
+
 TEST(BuildFrame, FollowsThePictureSettings) {
   EXPECT_TRUE(build().frame.light.shadows);
   EXPECT_FALSE(build({"picture.shadows=false"}).frame.light.shadows);
