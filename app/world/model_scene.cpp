@@ -231,12 +231,10 @@ assets::CleanModel chosen_model(const fs::path& path, const ModelChoice& choice,
 std::string model_scene_text(const fs::path& path, const ModelChoice& given) {
   assets::CleanOptions options;
   options.rotation = model_rotation(path, given);
-  const auto size_of = [](const assets::CleanModel& model) {
-    return sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
-  };
-  options.scale = extent / size_of(chosen_model(path, given, options)).maxCoeff();
-  const assets::CleanModel model = chosen_model(path, given, options);
-  const double height = size_of(model).z();
+  assets::CleanModel model = chosen_model(path, given, options);
+  const sim::Vec3 size = sim::bounds(sim::to_vertex_array(model.mesh.vertices)).size();
+  const double scale = extent / size.maxCoeff(), height = scale * size.z();
+  for (sim::Vec3& vertex : model.mesh.vertices) vertex *= scale;
   const Choice choice = choose(model.mesh);
   const sim::SoftMaterial& material = choice.body.material;
   std::string file = fs::absolute(path).string();
@@ -273,7 +271,7 @@ rest = "{}"
       choice.body.positions.size() > long_run_vertices ? short_duration : duration,
       choice.implicit ? "implicit_euler" : "symplectic_euler", choice.steps_per_second,
       ambient_pressure, frames_per_second, name, scenes::value_text(&file), choice_text(given),
-      vertices_text(model, given), options.scale, extent, scenes::value_text(&options.rotation),
+      vertices_text(model, given), scale, extent, scenes::value_text(&options.rotation),
       0.5 * height + drop, slow_turn, material.k, material.k_max, material.vertex_mass, mass,
       material.rho_g, bending_text(material), choice.gauge_pressure,
       choice.held ? "equilibrium" : "shape");
