@@ -173,15 +173,13 @@ StartOverlap in_another(const sim::World& world, int first, int second, std::str
           first};
 }
 
-/// Impulses would throw out what no surface parts from the gas around it.
-StartOverlap within_another(const sim::World& world, int first, int second) {
-  const auto extent = [&](int body) { return body_bounds(world, body).size().norm(); };
-  if (extent(first) < extent(second)) std::swap(first, second);
-  return {second,
+/// Impulses do not part the two: they would throw the inner one out.
+StartOverlap within_another(const sim::World& world, int outer, int inner) {
+  return {inner,
           fmt::format("starts inside of body '{}', and a soft body is full of gas, in which there "
                       "is nothing else; {}",
-                      name_of(world, first), way_apart(world, first, second)),
-          first};
+                      name_of(world, outer), way_apart(world, outer, inner)),
+          outer};
 }
 
 bool is_pair(const sim::CrossingPair& pair, const sim::Overlap& overlap) {
@@ -191,13 +189,14 @@ bool is_pair(const sim::CrossingPair& pair, const sim::Overlap& overlap) {
 /// `crossings`: all of the world.
 StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap,
                         std::span<const sim::CrossingPair> crossings) {
-  const auto is_soft = [&](int body) {
+  const auto is_full_of_gas = [&](int body) {
     return sim::at(body) < world.soft.size() && !sim::is_kinematic(world, body);
   };
-  const bool are_soft = is_soft(overlap.first) && is_soft(overlap.second);
+  const auto extent = [&](int body) { return body_bounds(world, body).size().norm(); };
+  const int outer = extent(overlap.first) < extent(overlap.second) ? overlap.second : overlap.first;
   const auto crosses = [&](const sim::CrossingPair& pair) { return is_pair(pair, overlap); };
-  if (are_soft && std::ranges::none_of(crossings, crosses)) {
-    return within_another(world, overlap.first, overlap.second);
+  if (is_full_of_gas(outer) && std::ranges::none_of(crossings, crosses)) {
+    return within_another(world, outer, outer == overlap.first ? overlap.second : overlap.first);
   }
   return in_another(world, overlap.first, overlap.second,
                     fmt::format("{:.3g} m deep in", overlap.depth));

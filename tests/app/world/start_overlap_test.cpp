@@ -51,7 +51,9 @@ TEST(StartOverlap, IsRefusedOfBodiesThatStartInEachOtherOrInTheGround) {
 TEST(StartOverlap, WithinAnotherIsNotPartedByImpulses) {
   const std::string pea = "[[body]]\nname = \"pea\"\nradius = 0.1\nposition = ";
   const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\n";
-  for (const std::string& scene : {ball + pea + "[0, 0, 4]\n", pea + "[0, 0, 4]\n" + ball}) {
+  const std::string box = "[[body]]\nname = \"pea\"\nkind = \"rigid\"\nposition = [0, 0, 4]\n";
+  for (const std::string& scene :
+       {ball + pea + "[0, 0, 4]\n", pea + "[0, 0, 4]\n" + ball, ball + box}) {
     const std::string refusal = refusal_of(scene);
     EXPECT_NE(refusal.find("body 'pea': starts inside of body 'ball'"), std::string::npos)
         << refusal;
