@@ -29,6 +29,12 @@ inline FunctionValue barrier(double s) {
           -2.0 * log - 4.0 * less / s + less * less / (s * s)};
 }
 
+/// J, of a distance in m: `strength` is in N.
+inline FunctionValue barrier_at(double distance, double reach, double strength) {
+  const FunctionValue f = barrier(distance / reach);
+  return {strength * reach * f.value, strength * f.slope, strength / reach * f.curvature};
+}
+
 /// Smoothed Coulomb friction over its bound, of the sliding speed in units of the regularisation
 /// speed (Li et al. 2020, section 5.2): the value is the work per unit of speed, the slope rises
 /// from 0 to 1 and is once continuously differentiable. y >= 0.

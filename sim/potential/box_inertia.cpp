@@ -59,7 +59,7 @@ BoxInertia::BoxInertia(const RigidBox& box) : box_(box) {
 }
 
 void BoxInertia::set_step(const RigidState& base, const Vec3& gravity, double beta) {
-  kept_ = std::pow(1.0 - box_.rho_g, 60.0 * beta);
+  kept_ = 1.0 / (1.0 - 60.0 * std::log1p(-box_.rho_g) * beta);
   base_ = base;
   beta_ = beta;
   scale_ = 1.0 / (kept_ * beta * beta);

@@ -23,11 +23,6 @@ PairCorners corners(const std::array<int, 4>& vertices, const VertexArray& posit
           positions[vertices[3]]};
 }
 
-FunctionValue barrier_at(double distance, double reach, double strength) {
-  const FunctionValue f = barrier(distance / reach);
-  return {strength * reach * f.value, strength * f.slope, strength / reach * f.curvature};
-}
-
 /// Calls take(contact, energy) for every one that is within its reach.
 template <class Take>
 void for_each_active(const ContactSurfaces& surfaces, const VertexArray& positions,
@@ -43,8 +38,9 @@ void for_each_active(const ContactSurfaces& surfaces, const VertexArray& positio
     contact.vertices = pair.vertices;
     contact.first = pair.first;
     contact.second = pair.second;
-    contact.barrier =
-        barrier_at(contact.point.distance, pair.reach, pair.weight * surfaces.stiffness());
+    contact.reach = pair.reach;
+    contact.strength = pair.weight * surfaces.stiffness();
+    contact.barrier = barrier_at(contact.point.distance, contact.reach, contact.strength);
     contact.threshold = pair.mollifier;
     contact.mollifier =
         pair.is_edges ? mollifier_value(squared_cross(at_corners), pair.mollifier) : 1.0;
@@ -73,8 +69,9 @@ void for_each_on_ground(const ContactSurfaces& surfaces, const VertexArray& posi
       contact.point.weights = {1.0, 0.0, 0.0, 0.0};
       contact.point.apart = {0.0, 0.0, height};
       contact.point.distance = height;
-      contact.barrier =
-          barrier_at(height, surface.reach, surface.areas[at(i)] * surfaces.stiffness());
+      contact.reach = surface.reach;
+      contact.strength = surface.areas[at(i)] * surfaces.stiffness();
+      contact.barrier = barrier_at(height, contact.reach, contact.strength);
       contact.restitution = material.restitution;
       contact.friction = material.friction;
       take(contact);

@@ -33,7 +33,9 @@ struct ActiveContact {
   int first = 0;    // surfaces
   int second = -1;  // -1: the ground
   PairPoint point;
-  FunctionValue barrier;  // in J, by the distance in m, without the mollifier
+  double reach = 0.0;     // m
+  double strength = 0.0;  // N
+  FunctionValue barrier;  // barrier_at the distance: in J, without the mollifier
   double mollifier = 1.0;
   double threshold = 0.0;  // m^4, of the mollifier; 0: none
   double restitution = 0.0;

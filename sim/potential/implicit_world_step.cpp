@@ -160,7 +160,7 @@ bool ImplicitWorldStep::minimise(const World& world, double beta, const WorldSta
     report_.is_valid = false;
     return false;
   }
-  energy_.start_lagged(point.active, lag.velocities, base.positions, beta);
+  energy_.start_lagged(point, lag.velocities, base.positions, beta);
   if (!minimiser_.begin()) {
     report_.is_valid = false;
     return false;

@@ -10,10 +10,15 @@ namespace {
 /// max(0, q - 1/2), near whose corner the max curvature of the ramp is enough.
 double bounding_ramp_curvature(double q) { return 0.5 / std::max(std::abs(q - 0.5), 1.0 / 3.0); }
 
+/// Of a pair's distance, which is left where it would be at the base at least: sdirk2 extrapolates
+/// to where things may be in each other.
+constexpr double least_distance = 0.1;
+
 }  // namespace
 
-void LaggedTerms::start(const std::vector<ActiveContact>& active, const VertexArray& velocities,
-                        const VertexArray& base, double step, double regularisation_speed) {
+void LaggedTerms::start(const std::vector<ActiveContact>& active, const VertexArray& positions,
+                        const VertexArray& velocities, const VertexArray& base, double step,
+                        double regularisation_speed) {
   terms_.clear();
   length_ = step * regularisation_speed;
   for (const ActiveContact& contact : active) {
@@ -22,14 +27,19 @@ void LaggedTerms::start(const std::vector<ActiveContact>& active, const VertexAr
               .weights = contact.point.weights,
               .normal = contact.point.normal()};
     const double parting = term.normal.dot(relative_velocity(contact, velocities));
-    term.taken = (1.0 - contact.restitution * contact.restitution) * contact.push();
-    const double left =
-        contact.push() - term.taken * parting_ramp(parting / regularisation_speed).slope;
-    term.braking = contact.friction * left;
+    const double share = 1.0 - contact.restitution * contact.restitution;
+    term.braking = contact.friction * contact.push() *
+                   (1.0 - share * parting_ramp(parting / regularisation_speed).slope);
+    Vec3 place = Vec3::Zero();
     for (int i = 0; i < term.count; ++i) {
+      place += term.weights[at(i)] * positions[term.vertices[at(i)]];
       term.base += term.weights[at(i)] * base[term.vertices[at(i)]];
     }
-    if (term.taken > 0.0 || term.braking > 0.0) terms_.push_back(term);
+    const double at_base = contact.point.distance - term.normal.dot(place - term.base);
+    term.nearest = std::max(at_base, least_distance * contact.point.distance) + 0.5 * length_;
+    term.reach = contact.reach;
+    term.strength = share * contact.mollifier * contact.strength;
+    if (term.strength > 0.0 || term.braking > 0.0) terms_.push_back(term);
   }
 }
 
@@ -41,14 +51,31 @@ Vec3 LaggedTerms::way(const Term& term, const VertexArray& positions) const {
   return sum;
 }
 
+FunctionValue LaggedTerms::taken(const Term& term, double parting) const {
+  const FunctionValue ramp = parting_ramp(parting / length_);
+  const FunctionValue start = barrier_at(term.nearest, term.reach, term.strength);
+  const FunctionValue b =
+      barrier_at(term.nearest + length_ * ramp.value, term.reach, term.strength);
+  return {start.value - b.value, -b.slope * ramp.slope,
+          -b.curvature * ramp.slope * ramp.slope - b.slope * ramp.curvature / length_};
+}
+
+/// B(a) - B(a + r) is concave in r: below its tangent, and r below its parabola.
+double LaggedTerms::bounding_curvature(const Term& term, double parting) const {
+  const double q = parting / length_;
+  const FunctionValue b =
+      barrier_at(term.nearest + length_ * parting_ramp(q).value, term.reach, term.strength);
+  return -b.slope * bounding_ramp_curvature(q) / length_;
+}
+
 double LaggedTerms::energy(const VertexArray& positions) const {
   double sum = 0.0;
   for (const Term& term : terms_) {
     const Vec3 u = way(term, positions);
     const double parting = term.normal.dot(u);
     const double sliding = (u - parting * term.normal).norm();
-    sum += length_ * (term.taken * parting_ramp(parting / length_).value +
-                      term.braking * smooth_friction(sliding / length_).value);
+    sum += taken(term, parting).value +
+           length_ * term.braking * smooth_friction(sliding / length_).value;
   }
   return sum;
 }
@@ -59,7 +86,7 @@ void LaggedTerms::add_gradient(const VertexArray& positions, VertexArray& gradie
     const double parting = term.normal.dot(u);
     const Vec3 across = u - parting * term.normal;
     const double sliding = across.norm();
-    Vec3 force = term.taken * parting_ramp(parting / length_).slope * term.normal;
+    Vec3 force = taken(term, parting).slope * term.normal;
     if (sliding > 0.0) {
       force += term.braking * smooth_friction(sliding / length_).slope / sliding * across;
     }
@@ -78,9 +105,9 @@ void LaggedTerms::append_hessian(const VertexArray& positions, Form form,
     const Vec3 across = u - parting * term.normal;
     const double sliding = across.norm();
     const Mat3 along_normal = term.normal * term.normal.transpose();
-    const double q = parting / length_;
-    const double curvature = is_bounding ? bounding_ramp_curvature(q) : parting_ramp(q).curvature;
-    Mat3 block = term.taken / length_ * curvature * along_normal;
+    const double curvature =
+        is_bounding ? bounding_curvature(term, parting) : taken(term, parting).curvature;
+    Mat3 block = curvature * along_normal;
     // Of h(y) / y along the surface, and its change along the way: slope and curvature of H.
     const double y = sliding / length_;
     const double per_length =

@@ -57,13 +57,13 @@ void WorldEnergy::set_step(const World& world, double beta, const std::vector<Eu
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     boxes_[i].energy.set_step(box_bases[i], world.settings.gravity, beta);
   }
-  lagged_.start({}, targets, targets, beta, surfaces_.regularisation_speed());
+  lagged_.start({}, targets, targets, targets, beta, surfaces_.regularisation_speed());
 }
 
-void WorldEnergy::start_lagged(const std::vector<ActiveContact>& active,
-                               const VertexArray& velocities, const VertexArray& base,
-                               double beta) {
-  lagged_.start(active, velocities, base, beta, surfaces_.regularisation_speed());
+void WorldEnergy::start_lagged(const WorldPoint& point, const VertexArray& velocities,
+                               const VertexArray& base, double beta) {
+  lagged_.start(point.active, point.positions, velocities, base, beta,
+                surfaces_.regularisation_speed());
 }
 
 void WorldEnergy::place_boxes(WorldPoint& point) const {

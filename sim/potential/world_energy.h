@@ -67,8 +67,8 @@ class WorldEnergy {
   /// restitution until start_lagged().
   void set_step(const World& world, double beta, const std::vector<EulerBase>& bases,
                 const std::vector<RigidState>& box_bases, const VertexArray& targets);
-  void start_lagged(const std::vector<ActiveContact>& active, const VertexArray& velocities,
-                    const VertexArray& base, double beta);
+  void start_lagged(const WorldPoint& point, const VertexArray& velocities, const VertexArray& base,
+                    double beta);
 
   /// Fills in everything but the positions. False when a volume is not above zero, something
   /// touches or something is not finite: then the energy means nothing.

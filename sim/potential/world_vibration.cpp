@@ -81,7 +81,7 @@ void WorldVibration::find_masses() {
 
 void WorldVibration::set_matrix(double beta) {
   energy_.set_step(world_, beta, bases_, box_bases_, point_.positions);
-  energy_.start_lagged(point_.active, still_, point_.positions, beta);
+  energy_.start_lagged(point_, still_, point_.positions, beta);
   energy_.hessian(point_, ContactHessian::along_normals, LaggedTerms::Form::derivative, matrix_);
 }
 

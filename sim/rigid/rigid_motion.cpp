@@ -105,7 +105,8 @@ Vec3 missing_fall(const RigidBox& box, const RigidState& start, double step) {
 void add_gravity_and_drag(RigidBox& box, const Vec3& gravity, double step) {
   const double rate = -60.0 * std::log1p(-box.rho_g);  // 1/s
   const double kept = std::exp(-rate * step);
-  const double time_felt = rate > 0.0 ? -std::expm1(-rate * step) / rate : step;  // s, of gravity
+  // s, of gravity. What rounds to no drag is none.
+  const double time_felt = kept < 1.0 ? -std::expm1(-rate * step) / rate : step;
   box.velocity = kept * box.velocity + time_felt * gravity;
   box.angular_velocity *= kept;
 }

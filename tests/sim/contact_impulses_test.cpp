@@ -41,7 +41,7 @@ TEST(ContactImpulses, OfABoxAtRestAreItsWeightTimesTheStep) {
   for (const Form& form : forms) {
     World world = world_of(form);
     world.rigid.push_back(make_rigid({1.0, 1.5, 0.8}, {0.0, 0.0, 0.4}, 3.0));
-    world.rigid[0].rho_g = 0.0;  // drag would carry a hundredth
+    world.rigid[0].rho_g = 0.0;  // drag would carry a part
     if (form.is_printed) use_paper_method(world);
     Stepper stepper(world);
     Vec3 sum = Vec3::Zero();

@@ -53,7 +53,7 @@ struct StepEnergy {
     energy.set_step(world, step, bases, boxes, point.positions);
     PairFinder(surfaces).find(point.positions, point.positions, 0.01, pairs);
     EXPECT_TRUE(energy.evaluate(pairs, point));
-    energy.start_lagged(point.active, velocities, point.positions, step);
+    energy.start_lagged(point, velocities, point.positions, step);
     EXPECT_TRUE(energy.evaluate(pairs, point));
   }
 

@@ -40,7 +40,7 @@ TEST(FreeBoxes, FlyAndSpinAsTheRigidEquationHasIt) {
 // m g on the four corners below: A kappa |f'(d / r)| = m g / 4 with the weights of its vertices.
 TEST(FreeBoxes, RestWhereTheBarrierCarriesThem) {
   for (const Integrator integrator : implicit_integrators) {
-    World world = world_of_boxes(integrator, 60, {make_rigid({1, 1.5, 0.8}, {0, 0, 0.6}, 3.0)});
+    World world = world_of_boxes(integrator, 60, {make_rigid({1, 1.5, 0.8}, {0, 0, 0.55}, 3.0)});
     ASSERT_FALSE(run(world, 3.0));
     const ContactSurfaces surfaces(world);
     const double reach = surfaces[0].reach;
@@ -54,6 +54,22 @@ TEST(FreeBoxes, RestWhereTheBarrierCarriesThem) {
     EXPECT_NEAR(world.rigid[0].position.z(), expected, 1e-4 * reach);
     EXPECT_LT(world.rigid[0].velocity.norm(), 1e-5);
     EXPECT_LT(world.rigid[0].angular_velocity.norm(), 1e-5);
+  }
+}
+
+// Below a plate that stands still.
+TEST(FreeBoxes, AreNotPulledByWhatTheyPartFrom) {
+  for (const Integrator integrator : implicit_integrators) {
+    for (const double restitution : {0.0, 0.2, 1.0}) {
+      World world = world_of_boxes(
+          integrator, 60,
+          {undamped_box({2, 2, 0.5}, {0, 0, 10}), undamped_box({1, 1, 1}, {0, 0, 9.245})});
+      world.rigid[0].is_kinematic = true;
+      for (RigidBox& box : world.rigid) box.surface = {restitution, 0.0};
+      ASSERT_FALSE(run(world, 0.4));
+      EXPECT_LT(world.rigid[1].position.z(), 9.245 - 0.5 * 9.81 * 0.4 * 0.4)
+          << static_cast<int>(integrator) << ", " << restitution;
+    }
   }
 }
 
