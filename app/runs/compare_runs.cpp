@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <sstream>
+#include <string_view>
 
 #include "app/host/errors.h"
 #include "app/terminal/table.h"
@@ -172,6 +174,32 @@ void check_frame_number(const RecordedRun& first, const RecordedRun& second, std
                   seconds.rbegin()->first));
 }
 
+bool is_png(const fs::path& file) {
+  constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+  std::string begin(signature.size(), ' ');
+  std::ifstream(file, std::ios::binary).read(begin.data(), std::ssize(begin));
+  return begin == signature;
+}
+
+/// Where nothing is lost by it but another picture of this kind.
+fs::path checked_output(const CompareRequest& request, const RecordedRun& first,
+                        const RecordedRun& second) {
+  const fs::path out = request.out.empty() ? "compare.png" : request.out;
+  std::error_code unreadable;
+  if (!fs::exists(out, unreadable)) return out;
+  const fs::path place = fs::weakly_canonical(out, unreadable).parent_path();
+  for (const RecordedRun* run : {&first, &second}) {
+    if (place != fs::weakly_canonical(run->folder.path(), unreadable)) continue;
+    throw UsageError(fmt::format("--out {}: the file is part of a run; write into another folder",
+                                 out.string()));
+  }
+  if (is_png(out)) return out;
+  throw base::IoError(
+      fmt::format("{}: this is no picture, and would be lost; remove it, or give "
+                  "another file by --out",
+                  out.string()));
+}
+
 }  // namespace
 
 RunComparison compare_runs(const RecordedRun& first, const RecordedRun& second) {
@@ -215,6 +243,7 @@ std::vector<ComparedNumber> numbers_of(const RecordedRun& first, const RecordedR
 ExitCode compare_run_folders(const CompareRequest& request) {
   const RecordedRun first = read_run(request.first);
   const RecordedRun second = read_run(request.second);
+  const fs::path out = checked_output(request, first, second);
   const RunComparison comparison = compare_runs(first, second);
   if (request.frame) check_frame_number(first, second, *request.frame);
   const std::int64_t frame = request.frame.value_or(comparison.state_differs.value_or(
@@ -222,7 +251,7 @@ ExitCode compare_run_folders(const CompareRequest& request) {
   print_comparison(comparison, first, second);
   print_numbers(numbers_of(first, second, frame), frame);
   if (const auto pictures = pictures_of(first, second, frame)) {
-    write_pictures(*pictures, request.out.empty() ? "compare.png" : request.out);
+    write_pictures(*pictures, out.string());
   }
   return request.expect_equal && !comparison.equal() ? ExitCode::check_failed : ExitCode::done;
 }

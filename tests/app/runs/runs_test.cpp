@@ -235,5 +235,22 @@ TEST_F(RunsTest, SaysWhatIsWrong) {
   fails("compare " + a + " " + a + " --frame 3", 2, "A has 0 to 2");
 }
 
+TEST_F(RunsTest, AComparisonReplacesNothingButItsOwnPicture) {
+  render_as("a", "--frames 2");
+  render_as("b", "--frames 2");
+  EXPECT_EQ(compare("").exit_code, 0);
+  EXPECT_EQ(compare("").exit_code, 0);
+  write_text(folder_ / "compare.png", "a scene");
+  EXPECT_EQ(compare("").exit_code, 6);
+  EXPECT_EQ(read_text(folder_ / "compare.png"), "a scene");
+  for (const char* run : {"a", "b"}) {
+    const std::string own = fmt::format("--out '{}'", (out(run) / "run.json").string());
+    const std::string runs = fmt::format("'{}' '{}' ", out("a").string(), out("b").string());
+    const std::string before = read_text(out(run) / "run.json");
+    EXPECT_EQ(run_pneuma("compare " + runs + own + " 2>&1").exit_code, 2);
+    EXPECT_EQ(read_text(out(run) / "run.json"), before);
+  }
+}
+
 }  // namespace
 }  // namespace pneuma::app
