@@ -17,6 +17,7 @@
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/grid_size.h"
+#include "app/terminal/number_text.h"
 #include "app/world/open_scene.h"
 
 namespace pneuma::app {
@@ -96,13 +97,13 @@ void add_bench_command(CLI::App& app, Action& action) {
       ->add_option("--seconds", options->measure.seconds,
                    "Measure a scene's steps for S seconds, and its frames for as long [1]")
       ->type_name("S")
-      ->check(CLI::Range(0.01, 3600.0))
+      ->check(number_range(0.01, 3600.0))
       ->excludes(steps);
   command
       ->add_option("--warm-up", options->measure.warm_up,
                    "Leave out the scene's first S seconds, at most half of it [half of it]")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 3600.0));
+      ->check(number_range(0.0, 3600.0));
   auto* no_pictures = command->add_flag_callback(
       "--no-pictures", [options] { options->measure.pictures = false; },
       "Measure the simulation only; needs no OpenGL");

@@ -13,6 +13,7 @@
 #include "app/render/turntable.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 
 namespace pneuma::app {
 namespace {
@@ -118,7 +119,7 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   command
       ->add_option("--threshold", request.reference.threshold,
                    "Mean difference of two pictures that is let pass, 0..255 [0]")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(number_range(0.0, 255.0))
       ->needs("--reference")
       ->type_name("X");
   add_backend_option(*command, request.backend);

@@ -22,6 +22,7 @@
 #include "app/sweep/sweep_table.h"
 #include "app/sweep/workflow.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 
 namespace pneuma::app {
 namespace {
@@ -183,7 +184,7 @@ void add_sweep_command(CLI::App& app, Action& action, std::span<const std::strin
       ->add_option("--chunk-seconds", typed->chunk_seconds,
                    "About how long a chunk is to take, as measured here [60]")
       ->type_name("S")
-      ->check(CLI::Range(0.1, 1e6))
+      ->check(number_range(0.1, 1e6))
       ->needs(snakemake);
   auto* jobs =
       command

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/host/errors.h"
-#include "app/terminal/whole_number.h"
+#include "app/terminal/number_text.h"
 
 namespace pneuma::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "app/host/errors.h"
-#include "app/terminal/whole_number.h"
+#include "app/terminal/number_text.h"
 #include "scenes/loader/scene.h"
 
 namespace pneuma::app {

@@ -13,6 +13,7 @@
 #include "app/study/study_folder.h"
 #include "app/study/study_options.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 
 namespace pneuma::app {
 namespace {
@@ -88,7 +89,7 @@ void add_collision_study(CLI::App& study, Action& action,
   add_override_option(*command, options->overrides);
   command->add_option("--seconds", options->study.seconds, "Only the scenes' first S seconds [10]")
       ->type_name("S")
-      ->check(CLI::Range(0.1, 1e4));
+      ->check(number_range(0.1, 1e4));
   add_study_options(*command, *options, command_line, "Four settings in place of all");
   command->callback(
       [options, &action] { action = [options] { return run_collision_study(*options); }; });

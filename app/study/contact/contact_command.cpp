@@ -16,6 +16,7 @@
 #include "app/study/study_folder.h"
 #include "app/study/study_options.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 #include "app/terminal/progress.h"
 
 namespace pneuma::app {
@@ -87,7 +88,7 @@ void add_contact_study(CLI::App& study_command, Action& action,
       ->add_option("--seconds", typed->seconds,
                    "Simulated time, at most the scene's own [1 from the first contact on]")
       ->type_name("S")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_range(0.1, 3600.0));
   add_study_options(*command, *typed, command_line, "Fewer steps: to see that it works");
   command->add_flag("--json", typed->json, "JSON in place of text");
   add_quiet_option(*command, typed->quiet);

@@ -22,6 +22,7 @@
 #include "app/study/study_folder.h"
 #include "app/study/study_parts.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 #include "app/terminal/progress.h"
 #include "scenes/loader/integrator_names.h"
 
@@ -190,7 +191,7 @@ void add_error_study(CLI::App& study_command, Action& action,
       ->add_option("--seconds", typed->seconds,
                    "Simulated time, at most the scene's own [1; with --short 0.4]")
       ->type_name("S")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_range(0.1, 3600.0));
   command->add_option("--repeats", typed->repeats, "Of each run, for its time [5; with --short 2]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));

@@ -19,6 +19,7 @@
 #include "app/study/study_folder.h"
 #include "app/study/study_options.h"
 #include "app/terminal/common_options.h"
+#include "app/terminal/number_text.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/table.h"
 #include "app/world/open_scene.h"
@@ -145,12 +146,12 @@ void add_horizon_study(CLI::App& study, Action& action, std::span<const std::str
       ->add_option("--seconds", typed->seconds,
                    "Simulated time, at most the scene's own [all of it; with --short 1]")
       ->type_name("S")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_range(0.1, 3600.0));
   command
       ->add_option("--difference", typed->difference,
                    "At the start, root mean square over the vertices, in rest radii [1e-9]")
       ->type_name("X")
-      ->check(CLI::Range(1e-14, 1e-2));
+      ->check(number_range(1e-14, 1e-2));
   command->add_option("--tries", typed->tries, "With other differences each [3; with --short 1]")
       ->type_name("N")
       ->check(CLI::Range(1, 100));

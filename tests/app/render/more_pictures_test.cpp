@@ -80,6 +80,7 @@ TEST_F(MorePictures, AReferenceTellsWhatHasChanged) {
   EXPECT_EQ(render(changed + " --threshold 255").exit_code, 0);
   EXPECT_EQ(render(changed + " --size 32x32").exit_code, 6) << "another size";
   EXPECT_EQ(render("--threshold 1").exit_code, 2) << "of what?";
+  EXPECT_EQ(render(changed + " --threshold nan").exit_code, 2);
 }
 
 /// A camera that moves is no reason for other pictures after a resume.
