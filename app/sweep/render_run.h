@@ -11,6 +11,9 @@ namespace pneuma::app {
 /// Where the pictures of a run lie.
 std::filesystem::path picture_folder(const std::filesystem::path& folder, std::int64_t run);
 
+/// Of all runs, and nothing else that lies beside them.
+void remove_pictures(const std::filesystem::path& folder);
+
 /// Draws them into `into`, from where that was interrupted if it was. `frames`: as --frames has it;
 /// empty: all. By a process of its own, because drawing loads LLVM, which would stay. Throws
 /// base::IoError with its last words, and Interrupted.

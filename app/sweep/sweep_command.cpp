@@ -79,7 +79,7 @@ ExitCode run_here(const SweepArguments& typed, const Sweep& sweep, const std::st
   if (typed.overwrite) existing = ExistingRun::overwrite;
   if (typed.resume) existing = ExistingRun::resume;
   SweepJournal journal(folder.path() / (sweep.name + ".journal"), fingerprint, existing);
-  if (typed.overwrite) std::filesystem::remove_all(folder.path() / "pictures");
+  if (typed.overwrite) remove_pictures(folder.path());
   if (typed.resume && journal.rows().empty()) {
     progress.say(fmt::format("{} holds no run of this sweep: it starts from the beginning",
                              folder.path().string()));

@@ -189,6 +189,12 @@ TEST_F(SweepTest, PicturesOfTheLastFrameComeOnOnePage) {
     EXPECT_TRUE(fs::exists(out() / fmt::format("pictures/run_{}/fall_00006.png", run))) << run;
   }
   EXPECT_TRUE(fs::exists(out() / "six_sheet.png"));
+
+  fs::create_directory(out() / "pictures/run_of_mine");
+  fs::create_directory(out() / "pictures/run_9");
+  EXPECT_EQ(sweep("--overwrite").exit_code, 0);
+  EXPECT_TRUE(fs::exists(out() / "pictures/run_of_mine"));
+  EXPECT_FALSE(fs::exists(out() / "pictures/run_9")) << "of an earlier sweep";
 }
 
 TEST_F(SweepTest, AFilmInPartsHasTheSameBytes) {
