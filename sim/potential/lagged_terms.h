@@ -1,11 +1,11 @@
 // Friction and restitution of an implicit step as functions of positions.
 //
 // They take their normals and weights from where the step starts (Li et al., Incremental Potential
-// Contact, 2020, section 5.4, "lagged"), and velocities from how far positions have moved since, u
-// / h, along the normal and across it. Each is then the gradient of a function,
+// Contact, 2020, section 5.4, "lagged"), and velocities from how far positions have moved since,
+// u / h, along the normal and across it. Each is then the gradient of a function,
 //
-//   D(x) = sum of  (1 - e^2) (B(a) - B(a + h v_0 G(u_n / h v_0)))  +  mu lambda_n h v_0 H(|u_t| / h
-//   v_0),
+//   D(x) = sum of  (1 - e^2) (B(a) - B(a + h v_0 G(u_n / h v_0)))
+//                  +  mu lambda_n h v_0 H(|u_t| / h v_0),
 //
 // G and H as in barrier.h, which is least where nothing moves: these terms only take energy.
 // Friction is of the push at the start. What restitution takes is of the push where the pair is: B
