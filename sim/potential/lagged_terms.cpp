@@ -39,6 +39,7 @@ void LaggedTerms::start(const std::vector<ActiveContact>& active, const VertexAr
     term.nearest = std::max(at_base, least_distance * contact.point.distance) + 0.5 * length_;
     term.reach = contact.reach;
     term.strength = share * contact.mollifier * contact.strength;
+    term.held = barrier_at(term.nearest, term.reach, term.strength).value;
     if (term.strength > 0.0 || term.braking > 0.0) terms_.push_back(term);
   }
 }
@@ -52,11 +53,11 @@ Vec3 LaggedTerms::way(const Term& term, const VertexArray& positions) const {
 }
 
 FunctionValue LaggedTerms::taken(const Term& term, double parting) const {
+  if (parting <= 0.0) return {};
   const FunctionValue ramp = parting_ramp(parting / length_);
-  const FunctionValue start = barrier_at(term.nearest, term.reach, term.strength);
   const FunctionValue b =
       barrier_at(term.nearest + length_ * ramp.value, term.reach, term.strength);
-  return {start.value - b.value, -b.slope * ramp.slope,
+  return {term.held - b.value, -b.slope * ramp.slope,
           -b.curvature * ramp.slope * ramp.slope - b.slope * ramp.curvature / length_};
 }
 

@@ -58,6 +58,7 @@ class LaggedTerms {
     double nearest = 0.0;      // a, m
     double reach = 0.0;        // m, of the barrier
     double strength = 0.0;     // (1 - e^2) of the barrier's, N
+    double held = 0.0;         // (1 - e^2) B(a), J
     double braking = 0.0;      // mu lambda_n, N
   };
 

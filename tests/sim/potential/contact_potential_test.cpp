@@ -229,7 +229,7 @@ TEST(ContactPotential, FrictionAndRestitutionOnlyTakeEnergy) {
   EXPECT_LT(all.rows().cwiseProduct(s.velocities.rows()).sum(), 0.0);
 }
 
-TEST(LaggedTerms, HaveTheirDifferencesAsForces) {
+TEST(LaggedTerms, HaveTheirDifferencesAsForcesAndAreConvexWithTheBarrier) {
   Scattered s(near_world());
   std::vector<ActiveContact> active;
   find_active(s.surfaces, s.positions, s.pairs, active);
@@ -245,12 +245,20 @@ TEST(LaggedTerms, HaveTheirDifferencesAsForces) {
   VertexArray along = s.velocities;
   VertexArray product(ahead.size());
   double bend = 0.0;
-  for (const WeightedBlock& block : blocks) {
+  ASSERT_EQ(blocks.size(), active.size());
+  for (std::size_t term = 0; term < blocks.size(); ++term) {
+    const WeightedBlock& block = blocks[term];
+    const ActiveContact& contact = active[term];
     Vec3 sum = Vec3::Zero();
     for (int i = 0; i < block.count; ++i) {
       sum += block.weights[at(i)] * along[block.vertices[at(i)]];
     }
     bend += sum.dot(block.block * sum);
+    const double parting = contact.point.normal().dot(sum);  // m/s, as `along` is the velocities
+    const FunctionValue b = barrier_at(contact.point.distance + h * parting, contact.reach,
+                                       contact.mollifier * contact.strength);
+    const double by_barrier = parting > 0.0 ? b.curvature * parting * parting : 0.0;
+    EXPECT_GE(sum.dot(block.block * sum) + by_barrier, -1e-12);
   }
   constexpr double width = 1e-7;
   VertexArray after = ahead, before = ahead;
@@ -340,6 +348,7 @@ TEST(LaggedTerms, AreNowhereAboveTheirBounds) {
           sum += block.weights[at(i)] * way[block.vertices[at(i)]];
         }
         bound += 0.5 * sum.dot(block.block * sum);
+        EXPECT_GE(sum.dot(block.block * sum), -1e-12);
       }
       EXPECT_LE(terms.energy(to), bound + 1e-12 * std::abs(bound)) << start << ", " << length;
     }
