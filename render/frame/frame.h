@@ -53,8 +53,8 @@ struct Mesh {
   std::vector<Colour> colours;   // per vertex, in place of the shape's; empty: those
   // Per triangle, m: how far the drawn surface may bulge out of it to look round; empty: nowhere.
   std::vector<float> room;
-  bool takes_light =
-      true;  // of sky and floor from what is near; of what is thin that is too little
+  // Whether it takes light of sky and ground from what is near. What is thin takes too little.
+  bool takes_light = true;
 };
 
 /// Drawn over the surfaces, round, with a dark rim so that it stands out on any colour.

@@ -200,7 +200,7 @@ TEST(RigidMotion, NoRotationIsNoNaN) {
 }
 
 TEST(RigidMotion, FallsByTheRecurrenceOfEulerCromer) {
-  // By turns p += v h and v' = g - gamma v for h, beginning with p.
+  // Alternately p += v h and v' = g - gamma v for h, beginning with p.
   World world = make_free_boxes({make_rigid({1.0, 2.0, 3.0}, {0.0, 0.0, 50.0})}, 0.0);
   world.settings.contact = ContactMethod::impulses;
   world.settings.gravity = {0.0, 0.0, -g};
