@@ -31,8 +31,9 @@ std::size_t bytes_of(const SimulatedFrame& frame) {
   const sim::World& world = frame.world;
   std::size_t bytes = bytes_of(frame.contacts) + bytes_of(frame.step_parts) + bytes_of(world.soft) +
                       bytes_of(world.rigid) + bytes_of(world.rest) +
-                      bytes_of(world.warm_start_impulses) + bytes_of(world.friction_slips) +
-                      bytes_of(world.depenetrating) + bytes_of(world.lost_energy);
+                      bytes_of(world.warm_start_impulses) + bytes_of(world.feature_impulses) +
+                      bytes_of(world.friction_slips) + bytes_of(world.depenetrating) +
+                      bytes_of(world.lost_energy);
   for (const sim::SoftBody& body : world.soft) {
     const auto numbers = body.positions.rows().size() + body.velocities.rows().size();
     bytes += static_cast<std::size_t>(numbers) * sizeof(double);

@@ -32,12 +32,12 @@ bool is_damped_by_the_step(const scenes::Scene& scene) {
          });
 }
 
-/// Of the bodies whose steps are too long the one that needs the shortest; null if there is none,
+/// Of the bodies whose steps are not safe the one that needs the shortest; null if there is none,
 /// or if that is too short.
 const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
   const StepAdvice* shortest = nullptr;
   for (const StepAdvice& advice : advices) {
-    if (!advice.too_long()) continue;
+    if (advice.is_safe()) continue;
     const bool has_one = advice.steps_per_second > 0;
     if (!has_one || advice.steps_per_second > most_chosen_steps) return nullptr;
     if (!shortest || advice.steps_per_second > shortest->steps_per_second) shortest = &advice;

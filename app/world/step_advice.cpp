@@ -20,7 +20,9 @@ namespace {
 
 /// Of the limit: what a body does in earnest is a little stiffer than small motions.
 constexpr double safe_share = 0.9;
-/// By how much shorter steps are to be where the limit does not say.
+/// Where bodies may lie on each other: nearer to the limit their contacts shake them.
+constexpr double safe_share_in_contact = 0.75;
+/// By how much shorter steps are to be that would be safe by the limit.
 constexpr int blind_factor = 4;
 constexpr int most_steps_per_second = 1'000'000;  // what a scene may ask for
 
@@ -77,9 +79,15 @@ double contact_limit(const sim::World& world) {
   return std::numeric_limits<double>::infinity();
 }
 
+bool may_meet_each_other(const sim::World& world) {
+  int moving = 0;
+  for (int i = 0; i < sim::body_count(world); ++i) moving += sim::is_kinematic(world, i) ? 0 : 1;
+  return moving > 1;
+}
+
 void choose_steps(const sim::World& world, StepAdvice& advice) {
-  const double factor =
-      advice.too_long() ? std::ceil(advice.step / (safe_share * advice.limit)) : blind_factor;
+  advice.safe = (may_meet_each_other(world) ? safe_share_in_contact : safe_share) * advice.limit;
+  const double factor = advice.is_safe() ? blind_factor : std::ceil(advice.step / advice.safe);
   const double rate = factor * world.settings.steps_per_second;
   advice.steps_per_second = rate <= most_steps_per_second ? static_cast<int>(rate) : 0;
 }

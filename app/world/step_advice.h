@@ -13,6 +13,7 @@ struct StepAdvice {
   int count = 1;              // of bodies like it
   double step = 0.0;          // s, of the scene
   double limit = 0.0;         // s, of the body's small motions by the scene's integrator
+  double safe = 0.0;          // s, less than the limit by a margin
   int steps_per_second = 0;   // to try again with, a multiple of the scene's; 0: none is allowed
   std::string why;            // "k = 1e+06 N/m, n = 1 mol, vertex_mass = 0.35 kg with rk4"
   bool implicit_can = false;  // take over
@@ -20,11 +21,13 @@ struct StepAdvice {
   bool of_springs = false;    // between bodies: the limit, which implicit integrators have too
 
   bool too_long() const { return step > limit; }
+  bool is_safe() const { return step <= safe; }
 };
 
 /// Of a soft body of the world as it is, and as it will be when its gas has blown it up
-/// (stability_limit.h), with the springs on it. To try again with: steps within nine tenths of the
-/// limit; where they already are, a quarter as long.
+/// (stability_limit.h), with the springs on it. Safe are nine tenths of the limit for a body alone,
+/// and less of it for bodies that may lie on each other, whose contacts shake them nearer to it. To
+/// try again with: safe steps; where they already are, a quarter as long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 
 /// The same of a world in which something diverged: where contact is a potential and bodies touch,

@@ -9,7 +9,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x37414d55454e50ULL;  // "PNEUMA7" as little-endian bytes
+constexpr std::uint64_t magic = 0x38414d55454e50ULL;  // "PNEUMA8" as little-endian bytes
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   base::Hash hash;
@@ -150,6 +150,7 @@ void get_rest(Reader& reader, World& world) {
   for (BodyRest& rest : world.rest) {
     reader.get(rest.quiet_steps);
     reader.get(rest.group);
+    for (double& x : rest.places.reshaped()) reader.get(x);
     if (rest.quiet_steps < 0 || rest.group < -1 || rest.group >= body_count(world)) {
       throw CheckpointError("the saved state has bodies at rest with others that do not exist");
     }
@@ -181,23 +182,24 @@ void get(Reader& reader, Feature& feature) {
   feature.kind = static_cast<FeatureKind>(kind);
 }
 
-void put(Writer& writer, const FrictionSlip& slip) {
-  writer.put(slip.first);
-  writer.put(slip.second);
-  put(writer, slip.first_feature);
-  put(writer, slip.second_feature);
-  writer.put(slip.slip);
+/// Of a FeatureImpulse or a FrictionSlip.
+template <typename OfFeatures>
+void put_features(Writer& writer, const OfFeatures& known) {
+  writer.put(known.first);
+  writer.put(known.second);
+  put(writer, known.first_feature);
+  put(writer, known.second_feature);
 }
 
-void get(Reader& reader, const World& world, FrictionSlip& slip) {
-  reader.get(slip.first);
-  reader.get(slip.second);
-  get(reader, slip.first_feature);
-  get(reader, slip.second_feature);
-  reader.get(slip.slip);
-  if (slip.first < 0 || slip.first >= body_count(world) || slip.second < -1 ||
-      slip.second >= body_count(world)) {
-    throw CheckpointError("the saved state has friction of bodies that do not exist");
+template <typename OfFeatures>
+void get_features(Reader& reader, const World& world, OfFeatures& known) {
+  reader.get(known.first);
+  reader.get(known.second);
+  get(reader, known.first_feature);
+  get(reader, known.second_feature);
+  if (known.first < 0 || known.first >= body_count(world) || known.second < -1 ||
+      known.second >= body_count(world)) {
+    throw CheckpointError("the saved state has contacts of bodies that do not exist");
   }
 }
 
@@ -241,8 +243,17 @@ std::vector<std::uint8_t> save_state(const World& world) {
     writer.put(impulse.impulse);
     put(writer, impulse.is_of_start);
   }
+  writer.put(world.feature_impulses.size());
+  for (const FeatureImpulse& impulse : world.feature_impulses) {
+    put_features(writer, impulse);
+    writer.put(impulse.impulse);
+    put(writer, impulse.is_of_start);
+  }
   writer.put(world.friction_slips.size());
-  for (const FrictionSlip& slip : world.friction_slips) put(writer, slip);
+  for (const FrictionSlip& slip : world.friction_slips) {
+    put_features(writer, slip);
+    writer.put(slip.slip);
+  }
   writer.put(world.depenetrating.size());
   for (const DepenetratingPair& pair : world.depenetrating) {
     writer.put(pair.first);
@@ -254,6 +265,7 @@ std::vector<std::uint8_t> save_state(const World& world) {
   for (const BodyRest& rest : world.rest) {
     writer.put(rest.quiet_steps);
     writer.put(rest.group);
+    for (const double x : rest.places.reshaped()) writer.put(x);
   }
   return writer.take();
 }
@@ -285,8 +297,17 @@ void load_state(std::span<const std::uint8_t> bytes, World& world) {
   for (ParticlePair& pair : loaded.particles) get(reader, loaded, pair);
   loaded.warm_start_impulses.assign(reader.count(), {});
   for (WarmStartImpulse& impulse : loaded.warm_start_impulses) get(reader, loaded, impulse);
+  loaded.feature_impulses.assign(reader.count(), {});
+  for (FeatureImpulse& impulse : loaded.feature_impulses) {
+    get_features(reader, loaded, impulse);
+    reader.get(impulse.impulse);
+    get(reader, impulse.is_of_start);
+  }
   loaded.friction_slips.assign(reader.count(), {});
-  for (FrictionSlip& slip : loaded.friction_slips) get(reader, loaded, slip);
+  for (FrictionSlip& slip : loaded.friction_slips) {
+    get_features(reader, loaded, slip);
+    reader.get(slip.slip);
+  }
   loaded.depenetrating.assign(reader.count(), {});
   for (DepenetratingPair& pair : loaded.depenetrating) get_bodies(reader, loaded, pair);
   get_lost_energy(reader, loaded);

@@ -22,6 +22,14 @@ void add_list(base::Hash& hash, const std::vector<int>& values) {
   for (const int value : values) hash.add(value);
 }
 
+/// Of a FeatureImpulse or a FrictionSlip.
+template <typename OfFeatures>
+void add_features(base::Hash& hash, const OfFeatures& known) {
+  add_list(hash,
+           {known.first, static_cast<int>(known.first_feature.kind), known.first_feature.index,
+            known.second, static_cast<int>(known.second_feature.kind), known.second_feature.index});
+}
+
 Energy& operator+=(Energy& sum, const Energy& term) {
   sum.kinetic += term.kinetic;
   sum.spring += term.spring;
@@ -141,10 +149,13 @@ std::uint64_t state_hash(const World& world) {
     add(hash, impulse.impulse);
     if (impulse.is_of_start) hash.add(std::uint64_t{1});
   }
+  for (const FeatureImpulse& impulse : world.feature_impulses) {
+    add_features(hash, impulse);
+    add(hash, impulse.impulse);
+    if (impulse.is_of_start) hash.add(std::uint64_t{1});
+  }
   for (const FrictionSlip& slip : world.friction_slips) {
-    add_list(hash,
-             {slip.first, static_cast<int>(slip.first_feature.kind), slip.first_feature.index,
-              slip.second, static_cast<int>(slip.second_feature.kind), slip.second_feature.index});
+    add_features(hash, slip);
     add(hash, slip.slip);
   }
   for (const DepenetratingPair& pair : world.depenetrating)

@@ -29,28 +29,35 @@ int quiet_steps(const Settings& settings) {
 }
 
 /// Handles may move whenever their keys say so, gas may come or go, and what is at the other end of
-/// a spring may move.
+/// a spring may move. A soft body that only the ground can touch needs no stage that would look.
 bool may_sleep(const World& world, int body) {
   if (is_kinematic(world, body)) return false;
   if (body >= soft_count(world)) return true;
+  if (body_count(world) == 1) return false;
   const SoftBody& soft = world.soft[at(body)];
   if (soft.pins && soft.pins->are_moved) return false;
   return !has_gas_flow(world, body) && !has_springs(world, body);
 }
 
-/// Whether no point of the body has moved further, m. Velocities would not tell: those of a vertex
-/// that is pressed hold, at the end of a step, what its forces did since the impulses of its start.
-bool has_moved_less(const World& world, const MotionStart& start, int body, double than) {
-  if (body < soft_count(world)) {
-    const VertexArray& before = start.soft[at(body)].positions;
-    const VertexArray& now = world.soft[at(body)].positions;
-    for (int v = 0; v < now.size(); ++v) {
-      if ((now[v] - before[v]).squaredNorm() > than * than) return false;
-    }
-    return true;
+/// Vertices that lie apart, where their numbers say.
+BodyRest::Places places_now(const SoftBody& body) {
+  BodyRest::Places places;
+  const auto count = static_cast<int>(places.cols());
+  for (int i = 0; i < count; ++i) {
+    places.col(i) = Vec3(body.positions[i * body.positions.size() / count]);
   }
-  const RigidBox& box = world.rigid[at(body - soft_count(world))];
-  const RigidState& before = start.rigid[at(body - soft_count(world))];
+  return places;
+}
+
+/// Whether the vertices are where they were, give or take `least` (m). A body that contacts shake
+/// rests if it stays where it is: neither velocities nor the way of a single step would tell.
+bool stays(const SoftBody& body, const BodyRest& rest, double least) {
+  const BodyRest::Places moved = places_now(body) - rest.places;
+  return moved.colwise().squaredNorm().maxCoeff() <= least * least;
+}
+
+/// Whether no point of the box has moved further, m.
+bool has_moved_less(const RigidBox& box, const RigidState& before, double than) {
   const double angle = box.orientation.angularDistance(before.orientation);
   return (box.position - before.position).norm() + angle * 0.5 * box.size.norm() <= than;
 }
@@ -95,12 +102,17 @@ bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   if (world.settings.sleep_speed == 0.0) return false;
   world.rest.resize(islands_.size());
   const int enough = quiet_steps(world.settings);
-  const double per_metre = sleep_speed(world.settings) * time_step(world.settings);
+  const double speed = sleep_speed(world.settings), step = time_step(world.settings);
   bool any = false;
   for (int i = 0; i < body_count(world); ++i) {
     BodyRest& rest = world.rest[at(i)];
     if (rest.group >= 0 || never_sleeps_[at(i)] != 0) continue;
-    const bool is_quiet = has_moved_less(world, start, i, per_metre * sizes_[at(i)]);
+    const int box = i - soft_count(world);
+    const double way = speed * sizes_[at(i)];
+    const bool is_quiet =
+        box < 0 ? stays(world.soft[at(i)], rest, quiet_time * way)
+                : has_moved_less(world.rigid[at(box)], start.rigid[at(box)], step * way);
+    if (box < 0 && !is_quiet) rest.places = places_now(world.soft[at(i)]);
     rest.quiet_steps = is_quiet ? std::min(rest.quiet_steps + 1, enough) : 0;
     any = any || rest.quiet_steps == enough;
   }

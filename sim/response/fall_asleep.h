@@ -16,9 +16,10 @@ namespace pneuma::sim {
 /// by.
 double length_of_rest(const World& world, int body);
 
-/// Bodies near each other are an island, which falls asleep when it touches something and none of
-/// it has moved faster than Settings::sleep_speed for half a second; of a body that is shorter than
-/// a metre, that times its length in metres, and in gravity below 5 m/s^2 in proportion less.
+/// Bodies near each other are an island, which falls asleep when it touches something and for half
+/// a second none of its boxes has moved faster than Settings::sleep_speed, and none of its soft
+/// bodies further than that speed leads; of a body that is shorter than a metre, that times its
+/// length in metres, and in gravity below 5 m/s^2 in proportion less.
 /// Allocates nothing but in the first step.
 class FallAsleep {
  public:

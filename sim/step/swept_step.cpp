@@ -51,6 +51,7 @@ class SweptStep {
   std::optional<Divergence> advance(int halvings) {
     SweptStart& start = m_.starts[at(halvings)];
     start.warm_start_impulses = world_.warm_start_impulses;
+    start.feature_impulses = world_.feature_impulses;
     start.friction_slips = world_.friction_slips;
     start.lost_energy = world_.lost_energy;
     const double work = m_.work, driven_work = m_.driven_work;
@@ -96,6 +97,7 @@ class SweptStep {
     restore_soft(world_, start.motion.soft);
     restore_rigid(world_, start.motion.rigid);
     world_.warm_start_impulses = start.warm_start_impulses;
+    world_.feature_impulses = start.feature_impulses;
     world_.friction_slips = start.friction_slips;
     world_.lost_energy = start.lost_energy;
   }

@@ -23,6 +23,16 @@ struct WarmStartImpulse {
   bool is_of_start = false;     // given at the start of the step (ERRATA row 67), not at its end
 };
 
+/// The same of two features of which one is on a soft body or a model: fewer iterations are needed.
+struct FeatureImpulse {
+  int first = 0;   // body, soft ones first
+  int second = 0;  // body, or -1 for the ground
+  Feature first_feature;
+  Feature second_feature;
+  Vec3 impulse = Vec3::Zero();  // on the first, N s
+  bool is_of_start = false;
+};
+
 /// How far two features that friction holds have slipped so far: a little in every step, as springs
 /// act within it and as what turns leads along an arc. The next step makes up for it, so these are
 /// state (ERRATA row 67).
@@ -57,6 +67,9 @@ struct DepenetratingPair {
 struct BodyRest {
   int quiet_steps = 0;
   int group = -1;  // of bodies that sleep: the first of those that fell asleep with it; -1: awake
+  /// m, of vertices of a soft body, where they were when it became quiet, one per column.
+  using Places = Eigen::Matrix<double, 3, 8>;
+  Places places = Places::Zero();
 };
 
 struct World {
@@ -69,6 +82,7 @@ struct World {
   // Of the last step. Without swept contacts those of each pair of boxes come one after the other.
   std::vector<WarmStartImpulse> warm_start_impulses;
   // Of the last step, where contacts are swept, ordered by what is in contact.
+  std::vector<FeatureImpulse> feature_impulses;
   std::vector<FrictionSlip> friction_slips;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   // J, per soft body, of the last steps: what bodies in contact may gain

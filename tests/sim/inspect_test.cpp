@@ -127,6 +127,8 @@ TEST(Checkpoint, DamagedBytesAreRefusedAndChangeNothing) {
   world.warm_start_impulses.push_back({0, -1, {0.5, 1.0, -1.5}, {0.1, 0.0, 0.8}, true});
   world.friction_slips.push_back(
       {0, 1, {FeatureKind::edge, 7}, {FeatureKind::vertex, 3}, {1e-4, -2e-4, 0.0}});
+  world.feature_impulses.push_back(
+      {0, 1, {FeatureKind::edge, 7}, {FeatureKind::vertex, 3}, {0.1, -0.2, 0.3}, true});
   const auto bytes = save_state(world);
   World other = world;
   other.steps = 7;
@@ -162,6 +164,9 @@ TEST(Checkpoint, BodiesThatDoNotExistAreRefused) {
   for (const auto& bodies : {std::pair(-1, 0), {2, -1}, {0, 2}, {0, -2}}) {
     is_refused([&](World& changed) {
       changed.friction_slips.push_back({bodies.first, bodies.second, {}, {}});
+    });
+    is_refused([&](World& changed) {
+      changed.feature_impulses.push_back({bodies.first, bodies.second, {}, {}});
     });
   }
   for (const BodyRest& rest : {BodyRest{-1, -1}, BodyRest{0, 2}, BodyRest{0, -2}}) {

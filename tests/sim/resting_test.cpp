@@ -96,6 +96,44 @@ TEST(RigidRest, ACubeSlidesAboveTheAngleOfFriction) {
   }
 }
 
+/// v^2 / (2 mu g), in steps of 1/60 s.
+TEST(RigidRest, ACubeSlidesAsFarAsFrictionLetsIt) {
+  constexpr double speed = 5.0, mu = 0.5;
+  for (const double turned : {0.0, 0.4}) {
+    World world = boxes_on_ground(mu);
+    RigidBox cube = make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5}, 2.0);
+    cube.orientation = Eigen::AngleAxisd(turned, Vec3::UnitZ());
+    cube.velocity.x() = speed;
+    cube.rho_g = 0.0;
+    cube.surface = {0.0, mu};
+    world.rigid = {cube};
+    ASSERT_FALSE(run(world, 3.0));
+    const double distance = speed * speed / (2.0 * mu * g);
+    // It stops within the last step.
+    EXPECT_NEAR(world.rigid[0].position.x(), distance, 2e-3 * distance) << turned;
+  }
+}
+
+/// It rocks from edge to edge: what falls about an edge must not fall by more than its weight pays.
+TEST(RigidRest, AnElasticCubeThatRocksGainsNoEnergy) {
+  constexpr double degree = 3.14159265358979 / 180.0;
+  for (const double tilt : {1.0, 2.0, 4.0, 7.0}) {
+    World world = boxes_on_ground(0.0, 1.0);
+    world.settings.contact = ContactMethod::swept;
+    RigidBox cube = make_rigid({0.5, 0.5, 0.5}, {0.0, 0.0, 0.33}, 1.0);
+    cube.orientation = Eigen::AngleAxisd(tilt * degree, Vec3::UnitX()) *
+                       Eigen::AngleAxisd(1.5 * tilt * degree, Vec3::UnitY());
+    cube.rho_g = 0.0;
+    cube.surface = {1.0, 0.0};
+    world.rigid = {cube};
+    const double before = energy(world).total();
+    for (int second = 1; second <= 30; ++second) {
+      ASSERT_FALSE(run(world, 1.0));
+      EXPECT_LT(energy(world).total(), 1.001 * before) << tilt << " " << second;
+    }
+  }
+}
+
 TEST(RigidRest, ABoxDroppedOnACornerComesToRest) {
   for (const Vec3& size : {Vec3(1.0, 1.0, 1.0), Vec3(1.0, 2.0, 3.0)}) {
     World world = boxes_on_ground();

@@ -16,6 +16,7 @@ namespace pneuma::sim {
 struct SweptStart {
   MotionStart motion;
   std::vector<WarmStartImpulse> warm_start_impulses;
+  std::vector<FeatureImpulse> feature_impulses;
   std::vector<FrictionSlip> friction_slips;
   std::vector<double> lost_energy;  // J
 };
@@ -142,6 +143,7 @@ struct SweptMemory {
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<std::uint8_t> is_borne;         // per box, at the start
+  std::vector<std::uint8_t> touches_other;    // per box, anything but the ground
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies

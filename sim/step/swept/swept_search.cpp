@@ -135,13 +135,21 @@ void SweptSearch::find_borne_boxes() {
   const auto number = [&](int body) {
     return bodies_.is_box(body) && !is_fixed(world_, body) ? bodies_.box(body) : bearer;
   };
+  m_.touches_other.assign(world_.rigid.size() + 1, 0);
   for (const SweptCandidate& candidate : m_.candidates) {
     const int first = number(candidate.bodies.first), second = number(candidate.bodies.second);
-    if (sets.find(first) == sets.find(second) || !touches(candidate)) continue;
+    const bool on_ground = candidate.bodies.second == swept_ground;
+    const auto is_marked = [&](int box) { return box == bearer || m_.touches_other[at(box)] != 0; };
+    const bool is_known = on_ground || (is_marked(first) && is_marked(second));
+    if ((is_known && sets.find(first) == sets.find(second)) || !touches(candidate)) continue;
     sets.unite(first, second);
+    if (!on_ground) m_.touches_other[at(first)] = m_.touches_other[at(second)] = 1;
   }
   m_.is_borne.resize(world_.rigid.size());
-  for (int i = 0; i < boxes; ++i) m_.is_borne[at(i)] = sets.find(i) == sets.find(bearer) ? 1 : 0;
+  for (int i = 0; i < boxes; ++i) {
+    const bool is_held = m_.touches_other[at(i)] != 0;
+    m_.is_borne[at(i)] = is_held && sets.find(i) == sets.find(bearer) ? 1 : 0;
+  }
 }
 
 /// Impulses keep from the ground what other impulses may move, and what would come so far below it

@@ -22,6 +22,25 @@ auto order_of(const FrictionSlip& slip) {
                     slip.first_feature.index, slip.second_feature.kind, slip.second_feature.index);
 }
 
+auto order_of(const FeatureImpulse& impulse) {
+  return std::tuple(impulse.is_of_start, in_order(impulse.first, impulse.second),
+                    impulse.first_feature.kind, impulse.first_feature.index,
+                    impulse.second_feature.kind, impulse.second_feature.index);
+}
+
+template <typename OfFeatures>
+void sort_by_features(std::vector<OfFeatures>& known) {
+  std::ranges::sort(known, {}, [](const OfFeatures& k) { return order_of(k); });
+}
+
+/// What is known of the same features; null, if nothing is.
+template <typename OfFeatures>
+OfFeatures* find_same(std::vector<OfFeatures>& known, const OfFeatures& wanted) {
+  const auto order = [](const OfFeatures& k) { return order_of(k); };
+  const auto found = std::ranges::lower_bound(known, order_of(wanted), {}, order);
+  return found != known.end() && order_of(*found) == order_of(wanted) ? &*found : nullptr;
+}
+
 }  // namespace
 
 RigidState SweptWarmStart::state(int box, Moment moment) const {
@@ -31,11 +50,43 @@ RigidState SweptWarmStart::state(int box, Moment moment) const {
 }
 
 void SweptWarmStart::apply(Moment moment, double fraction) {
+  apply_to_boxes(moment, fraction);
+  apply_to_features(moment, fraction);
+}
+
+void SweptWarmStart::apply_to_boxes(Moment moment, double fraction) {
   first_of_pair_ = m_.contacts.size();
   for (const WarmStartImpulse& kept : world_.warm_start_impulses) {
     if (kept.is_of_start != (moment == Moment::start)) continue;
     if (SweptImpulse* impulse = find(kept, moment)) impulse->warm_start(fraction * kept.impulse);
   }
+}
+
+void SweptWarmStart::apply_to_features(Moment moment, double fraction) {
+  if (world_.feature_impulses.empty()) return;
+  for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+    const SweptContact& contact = m_.contacts[i];
+    if (is_of_boxes(contact)) continue;
+    const FeatureImpulse* kept =
+        find_same(world_.feature_impulses, make_feature_impulse(contact, moment, Vec3::Zero()));
+    if (kept) m_.impulses[i].warm_start(fraction * kept->impulse);
+  }
+}
+
+bool SweptWarmStart::is_of_boxes(const SweptContact& contact) const {
+  const int second = contact.second.body;
+  return m_.bodies.is_box(contact.first.body) &&
+         (second == swept_ground || m_.bodies.is_box(second));
+}
+
+FeatureImpulse SweptWarmStart::make_feature_impulse(const SweptContact& contact, Moment moment,
+                                                    const Vec3& impulse) {
+  return {contact.first.body,
+          contact.second.body,
+          contact.first.feature,
+          contact.second.feature,
+          impulse,
+          moment == Moment::start};
 }
 
 SweptImpulse* SweptWarmStart::find(const WarmStartImpulse& kept, Moment moment) {
@@ -69,40 +120,46 @@ void SweptWarmStart::remember(double fraction) {
     return !sleeps(m_.bodies.of_box(impulse.first),
                    impulse.second < 0 ? swept_ground : m_.bodies.of_box(impulse.second));
   });
+  std::erase_if(world_.feature_impulses, [&](const FeatureImpulse& impulse) {
+    return !sleeps(impulse.first, impulse.second);
+  });
   remember(m_.first_contacts, m_.first_impulses, Moment::start, fraction);
   remember(m_.contacts, m_.impulses, Moment::end, fraction);
+  sort_by_features(world_.feature_impulses);
 }
 
 void SweptWarmStart::remember(std::span<const SweptContact> contacts,
                               std::span<const SweptImpulse> impulses, Moment moment,
                               double fraction) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const SurfacePoint& first = contacts[i].first;
-    const SurfacePoint& second = contacts[i].second;
-    const bool on_ground = second.body == swept_ground;
-    if (!m_.bodies.is_box(first.body) || !(on_ground || m_.bodies.is_box(second.body))) continue;
     if (impulses[i].normal_impulse() == 0.0) continue;
-    // What stopped a box on its way is not needed again.
+    // What stopped a body on its way is not needed again.
     if (moment == Moment::start && !contacts[i].is_near) continue;
-    const int box = m_.bodies.box(first.body);
-    const RigidState pose = state(box, moment);
-    world_.warm_start_impulses.push_back(
-        {.first = box,
-         .second = on_ground ? -1 : m_.bodies.box(second.body),
-         .point = pose.orientation.conjugate() * (first.point - pose.position),
-         .impulse = impulses[i].given() / fraction,
-         .is_of_start = moment == Moment::start});
+    const Vec3 impulse = impulses[i].given() / fraction;
+    if (is_of_boxes(contacts[i])) {
+      remember_of_boxes(contacts[i], moment, impulse);
+    } else if (contacts[i].previous < 0) {
+      world_.feature_impulses.push_back(make_feature_impulse(contacts[i], moment, impulse));
+    }
   }
 }
 
+void SweptWarmStart::remember_of_boxes(const SweptContact& contact, Moment moment,
+                                       const Vec3& impulse) {
+  const bool on_ground = contact.second.body == swept_ground;
+  const int box = m_.bodies.box(contact.first.body);
+  const RigidState pose = state(box, moment);
+  world_.warm_start_impulses.push_back(
+      {.first = box,
+       .second = on_ground ? -1 : m_.bodies.box(contact.second.body),
+       .point = pose.orientation.conjugate() * (contact.first.point - pose.position),
+       .impulse = impulse,
+       .is_of_start = moment == Moment::start});
+}
+
 FrictionSlip* SweptWarmStart::find_slip(const SweptContact& contact) const {
-  const FrictionSlip wanted = {contact.first.body, contact.second.body, contact.first.feature,
-                               contact.second.feature};
-  const auto found =
-      std::ranges::lower_bound(world_.friction_slips, order_of(wanted), {}, order_of);
-  const bool is_found =
-      found != world_.friction_slips.end() && order_of(*found) == order_of(wanted);
-  return is_found ? &*found : nullptr;
+  return find_same(world_.friction_slips, {contact.first.body, contact.second.body,
+                                           contact.first.feature, contact.second.feature});
 }
 
 Vec3 SweptWarmStart::slip(const SweptContact& contact) const {
@@ -141,7 +198,7 @@ void SweptWarmStart::remember_slips() {
     const Vec3 moved = motion_.displacement(contact) - motion_.shift(contact);
     add_slip(contact, turned(contact, slip(contact)) + moved, slips);
   }
-  std::ranges::sort(slips, {}, order_of);
+  sort_by_features(slips);
   std::swap(slips, world_.friction_slips);
 }
 
@@ -171,7 +228,7 @@ void SweptWarmStart::remember_held_boxes(double tolerance) {
     if ((sliding - taken_back).norm() > taken_back.norm() + tolerance) continue;
     add_slip(contact, known, slips);
   }
-  std::ranges::sort(slips, {}, order_of);
+  sort_by_features(slips);
   std::swap(slips, world_.friction_slips);
 }
 
@@ -191,6 +248,7 @@ void forget_other_bodies(World& world) {
   world.rest.clear();
   world.lost_energy.clear();
   world.friction_slips.clear();
+  world.feature_impulses.clear();
   world.warm_start_impulses.clear();
 }
 

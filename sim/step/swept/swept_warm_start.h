@@ -1,4 +1,4 @@
-// What the last step knew of contacts: what held boxes, from which the solver of this one starts
+// What the last step knew of contacts: what held bodies, from which the solver of this one starts
 // (ERRATA row 59), and how far what friction holds has slipped (row 67).
 // Private to sim/step.
 #pragma once
@@ -17,11 +17,11 @@ class SweptWarmStart {
       : world_(world), start_(start), m_(memory), motion_(world, start, memory.bodies) {}
 
   /// Gives each impulse that held a point of a box at this moment of the last step to the nearest
-  /// contact of the same boxes: of a part of a step this `fraction`. The contacts are in the order
-  /// of their bodies.
+  /// contact of the same boxes, and what held features of a soft body to the contact of the same
+  /// features: of a part of a step this `fraction`. The contacts are in the order of their bodies.
   void apply(Moment moment, double fraction);
-  /// Keeps what holds boxes at both moments, once the end is solved for, for the next step; and of
-  /// boxes that sleep what held them when they fell asleep.
+  /// Keeps what holds bodies at both moments, once the end is solved for, for the next step; and of
+  /// those that sleep what held them when they fell asleep.
   void remember(double fraction);
 
   /// m, by which the sides of a contact have slipped, across its normal: until the step began, or
@@ -36,10 +36,17 @@ class SweptWarmStart {
   void remember_held_boxes(double tolerance);
 
  private:
+  void apply_to_boxes(Moment moment, double fraction);
+  void apply_to_features(Moment moment, double fraction);
+  /// Or of a box and the ground.
+  bool is_of_boxes(const SweptContact& contact) const;
+  static FeatureImpulse make_feature_impulse(const SweptContact& contact, Moment moment,
+                                             const Vec3& impulse);
   /// The impulse of the nearest contact, if there is one.
   SweptImpulse* find(const WarmStartImpulse& kept, Moment moment);
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
                 Moment moment, double fraction);
+  void remember_of_boxes(const SweptContact& contact, Moment moment, const Vec3& impulse);
   FrictionSlip* find_slip(const SweptContact& contact) const;
   Vec3 turned(const SweptContact& contact, const Vec3& slip) const;
   static void add_slip(const SweptContact& contact, const Vec3& slip,

@@ -49,6 +49,17 @@ TEST(StepAdviceInContact, IsThatOfTheBodyForOtherContacts) {
             step_advice(world, world.soft[0]).limit);
 }
 
+/// Contacts shake what lies on others nearer to the limit.
+TEST(StepAdvice, IsOfShorterStepsWhereBodiesMayMeet) {
+  sim::World world = lying_ball();
+  const double alone = step_advice(world, world.soft[0]).safe;
+  world.rigid.push_back(sim::make_rigid(sim::Vec3::Ones(), {9.0, 0.0, 0.5}));
+  world.rigid[0].is_kinematic = true;
+  EXPECT_EQ(step_advice(world, world.soft[0]).safe, alone);
+  world.rigid[0].is_kinematic = false;
+  EXPECT_NEAR(step_advice(world, world.soft[0]).safe, 0.75 / 0.9 * alone, 1e-12);
+}
+
 /// Springs between bodies are stepped explicitly by implicit integrators too.
 TEST(StepAdvice, NamesTheSpringThatIsTooStiff) {
   sim::World world = lying_ball();

@@ -95,10 +95,29 @@ TEST(HeldByFriction, ABoxThatSlidesComesToRestWithoutTurningBack) {
   EXPECT_NEAR(world.rigid[1].velocity.x(), 0.0, 1e-6);
 }
 
+/// What the next step starts from carries the weight of the crate, along the slope and across it.
+TEST(HeldByFriction, WhatHeldTheCrateIsKept) {
+  World world = make_crate_on_torus();
+  ASSERT_FALSE(run(world, 10.0));
+  Stepper stepper(world);
+  constexpr int steps = 480;  // over which it swings several times
+  Vec3 on_crate = Vec3::Zero();
+  for (int i = 0; i < steps; ++i) {
+    ASSERT_FALSE(stepper.step(world));
+    for (const FeatureImpulse& kept : world.feature_impulses) {
+      if (kept.first == 1) on_crate += kept.impulse;
+      if (kept.second == 1) on_crate -= kept.impulse;
+    }
+  }
+  const Vec3 weight = steps / 240.0 * world.rigid[0].mass * world.settings.gravity;
+  EXPECT_LT((on_crate + weight).norm(), 0.01 * weight.norm()) << "it still swings";
+}
+
 TEST(HeldByFriction, IsTheSameAfterAResume) {
   World world = make_crate_on_torus();
   ASSERT_FALSE(run(world, 2.0));
   ASSERT_FALSE(world.friction_slips.empty());
+  ASSERT_FALSE(world.feature_impulses.empty());
   World resumed = make_crate_on_torus();
   load_state(save_state(world), resumed);
   ASSERT_FALSE(run(world, 1.0));

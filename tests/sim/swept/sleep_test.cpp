@@ -127,6 +127,56 @@ TEST(Sleep, AWorldOfFewerBoxesKnowsNothingOfTheOthers) {
   }
 }
 
+/// Three balls, one on the other in a shaft of four static walls.
+World make_shaft() {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  world.settings.steps_per_second = 240;
+  for (const auto& [size, position] : {std::pair<Vec3, Vec3>{{0.1, 0.8, 3.0}, {-0.33, 0.0, 1.5}},
+                                       {{0.1, 0.8, 3.0}, {0.33, 0.0, 1.5}},
+                                       {{0.55, 0.1, 3.0}, {0.0, -0.33, 1.5}},
+                                       {{0.55, 0.1, 3.0}, {0.0, 0.33, 1.5}}}) {
+    world.rigid.push_back(make_rigid(size, position));
+    world.rigid.back().is_kinematic = true;
+  }
+  for (int i = 0; i < 3; ++i) {
+    SoftBody ball = make_body(make_icosphere(0.25, 1), {0.01, 0.005, 0.27 + 0.53 * i});
+    ball.material.k = 60.0;
+    ball.material.n = 0.001;
+    ball.material.vertex_mass = 0.05 / ball.positions.size();
+    ball.material.surface = {0.0, 0.1};
+    world.soft.push_back(ball);
+  }
+  return world;
+}
+
+/// Their contacts change from step to step, so that they tremble where they lie.
+TEST(Sleep, BallsThatContactsShakeFallAsleep) {
+  World world = make_shaft();
+  ASSERT_FALSE(run(world, 12.0));
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_asleep(world, i)) << i;
+}
+
+/// Its middle stays, and so does its outline.
+TEST(Sleep, ABallThatSpinsStaysAwake) {
+  World world;
+  world.settings.contact = ContactMethod::swept;
+  world.settings.ground = ContactMaterial{0.0, 0.0};
+  SoftBody ball = make_body(make_icosphere(1.0, 2), {0.0, 0.0, 1.0});
+  ball.material.k = 200.0;
+  ball.material.n = 0.05;
+  ball.material.rho_g = 0.0;
+  ball.material.surface = {0.0, 0.0};
+  for (int v = 0; v < ball.positions.size(); ++v) {
+    ball.velocities[v] = Vec3(-0.05 * ball.positions[v].y(), 0.05 * ball.positions[v].x(), 0.0);
+  }
+  world.soft = {ball};
+  world.rigid = {make_rigid(Vec3::Ones(), {4.0, 0.0, 0.51})};
+  ASSERT_FALSE(run(world, 20.0));
+  EXPECT_TRUE(is_asleep(world, 1));
+  EXPECT_FALSE(is_asleep(world, 0));
+}
+
 /// Slow for a box of a metre, but its own length in each second.
 TEST(Sleep, ASmallBoxSlidesOn) {
   constexpr double speed = 5e-3;
