@@ -12,6 +12,7 @@
 #include "app/all_commands.h"
 #include "app/host/failure.h"
 #include "app/host/interrupt.h"
+#include "app/host/standard_streams.h"
 #include "app/terminal/read_command_line.h"
 #include "sim/base/file.h"
 
@@ -28,7 +29,7 @@ ExitCode run(const app::Action& action) {
     return code;
   } catch (...) {
     const app::Failure failure = app::failure_of(std::current_exception());
-    fmt::print(stderr, "{}{}\n", failure.is_placed ? "" : "pneuma: ", failure.words);
+    app::print_message("{}{}\n", failure.is_placed ? "" : "pneuma: ", failure.words);
     return failure.code;
   }
 }
@@ -36,6 +37,7 @@ ExitCode run(const app::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::open_closed_streams();
   app::catch_signals();
   const std::vector<std::string> command_line(argv, argv + argc);
   app::Action action;

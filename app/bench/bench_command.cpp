@@ -12,6 +12,7 @@
 #include "app/bench/bench_report.h"
 #include "app/files/scene_catalogue.h"
 #include "app/host/errors.h"
+#include "app/host/standard_streams.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
 #include "app/terminal/command.h"
@@ -64,7 +65,7 @@ ExitCode bench(const BenchOptions& options) {
   ExitCode code = ExitCode::done;
   const std::vector<scenes::Scene> scenes = load_scenes(options);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    fmt::print(stderr, "{}/{} {}\n", i + 1, scenes.size(), scenes[i].name);
+    print_message("{}/{} {}\n", i + 1, scenes.size(), scenes[i].name);
     try {
       report.scenes.push_back(measure_scene(scenes[i], options.measure));
       report.scenes.back().paper_method = measure_paper_method(scenes[i], options.measure);

@@ -15,6 +15,7 @@
 #include "app/check/keys_json.h"
 #include "app/files/find_model.h"
 #include "app/host/errors.h"
+#include "app/host/standard_streams.h"
 #include "app/picture/place_camera.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
@@ -58,17 +59,17 @@ ExitCode check_model_file(const CheckOptions& options) {
 ExitCode judge(const scenes::Scene& scene, const RunStatistics& run) {
   const RunVerdict verdict = judge_run(scene, run);
   std::fflush(stdout);
-  fmt::print(stderr, "{}", verdict.words);
+  print_message("{}", verdict.words);
   return verdict.code;
 }
 
 /// Of a camera that the scene leaves to the program nothing is known before a run.
 void warn(const CheckReport& report, const sim::World& world) {
   for (const std::string& warning : scene_warnings(report.scene, world, report.steps, report.gas)) {
-    fmt::print(stderr, "{}\n", warning);
+    print_message("{}\n", warning);
   }
   const std::string hidden = what_camera_misses(report.scene, world);
-  if (!hidden.empty()) fmt::print(stderr, "{}: {}\n", report.scene.name, hidden);
+  if (!hidden.empty()) print_message("{}: {}\n", report.scene.name, hidden);
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -84,7 +85,7 @@ ExitCode check(const CheckOptions& options) {
   CheckReport report;
   const AccurateScene opened =
       open_scene(options.scene, options.overrides, options.model, options.accuracy);
-  if (!opened.choice.empty()) fmt::print(stderr, "{}\n", opened.choice);
+  if (!opened.choice.empty()) print_message("{}\n", opened.choice);
   report.scene = opened.scene;
   const sim::World world = build_world(report.scene);
   refuse_start_overlap(report.scene, world);

@@ -10,6 +10,7 @@
 #include "app/host/clock.h"
 #include "app/host/errors.h"
 #include "app/host/interrupt.h"
+#include "app/host/standard_streams.h"
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
 #include "app/world/build_world.h"
@@ -105,8 +106,8 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
   const auto keep_frames_so_far = [&] {
     if (state.drawn == 0) return;
     print_path(sink->finish());
-    fmt::print(stderr, "partial: {} of {} frames, up to t = {:.2f} s\n", state.drawn,
-               frames.last - frames.first + 1, state.time);
+    print_message("partial: {} of {} frames, up to t = {:.2f} s\n", state.drawn,
+                  frames.last - frames.first + 1, state.time);
   };
   try {
     run_frames(simulation, frames, *sink, state, progress);
@@ -125,7 +126,7 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
 ExitCode export_scene(const ExportRequest& request) {
   const auto [scene, choice] =
       open_scene(request.scene, request.overrides, request.model, request.accuracy);
-  if (!choice.empty() && !request.quiet) fmt::print(stderr, "{}\n", choice);
+  if (!choice.empty() && !request.quiet) print_message("{}\n", choice);
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =
       request.out.empty() ? fs::path("out") / scene.name : fs::path(request.out);

@@ -14,6 +14,7 @@
 #include "app/host/find_program.h"
 #include "app/host/interrupt.h"
 #include "app/host/run_command.h"
+#include "app/host/standard_streams.h"
 #include "app/picture/camera_events.h"
 #include "app/picture/place_camera.h"
 #include "app/render/animated_png.h"
@@ -207,9 +208,8 @@ void make_video(const RunFolder& folder, const Frames& frames, int frames_per_se
     run_command(*ffmpeg, command);
     fmt::print("{}\n", video);
   } else {
-    fmt::print(stderr,
-               "ffmpeg is not installed (apt-get install ffmpeg). The command for {}:\n{}\n", video,
-               shell_line(command));
+    print_message("ffmpeg is not installed (apt-get install ffmpeg). The command for {}:\n{}\n",
+                  video, shell_line(command));
   }
 }
 

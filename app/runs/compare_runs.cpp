@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "app/host/errors.h"
+#include "app/host/standard_streams.h"
 #include "app/terminal/table.h"
 #include "render/image/compare.h"
 #include "render/image/contact_sheet.h"
@@ -136,7 +137,7 @@ std::optional<std::array<render::Image, 2>> pictures_of(const RecordedRun& first
   const std::array files = {first.folder.frame(frame), second.folder.frame(frame)};
   for (const fs::path& file : files) {
     if (fs::exists(file)) continue;
-    fmt::print(stderr, "{} is not there: no pictures are compared\n", file.string());
+    print_message("{} is not there: no pictures are compared\n", file.string());
     return std::nullopt;
   }
   return std::array{render::read_png(files[0].string()), render::read_png(files[1].string())};
@@ -154,8 +155,8 @@ void write_pictures(const std::array<render::Image, 2>& pictures, const std::str
                difference.mean, 100.0 * difference.fraction_beyond, visible_difference);
     shown.push_back(render::difference_picture(pictures[0], pictures[1]));
   } else {
-    fmt::print(stderr, "the pictures are {} x {} and {} x {}: no difference is drawn\n",
-               pictures[0].width, pictures[0].height, pictures[1].width, pictures[1].height);
+    print_message("the pictures are {} x {} and {} x {}: no difference is drawn\n",
+                  pictures[0].width, pictures[0].height, pictures[1].width, pictures[1].height);
   }
   const int columns = static_cast<int>(shown.size());
   const render::Image page =

@@ -12,6 +12,7 @@
 #include "app/host/command_line.h"
 #include "app/host/find_program.h"
 #include "app/host/run_command.h"
+#include "app/host/standard_streams.h"
 
 namespace pneuma::app {
 namespace {
@@ -178,10 +179,10 @@ DiagramFiles write_script(const StudyFolder& folder, const std::string& name,
     run_command(std::filesystem::absolute(*gnuplot).string(), arguments, folder.path());
     files.drawn = true;
   } else {
-    fmt::print(stderr,
-               "gnuplot is not installed (apt-get install gnuplot-nox). The command for {}.svg and "
-               "{}.png:\n{}\n",
-               name, name, files.command);
+    print_message(
+        "gnuplot is not installed (apt-get install gnuplot-nox). The command for {}.svg and "
+        "{}.png:\n{}\n",
+        name, name, files.command);
   }
   return files;
 }

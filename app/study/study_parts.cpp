@@ -13,6 +13,7 @@
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/own_program.h"
+#include "app/host/standard_streams.h"
 #include "app/host/version.h"
 #include "app/record/provenance.h"
 #include "app/record/world_json.h"
@@ -160,8 +161,8 @@ void write_workflow(SplitOptions typed, const std::string& study,
                   fmt::arg("here", snakemake_text(shell_line(std::span(&here, 1)))),
                   fmt::arg("command", snakemake_text(part_command(typed, "--quiet"))));
   fmt::print("{}\n", StudyFolder(typed.out).write("Snakefile", text).string());
-  fmt::print(stderr, "{} parts; here: cd {} && snakemake --cores 1\n", parts.size(),
-             shell_line(std::span(&typed.out, 1)));
+  print_message("{} parts; here: cd {} && snakemake --cores 1\n", parts.size(),
+                shell_line(std::span(&typed.out, 1)));
 }
 
 }  // namespace

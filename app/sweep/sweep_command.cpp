@@ -13,6 +13,7 @@
 #include "app/host/errors.h"
 #include "app/host/machine.h"
 #include "app/host/own_program.h"
+#include "app/host/standard_streams.h"
 #include "app/study/study_folder.h"
 #include "app/sweep/frame_chunks.h"
 #include "app/sweep/read_sweep.h"
@@ -55,7 +56,7 @@ void write_results(const StudyFolder& folder, const Sweep& sweep, const SweepRow
   for (const std::string& plot : write_sweep_plots(folder, sweep, rows))
     fmt::print("{}.svg\n", plot);
   if (const auto sheet = write_sweep_sheet(folder, sweep, rows)) fmt::print("{}\n", *sheet);
-  fmt::print(stderr, "{}\n", sweep_summary(sweep, rows));
+  print_message("{}\n", sweep_summary(sweep, rows));
 }
 
 int cores_of(const SweepArguments& typed) {
@@ -101,8 +102,7 @@ void add_frame_chunks(const SweepArguments& typed, const Sweep& sweep, const Cos
   const DrawingCost drawing = measure_drawing(sweep, run_of(sweep, dearest), typed.snakemake);
   workflow.frames = make_frame_chunks(sweep, cost.seconds, drawing, typed.chunk_seconds);
   const double again = simulated_again(workflow.frames, sweep, cost.seconds);
-  fmt::print(
-      stderr,
+  print_message(
       "pictures in {} parts, each simulated again from the start, which takes {:.3g} s in all; "
       "drawing takes {:.3g} ms a frame. Going on from states would save no more than that, and "
       "each part would wait for a run ahead of up to {:.3g} s\n",
@@ -117,11 +117,11 @@ void write_workflow(const SweepArguments& typed, const Sweep& sweep, Progress& p
   if (sweep.frames == SweepFrames::all) add_frame_chunks(typed, sweep, cost, workflow, progress);
   const auto path = folder.write("Snakefile", snakefile(sweep, own_program(), workflow));
   fmt::print("{}\n", path.string());
-  fmt::print(stderr,
-             "{} runs of together about {:.3g} s on one core ({} measured in {:.2g} s), in {} "
-             "chunks; here: cd {} && snakemake --cores {}\n",
-             run_count(sweep), cost.total(), cost.runs, cost.measured, workflow.chunks.size(),
-             shell_line(std::vector{folder.path().string()}), machine().cores);
+  print_message(
+      "{} runs of together about {:.3g} s on one core ({} measured in {:.2g} s), in {} "
+      "chunks; here: cd {} && snakemake --cores {}\n",
+      run_count(sweep), cost.total(), cost.runs, cost.measured, workflow.chunks.size(),
+      shell_line(std::vector{folder.path().string()}), machine().cores);
 }
 
 void gather(const Sweep& sweep, const std::string& fingerprint, const StudyFolder& folder) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/host/standard_streams.h"
+
 namespace pneuma::app {
 namespace {
 
@@ -74,11 +76,10 @@ void Progress::show(const std::string& text) {
   if (terminal) {
     // Back to the start, the line, and clear what an older, longer one left behind it. A line that
     // filled a second row would leave the first behind each time.
-    fmt::print(stderr, "\r{}\x1b[K", fitted_line(text, terminal_columns()));
+    print_message("\r{}\x1b[K", fitted_line(text, terminal_columns()));
   } else {
-    fmt::print(stderr, "{}\n", text);
+    print_message("{}\n", text);
   }
-  std::fflush(stderr);
   line_open_ = terminal;
 }
 
@@ -86,11 +87,11 @@ void Progress::say(const std::string& text) {
   if (style_ == Style::silent) return;
   const std::lock_guard lock(mutex_);
   clear_line();
-  fmt::print(stderr, "{}\n", text);
+  print_message("{}\n", text);
 }
 
 void Progress::clear_line() {
-  if (line_open_) fmt::print(stderr, "\r\x1b[K");
+  if (line_open_) print_message("\r\x1b[K");
   line_open_ = false;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/files/find_scene.h"
+#include "app/host/standard_streams.h"
 #include "app/record/provenance.h"
 #include "app/study/stability/contact_stability.h"
 #include "app/study/stability/stability_parts.h"
@@ -118,8 +119,8 @@ ExitCode run_stability_study(const StabilityArguments& typed) {
   }
   folder.write("stability.json", json.dump(2) + '\n');
   if (left.back()["machine"]["cpu"] != machine().cpu) {
-    fmt::print(stderr, "costs were measured on another machine: {}\n",
-               left.back()["machine"]["cpu"].get<std::string>());
+    print_message("costs were measured on another machine: {}\n",
+                  left.back()["machine"]["cpu"].get<std::string>());
   }
   for (const nlohmann::json& part : left) {
     for (const auto& [file, text] : part["csv"].items()) folder.write(file + ".csv", text);

@@ -2,6 +2,7 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 
@@ -43,6 +44,29 @@ TEST(Help, GoesToStandardOutput) {
     const ProgramResult result = run_pneuma(std::string(asked) + " 2>/dev/null");
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_NE(result.output, "");
+  }
+}
+
+/// A shell's redirections of standard error that nothing comes through; the last is a pipe without
+/// a reader.
+constexpr std::array<const char*, 3> unheard = {"2>&-", "2>/dev/full", "2> >(exit)"};
+
+TEST_F(RenderTest, GoesOnWhereItsMessagesCannotBeShown) {
+  for (const char* error : unheard) {
+    const auto in_bash = [&](const std::string& arguments) {
+      return run_command(fmt::format("bash -c \"'{}' {} {}\"", program_file(), arguments, error));
+    };
+    const std::string run =
+        fmt::format("render '{}' --out '{}' --frames 3", scene().string(), out().string());
+    const ProgramResult drawn = in_bash(run + " --overwrite");
+    EXPECT_EQ(drawn.exit_code, 0) << error;
+    EXPECT_EQ(drawn.output, out().string() + "\n") << error;
+    EXPECT_EQ(record()["frames"].size(), 3u) << error;
+    expect_whole(pictures());
+    EXPECT_EQ(in_bash(run).exit_code, 6) << error << ": there is a run already";
+    EXPECT_EQ(in_bash("render no_such_scene").exit_code, 3) << error;
+    EXPECT_EQ(in_bash(run + " --overwrite >/dev/full").exit_code, 6) << error;
+    EXPECT_EQ(in_bash(run + " --overwrite >&-").exit_code, 6) << error;
   }
 }
 
