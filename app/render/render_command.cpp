@@ -87,7 +87,8 @@ void add_render_command(CLI::App& app, Action& action, std::span<const std::stri
   command->add_flag("--no-caption", typed->no_caption, "Leave out scene, time and step");
   auto* overwrite =
       command->add_flag("--overwrite", typed->overwrite,
-                        "Replace the run in the folder, and of a model its scene file NAME.toml");
+                        "Replace the run in the folder, the video, and of a model its scene file "
+                        "NAME.toml");
   command->add_flag("--resume", typed->resume, "Continue the interrupted run in the folder")
       ->excludes(overwrite);
   command

@@ -9,6 +9,7 @@
 
 #include "app/accuracy/choose_step.h"
 #include "app/files/find_model.h"
+#include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/find_program.h"
@@ -183,8 +184,12 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
 }
 
 /// Before the run, which may take long.
-void check_video(const scenes::Scene& scene, const std::string& video, Progress& progress) {
+void check_video(const scenes::Scene& scene, const RenderRequest& request, Progress& progress) {
+  const std::string& video = request.video;
   check_video_place(video);
+  if (request.existing != ExistingRun::overwrite) {
+    refuse_to_replace(video, "name another file with --video");
+  }
   if (is_animated_png(video)) return;
   if (const auto ffmpeg = find_program("ffmpeg")) {
     try_video(*ffmpeg, scene.picture.width, scene.picture.height, video);
@@ -248,11 +253,8 @@ void keep_scene(const scenes::Scene& scene, const RunFolder& folder, ExistingRun
 /// The last of the frames from all around, in place of the run's.
 void make_turntable(const RenderRequest& request, const scenes::Scene& scene,
                     std::int64_t last_frame, const RunFolder& folder, Progress& progress) {
-  if (std::filesystem::exists(folder.frame(0)) && request.existing != ExistingRun::overwrite) {
-    throw base::IoError(
-        fmt::format("{} is there already; replace it with --overwrite, or choose another folder "
-                    "with --out",
-                    folder.frame(0).string()));
+  if (request.existing != ExistingRun::overwrite) {
+    refuse_to_replace(folder.frame(0), "choose another folder with --out");
   }
   folder.make();
   sim::World start = build_world(scene);
@@ -302,7 +304,7 @@ ExitCode render_scene(const RenderRequest& request) {
   const bool is_model = assets::has_model_ending(request.scene);
   if (is_model) name_model_from(folder, scene);
   try {
-    if (!request.video.empty()) check_video(scene, request.video, progress);
+    if (!request.video.empty()) check_video(scene, request, progress);
     if (request.turntable > 0) {
       const RunFolder pictures = turntable_folder(folder);
       make_turntable(request, scene, frames.last, pictures, progress);

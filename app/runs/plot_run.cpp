@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "app/files/refuse_to_replace.h"
 #include "app/host/errors.h"
 #include "app/study/csv.h"
 
@@ -204,7 +205,12 @@ ExitCode plot_run(const PlotRequest& request) {
   }
   const StudyFolder folder(request.out.empty() ? run.folder.path() / "plots"
                                                : std::filesystem::path(request.out));
-  for (const auto& [name, diagram] : run_diagrams(run)) {
+  const std::vector<NamedDiagram> diagrams = run_diagrams(run);
+  for (const auto& [name, diagram] : diagrams) {
+    if (request.overwrite) break;
+    refuse_to_replace(folder.path(), diagram_files(name), "choose another folder with --out");
+  }
+  for (const auto& [name, diagram] : diagrams) {
     const DiagramFiles files = write_diagram(folder, name, diagram);
     const std::filesystem::path drawn = folder.path() / (name + ".svg");
     fmt::print("{}\n", (files.drawn ? drawn : files.script).string());

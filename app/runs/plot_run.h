@@ -14,6 +14,7 @@ struct PlotRequest {
   std::string run;  // a folder
   std::string out;  // a folder; empty: plots in the run's
   bool csv = false;
+  bool overwrite = false;  // diagrams that are there
 };
 
 struct NamedDiagram {

@@ -162,6 +162,10 @@ std::string gnuplot_script(const Diagram& diagram, const std::string& name) {
   return text;
 }
 
+std::vector<std::string> diagram_files(const std::string& name) {
+  return {name + ".gp", name + ".svg", name + ".png"};
+}
+
 DiagramFiles write_diagram(const StudyFolder& folder, const std::string& name,
                            const Diagram& diagram) {
   return write_script(folder, name, gnuplot_script(diagram, name));

@@ -47,6 +47,9 @@ struct Diagram {
 /// no series has a point.
 std::string gnuplot_script(const Diagram& diagram, const std::string& name);
 
+/// Script and pictures of a diagram of this name.
+std::vector<std::string> diagram_files(const std::string& name);
+
 /// What write_diagram left in the folder.
 struct DiagramFiles {
   std::filesystem::path script;

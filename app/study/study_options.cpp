@@ -7,9 +7,11 @@
 #include <CLI/Formatter.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/record/provenance.h"
+#include "app/study/diagram.h"
 #include "app/world/open_scene.h"
 
 namespace pneuma::app {
@@ -24,6 +26,21 @@ void add_study_options(CLI::App& command, StudyOptions& options,
                   "Folder for tables, JSON and diagrams [" + options.out + "]")
       ->type_name("DIR");
   command.add_flag("--short", options.is_short, what_is_short);
+  command.add_flag("--overwrite", options.overwrite, "Replace the study's files in the folder");
+}
+
+void refuse_old_files(const StudyOptions& options, const StudyFiles& files) {
+  if (options.overwrite) return;
+  const std::string other_place = "choose another folder with --out";
+  refuse_to_replace(options.out, files.files, other_place);
+  for (const std::string& diagram : files.diagrams) {
+    refuse_to_replace(options.out, diagram_files(diagram), other_place);
+  }
+}
+
+StudyFolder open_study_folder(const StudyOptions& options, const StudyFiles& files) {
+  refuse_old_files(options, files);
+  return StudyFolder(options.out);
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include <array>
 #include <filesystem>
 
+#include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/own_program.h"
@@ -32,7 +33,8 @@ using nlohmann::json;
 std::vector<std::string> what_is_measured(const SplitOptions& typed) {
   static constexpr auto with_value =
       std::to_array<std::string_view>({"--out", "--snakemake", "--part"});
-  static constexpr auto flags = std::to_array<std::string_view>({"--gather", "--quiet", "--json"});
+  static constexpr auto flags =
+      std::to_array<std::string_view>({"--gather", "--quiet", "--json", "--overwrite"});
   std::vector<std::string> kept;
   for (std::size_t i = 1; i < typed.arguments.size(); ++i) {
     const std::string& argument = typed.arguments[i];
@@ -77,6 +79,11 @@ std::string part_command(const SplitOptions& typed, const std::string& what) {
 
 fs::path part_file(const fs::path& folder, const StudyPart& part) {
   return folder / "parts" / (part.name + ".json");
+}
+
+void refuse_old_part(const SplitOptions& typed, const StudyPart& part) {
+  if (typed.overwrite) return;
+  refuse_to_replace(part_file(typed.out, part), "choose another folder with --out");
 }
 
 /// Leaves it in the folder too, so that --gather finds what was done before an interruption.
@@ -147,12 +154,15 @@ rule gather:
     input: expand("parts/{{part}}.json", part=PARTS)
     output: "{study}.json"
     # 5: a scene could not be compared; the study names it, and is complete without it.
-    shell: "cd {here} && {command} --gather || [ $? -eq 5 ]"
+    shell: "cd {here} && {command} --gather --overwrite || [ $? -eq 5 ]"
 )";
 
 void write_workflow(SplitOptions typed, const std::string& study,
                     std::span<const StudyPart> parts) {
   typed.out = typed.snakemake;
+  if (!typed.overwrite) {
+    refuse_to_replace(fs::path(typed.out) / "Snakefile", "choose another folder with --snakemake");
+  }
   std::string listed;
   for (const StudyPart& part : parts) listed += fmt::format("    \"{}\",\n", part.name);
   const std::string here = fs::current_path().string();
@@ -200,23 +210,26 @@ std::string part_name(std::initializer_list<std::string> words) {
   return name;
 }
 
-std::optional<std::vector<json>> measure_parts(const SplitOptions& typed, const std::string& study,
+std::optional<std::vector<json>> measure_parts(const SplitOptions& typed, const SplitStudy& study,
                                                std::span<const scenes::Scene> scenes,
                                                std::span<const StudyPart> parts) {
   require_one_name_each(parts);
   if (!typed.snakemake.empty()) {
-    write_workflow(typed, study, parts);
+    write_workflow(typed, study.name, parts);
     return {};
   }
   const std::string fingerprint = fingerprint_of(typed, scenes);
+  if (typed.part.empty()) refuse_old_files(typed, study.leaves);
   if (typed.gather) return read_parts(typed, fingerprint, parts);
   const StudyFolder folder(fs::path(typed.out) / "parts");
   if (!typed.part.empty()) {
     const StudyPart& part = named_part(typed, parts);
+    refuse_old_part(typed, part);
     measure_part(folder, fingerprint, part);
     fmt::print("{}\n", part_file(typed.out, part).string());
     return {};
   }
+  for (const StudyPart& part : parts) refuse_old_part(typed, part);
   std::vector<json> measured;
   for (const StudyPart& part : parts) {
     measured.push_back(measure_part(folder, fingerprint, part));

@@ -24,6 +24,11 @@ struct SplitOptions : StudyOptions {
 void add_split_options(CLI::App& command, SplitOptions& options,
                        std::span<const std::string> command_line, const std::string& what_is_short);
 
+struct SplitStudy {
+  std::string name;   // its JSON file's, which the workflow makes
+  StudyFiles leaves;  // once all parts are there
+};
+
 struct StudyPart {
   std::string name;  // see part_name
   std::function<nlohmann::json()> measure;
@@ -34,11 +39,11 @@ std::string part_name(std::initializer_list<std::string> words);
 
 /// What all parts measured, in their order: measured now, and left in parts/ too, or, with
 /// --gather, read from the folder. Nothing when --part leaves one of them in parts/NAME.json, or
-/// --snakemake the workflow. `study` is its name, and its JSON file's, which the workflow makes.
-/// Throws UsageError for two parts of one name and for a part that there is not; base::IoError for
-/// parts that are missing or of another command, scene or program.
+/// --snakemake the workflow. Throws UsageError for two parts of one name and for a part that there
+/// is not; base::IoError for parts that are missing or of another command, scene or program, and
+/// for files that would be replaced without --overwrite.
 std::optional<std::vector<nlohmann::json>> measure_parts(const SplitOptions& typed,
-                                                         const std::string& study,
+                                                         const SplitStudy& study,
                                                          std::span<const scenes::Scene> scenes,
                                                          std::span<const StudyPart> parts);
 

@@ -1,6 +1,7 @@
 #include "app/sweep/frame_chunks.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,8 +94,9 @@ void join_frame_chunks(const SweepRows& rows, const fs::path& folder) {
 }
 
 DrawingCost measure_drawing(const Sweep& sweep, const SweepRun& run, const fs::path& folder) {
-  const double one = seconds_of(sweep, run, 0, folder / "measured");
-  const double many = seconds_of(sweep, run, frames_to_measure, folder / "measured");
+  const fs::path trial = folder / fmt::format("measured-{}.tmp", getpid());  // nobody else's
+  const double one = seconds_of(sweep, run, 0, trial);
+  const double many = seconds_of(sweep, run, frames_to_measure, trial);
   const double frame = std::max(1e-4, (many - one) / frames_to_measure);
   return {.start = std::max(0.0, one - frame), .frame = frame};
 }

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
 #include "app/host/machine.h"
@@ -59,6 +60,15 @@ void write_results(const StudyFolder& folder, const Sweep& sweep, const SweepRow
   print_message("{}\n", sweep_summary(sweep, rows));
 }
 
+/// Before anything is run. A journal says whose they are.
+void refuse_old_results(const SweepArguments& typed, const Sweep& sweep) {
+  if (typed.overwrite) return;
+  refuse_to_replace(typed.out,
+                    {sweep.name + ".csv", sweep.name + ".json", sweep.name + "_seconds.csv",
+                     sweep.name + "_sheet.png"},
+                    "choose another folder with --out");
+}
+
 int cores_of(const SweepArguments& typed) {
   if (typed.cores > 0) return typed.cores;
   // A scheduler gives a chunk one core.
@@ -79,7 +89,9 @@ ExitCode run_here(const SweepArguments& typed, const Sweep& sweep, const std::st
   ExistingRun existing = ExistingRun::refuse;
   if (typed.overwrite) existing = ExistingRun::overwrite;
   if (typed.resume) existing = ExistingRun::resume;
-  SweepJournal journal(folder.path() / (sweep.name + ".journal"), fingerprint, existing);
+  const std::filesystem::path place = folder.path() / (sweep.name + ".journal");
+  if (!std::filesystem::exists(place)) refuse_old_results(typed, sweep);
+  SweepJournal journal(place, fingerprint, existing);
   if (typed.overwrite) remove_pictures(folder.path());
   if (typed.resume && journal.rows().empty()) {
     progress.say(fmt::format("{} holds no run of this sweep: it starts from the beginning",
@@ -111,11 +123,16 @@ void add_frame_chunks(const SweepArguments& typed, const Sweep& sweep, const Cos
 }
 
 void write_workflow(const SweepArguments& typed, const Sweep& sweep, Progress& progress) {
+  const std::string file = "Snakefile";
+  if (!typed.overwrite) {
+    refuse_to_replace(std::filesystem::path(typed.snakemake) / file,
+                      "choose another folder with --snakemake");
+  }
   const StudyFolder folder(typed.snakemake);
   const CostEstimate cost = estimate_cost(sweep, progress);
   Workflow workflow{make_chunks(cost.seconds, typed.chunk_seconds), {}, typed.chunk_seconds};
   if (sweep.frames == SweepFrames::all) add_frame_chunks(typed, sweep, cost, workflow, progress);
-  const auto path = folder.write("Snakefile", snakefile(sweep, own_program(), workflow));
+  const auto path = folder.write(file, snakefile(sweep, own_program(), workflow));
   fmt::print("{}\n", path.string());
   print_message(
       "{} runs of together about {:.3g} s on one core ({} measured in {:.2g} s), in {} "
@@ -150,6 +167,7 @@ ExitCode sweep(SweepArguments typed) {
   } else if (!typed.frames.empty()) {
     draw_frame_chunk(sweep, parse_frame_chunk(typed.frames, sweep), typed.out);
   } else if (typed.gather) {
+    refuse_old_results(typed, sweep);
     gather(sweep, fingerprint, StudyFolder(typed.out));
   } else {
     return run_here(typed, sweep, fingerprint, progress);
@@ -172,8 +190,8 @@ void add_sweep_command(CLI::App& app, Action& action, std::span<const std::strin
   command->add_option("--cores", typed->cores, "Runs at once, each on one thread [all cores]")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  auto* overwrite =
-      command->add_flag("--overwrite", typed->overwrite, "Replace the sweep in the folder");
+  auto* overwrite = command->add_flag("--overwrite", typed->overwrite,
+                                      "Replace the sweep, or its workflow, in the folder");
   command->add_flag("--resume", typed->resume, "Continue the interrupted sweep in the folder")
       ->excludes(overwrite);
   auto* snakemake =

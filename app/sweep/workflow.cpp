@@ -129,7 +129,7 @@ rule frames:
 rule gather:
     input: expand("chunks/{{chunk}}.json", chunk=CHUNKS), expand("pictures/{{frames}}/run.json", frames=FRAMES)
     output: "{name}.csv", "{name}.json"
-    shell: "{command} --gather"
+    shell: "{command} --gather --overwrite"
 )";
 
 }  // namespace

@@ -104,7 +104,7 @@ AccuracyOptions options_of(const StudyAccuracyArguments& typed) {
 }
 
 ExitCode run_accuracy_study(const StudyAccuracyArguments& typed) {
-  const StudyFolder folder(typed.out);
+  const StudyFolder folder = open_study_folder(typed, {{"accuracy.json", "accuracy.csv"}});
   Progress progress(progress_style(typed.quiet));
   // Before anything is measured, which is load itself.
   std::vector<std::string> warnings = timing_warnings(timing_conditions());

@@ -68,11 +68,16 @@ void write_files(const StudyFolder& folder, const ChoicesStudy& study) {
   write_diagram(folder, study.name + "_integrators", work_diagram(study.integrators));
 }
 
+StudyFiles files_of(const std::string& name) {
+  return {{"choices.json", name + "_drift.csv", name + "_damping.csv", name + "_martin.csv"},
+          {name + "_drift", name + "_damping", name + "_integrators"}};
+}
+
 ExitCode study(const ChoicesArguments& typed) {
   scenes::Scene scene = open_scene(typed.scene, typed.overrides);
   // Whatever the scene chooses, both are measured; the integrators on the one that is an equation.
   for (scenes::BodyScene& body : scene.bodies) body.material.damping = sim::Damping::dashpot;
-  const StudyFolder folder(typed.out);
+  const StudyFolder folder = open_study_folder(typed, files_of(study_name(scene, typed.body)));
   const std::vector<std::string> warnings = timing_warnings(timing_conditions());
   Progress progress(progress_style(typed.quiet));
   const ChoicesStudy study = measure(typed, scene, progress);

@@ -54,9 +54,15 @@ std::vector<scenes::Scene> load(const CollisionArguments& options) {
   return loaded;
 }
 
+StudyFiles files_of(const std::vector<scenes::Scene>& scenes) {
+  StudyFiles files = {{"collision.csv", "collision.json"}};
+  for (const scenes::Scene& scene : scenes) files.diagrams.push_back("collision_" + scene.name);
+  return files;
+}
+
 ExitCode run_collision_study(const CollisionArguments& options) {
   const std::vector<scenes::Scene> loaded = load(options);
-  const StudyFolder folder(options.out);
+  const StudyFolder folder = open_study_folder(options, files_of(loaded));
   CollisionStudyOptions study = options.study;
   study.few = options.is_short;
   std::vector<CollisionStudy> studies;

@@ -35,6 +35,15 @@ void write(const StudyFolder& folder, const ContactStudy& study) {
   write_diagram(folder, study.name + "_contacts", contact_diagram(study));
 }
 
+StudyFiles files_of(const std::vector<scenes::Scene>& scenes) {
+  StudyFiles files = {{"contacts.json"}};
+  for (const scenes::Scene& scene : scenes) {
+    files.files.push_back(scene.name + "_contacts.csv");
+    files.diagrams.push_back(scene.name + "_contacts");
+  }
+  return files;
+}
+
 ExitCode study(const ContactArguments& typed) {
   const std::vector<std::string> names =
       typed.scenes.empty() ? std::vector<std::string>{"two_spheres_contact"} : typed.scenes;
@@ -43,7 +52,7 @@ ExitCode study(const ContactArguments& typed) {
   options.seconds = typed.seconds;
   Progress progress(progress_style(typed.quiet));
   std::vector<std::string> warnings = timing_warnings(timing_conditions());
-  const StudyFolder folder(typed.out);
+  const StudyFolder folder = open_study_folder(typed, files_of(scenes));
   std::vector<ContactStudy> studies;
   ExitCode code = ExitCode::done;
   for (const scenes::Scene& scene : scenes) {

@@ -97,6 +97,16 @@ nlohmann::json measure_scene(const scenes::Scene& scene, const ErrorOptions& opt
   return measured;
 }
 
+StudyFiles files_of(const std::vector<scenes::Scene>& scenes, const std::string& body) {
+  StudyFiles files = {{"error.json"}};
+  for (const scenes::Scene& scene : scenes) {
+    const std::string name = study_name(scene, body);
+    files.files.insert(files.files.end(), {name + "_runs.csv", name + "_ratios.csv"});
+    files.diagrams.insert(files.diagrams.end(), {name + "_work", name + "_step"});
+  }
+  return files;
+}
+
 /// What has been found.
 struct Findings {
   nlohmann::json scenes = nlohmann::json::array();
@@ -159,7 +169,8 @@ ExitCode study(const ErrorArguments& typed) {
     parts.push_back({part_name({scene.name}),
                      [&] { return measure_scene(scene, options, warnings, progress); }});
   }
-  const auto measured = measure_parts(typed, "error", scenes, parts);
+  const auto measured =
+      measure_parts(typed, {"error", files_of(scenes, typed.flight.body)}, scenes, parts);
   if (!measured) return ExitCode::done;
   const StudyFolder folder(typed.out);
   Findings findings;

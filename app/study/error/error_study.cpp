@@ -173,11 +173,11 @@ void measure_times(std::vector<Method>& methods, std::size_t samples, const Erro
   }
 }
 
+}  // namespace
+
 std::string study_name(const scenes::Scene& scene, const std::string& body) {
   return body.empty() || scene.bodies.size() == 1 ? scene.name : scene.name + "_" + body;
 }
-
-}  // namespace
 
 std::string_view to_string(Status status) {
   static constexpr auto names = std::to_array<std::string_view>({"stable", "unstable", "skipped"});

@@ -70,6 +70,9 @@ struct ErrorStudy {
   std::vector<ErrorRun> runs;    // method by method, from coarse to fine
 };
 
+/// ErrorStudy::name. `body`: the only one that is studied; empty: all.
+std::string study_name(const scenes::Scene& scene, const std::string& body);
+
 /// Time of one evaluation of the forces on all soft bodies of a world, s, the min. of many.
 double measure_evaluation(const sim::World& world);
 

@@ -73,7 +73,7 @@ nlohmann::json rows_json(const std::vector<Row>& rows) {
 }
 
 ExitCode run_extreme_study(const StudyOptions& options) {
-  const StudyFolder folder(options.out);
+  const StudyFolder folder = open_study_folder(options, {{"extremes.csv", "extremes.json"}});
   using Align = Table::Align;
   std::vector<Table::Column> columns = {{"case", Align::left}};
   for (const auto& [integrator, implicit] : extreme_integrators) {

@@ -46,7 +46,7 @@ void print(const std::vector<GrowthSeries>& all) {
 }
 
 ExitCode run_growth_study(const GrowthArguments& typed) {
-  const StudyFolder folder(typed.out);
+  const StudyFolder folder = open_study_folder(typed, {{"growth.csv", "growth.json"}, {"growth"}});
   Progress progress(progress_style(typed.quiet));
   const GrowthOptions options{.few = typed.is_short,
                               .seconds_per_point = typed.is_short ? 0.05 : 1.0};

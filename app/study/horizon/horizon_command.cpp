@@ -105,7 +105,8 @@ ExitCode run_horizon_study(const HorizonArguments& typed) {
   const HorizonOptions options = horizon_options(typed);
   std::vector<scenes::Scene> scenes;
   for (const std::string& name : typed.scenes) scenes.push_back(open_scene(name, typed.overrides));
-  const StudyFolder folder(typed.out);
+  const StudyFolder folder =
+      open_study_folder(typed, {{"horizons.json", "horizons.csv"}, {"horizons"}});
   Progress progress(progress_style(typed.quiet));
   std::vector<Horizon> horizons;
   std::vector<std::string> warnings;

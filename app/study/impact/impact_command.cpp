@@ -46,10 +46,13 @@ struct ImpactRow {
   }
 };
 
+int run_count(const ImpactOptions& options) {
+  return options.study.is_short ? std::min(options.runs, short_runs) : options.runs;
+}
+
 /// On all cores: impacts do not depend on each other.
 std::vector<ImpactRow> run_impacts(const ImpactOptions& options) {
-  const int runs = options.study.is_short ? std::min(options.runs, short_runs) : options.runs;
-  std::vector<ImpactRow> rows(static_cast<std::size_t>(runs));
+  std::vector<ImpactRow> rows(static_cast<std::size_t>(run_count(options)));
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < rows.size() && !interrupted(); i = next++) {
@@ -112,12 +115,13 @@ nlohmann::json summary_json(const ImpactOptions& options, const std::vector<Impa
   return json;
 }
 
+std::string scene_file(int number) { return fmt::format("impact_{}.toml", number); }
+
 /// Those that did not hold can be run again as scenes.
 void write_scenes(const StudyFolder& folder, const std::vector<ImpactRow>& rows, int first) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].has_held()) continue;
-    const auto path = folder.write(fmt::format("impact_{}.toml", first + static_cast<int>(i)),
-                                   rows[i].impact.scene);
+    const auto path = folder.write(scene_file(first + static_cast<int>(i)), rows[i].impact.scene);
     fmt::print("{}: {}, {} at {:.1f} m/s: {}\n", path.string(), outcome_text(rows[i]),
                rows[i].impact.bodies, rows[i].impact.speed, rows[i].result.message);
   }
@@ -134,8 +138,16 @@ bool are_as_promised(const std::vector<ImpactRow>& rows) {
          static_cast<double>(fast_held) >= least_share_above * static_cast<double>(fast);
 }
 
+StudyFiles files_of(const ImpactOptions& options) {
+  StudyFiles files = {{"impacts.csv", "impacts.json"}};
+  for (int i = 0; i < run_count(options); ++i) {
+    files.files.push_back(scene_file(options.first + i));
+  }
+  return files;
+}
+
 ExitCode run_impact_study(const ImpactOptions& options) {
-  const StudyFolder folder(options.study.out);
+  const StudyFolder folder = open_study_folder(options.study, files_of(options));
   const std::vector<ImpactRow> rows = run_impacts(options);
   folder.write("impacts.csv", csv_text(rows, options.first));
   const nlohmann::json summary = summary_json(options, rows);

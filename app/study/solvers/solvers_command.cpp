@@ -72,8 +72,27 @@ std::string shortfalls_text(const ErrorStudy& study) {
   return text;
 }
 
+std::vector<SolverCase> wanted_cases(const SolversArguments& typed) {
+  std::vector<SolverCase> cases = solver_cases(typed.is_short);
+  std::erase_if(cases, [&](const SolverCase& one) {
+    return typed.vertices && one.vertices != *typed.vertices;
+  });
+  return cases;
+}
+
+StudyFiles files_of(const std::vector<SolverCase>& cases) {
+  StudyFiles files = {{"solvers.json"}};
+  for (const SolverCase& one : cases) {
+    files.files.insert(files.files.end(),
+                       {one.scene.name + "_runs.csv", one.scene.name + "_ratios.csv"});
+    files.diagrams.push_back(one.scene.name);
+  }
+  return files;
+}
+
 ExitCode run_solvers_study(const SolversArguments& typed) {
-  const StudyFolder folder(typed.out);
+  const std::vector<SolverCase> cases = wanted_cases(typed);
+  const StudyFolder folder = open_study_folder(typed, files_of(cases));
   Progress progress(progress_style(typed.quiet));
   // Before anything is measured, which is load itself.
   const std::vector<std::string> warnings = timing_warnings(timing_conditions());
@@ -81,8 +100,7 @@ ExitCode run_solvers_study(const SolversArguments& typed) {
   json.update({{"sundials", sundials_version()}, {"warnings", warnings}});
   Table table = ratios_table();
   std::string behind;
-  for (const SolverCase& one : solver_cases(typed.is_short)) {
-    if (typed.vertices && one.vertices != *typed.vertices) continue;
+  for (const SolverCase& one : cases) {
     const auto say = [&](const std::string& what) {
       progress.show(fmt::format("{}: {}", one.scene.name, what));
     };

@@ -31,13 +31,28 @@ struct StabilityArguments : SplitOptions {
   bool quiet = false;
 };
 
+std::string map_name(const std::string& scene, sim::Integrator integrator) {
+  return fmt::format("{}_{}", scene, integrator_name(integrator));
+}
+
 void write_files(const StudyFolder& folder, const StabilityStudy& study) {
   folder.write(study.scene + "_limits.csv", limits_csv(study));
   folder.write(study.scene + "_trials.csv", trials_csv(study));
   for (const StiffnessLimit& limit : study.limits) {
-    const std::string name = fmt::format("{}_{}", study.scene, integrator_name(limit.integrator));
-    write_diagram(folder, name, stability_map(study, limit.integrator));
+    write_diagram(folder, map_name(study.scene, limit.integrator),
+                  stability_map(study, limit.integrator));
   }
+}
+
+StudyFiles files_of(const std::vector<scenes::Scene>& scenes) {
+  StudyFiles files = {{"stability.json", "contact.csv", "step_cost.csv", "stiffness.csv"}};
+  for (const scenes::Scene& scene : scenes) {
+    files.files.insert(files.files.end(), {scene.name + "_limits.csv", scene.name + "_trials.csv"});
+    for (const sim::Integrator integrator : integrators_of(scene)) {
+      files.diagrams.push_back(map_name(scene.name, integrator));
+    }
+  }
+  return files;
 }
 
 std::vector<double> stiffnesses(bool few) {
@@ -103,8 +118,8 @@ ExitCode run_stability_study(const StabilityArguments& typed) {
       typed.is_short ? short_stability_sweep() : full_stability_sweep();
   Progress progress(progress_style(typed.quiet));
   const Say say = [&](const std::string& what) { progress.show(what); };
-  const auto measured =
-      measure_parts(typed, "stability", scenes, parts_of(typed, scenes, options, say));
+  const auto measured = measure_parts(typed, {"stability", files_of(scenes)}, scenes,
+                                      parts_of(typed, scenes, options, say));
   if (!measured) return ExitCode::done;
   const StudyFolder folder(typed.out);
   nlohmann::json json = study_head(typed);

@@ -104,5 +104,22 @@ TEST_F(ReplacedFiles, KeepsASceneThatMovesWithItsModel) {
   EXPECT_EQ(render_in(moved, "models/tetrahedron.obj --out beside").exit_code, 0);
 }
 
+TEST_F(ReplacedFiles, DoesNotReplaceAVideoUnasked) {
+  const fs::path film = folder_ / "film.apng";
+  write_text(film, "mine");
+  const std::string video = "--frames 2 --video '" + film.string() + "'";
+  for (const char* way : {"", " --resume"}) {
+    const ProgramResult refused = render(video + way);
+    EXPECT_EQ(refused.exit_code, 6);
+    EXPECT_NE(refused.output.find("film.apng is there already; replace it with --overwrite"),
+              std::string::npos)
+        << refused.output;
+    EXPECT_EQ(read_text(film), "mine");
+    EXPECT_FALSE(fs::exists(out())) << "before the run";
+  }
+  EXPECT_EQ(render(video + " --overwrite").exit_code, 0);
+  EXPECT_NE(read_text(film), "mine");
+}
+
 }  // namespace
 }  // namespace pneuma

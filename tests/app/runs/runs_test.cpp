@@ -104,6 +104,11 @@ TEST_F(RunsTest, PlotsAreDrawn) {
       EXPECT_TRUE(fs::exists(file)) << file;
     }
   }
+  const std::string again = fmt::format("plot '{}' 2>&1", out("a").string());
+  EXPECT_EQ(run_pneuma(again).exit_code, 6);
+  EXPECT_NE(run_pneuma(again).output.find("_energy.gp is there already; replace it with --overwr"),
+            std::string::npos);
+  EXPECT_EQ(run_pneuma(again + " --overwrite").exit_code, 0);
 }
 
 TEST_F(RunsTest, EqualRunsAreEqual) {

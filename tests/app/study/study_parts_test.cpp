@@ -44,7 +44,7 @@ struct CountedParts {
     command->add_flag("--quiet");
     std::vector<std::string> reversed(arguments.rbegin(), arguments.rend() - 1);
     app.parse(reversed);
-    return measure_parts(typed, "counting", {}, parts);
+    return measure_parts(typed, {"counting", {{"counting.json"}}}, {}, parts);
   }
 };
 
@@ -96,6 +96,34 @@ TEST(StudyParts, ThatAreMissingOrOfAnotherStudyAreNamed) {
   write_text(folder / "parts/second.json", "[1, 2");
   EXPECT_NE(message(study, {"--gather"}, folder.path()).find("is no part of a study; remove it"),
             std::string::npos);
+}
+
+TEST(StudyParts, ReplaceNothingUnasked) {
+  const TemporaryFolder folder;
+  CountedParts study;
+  const std::string flow = (folder / "flow").string();
+  study.run({"--part", "first"}, folder.path());
+  study.run({"--snakemake", flow}, {});
+  const auto expect_refused = [&](const std::vector<std::string>& arguments,
+                                  const std::string& file) {
+    const bool is_flow = file.starts_with("flow");
+    const std::string said =
+        message(study, arguments, is_flow ? std::filesystem::path() : folder.path());
+    EXPECT_TRUE(said.starts_with((folder / file).string() + " is there already; ")) << said;
+    EXPECT_NE(said.find("--overwrite"), std::string::npos) << said;
+  };
+  expect_refused({"--part", "first"}, "parts/first.json");
+  expect_refused({}, "parts/first.json");
+  expect_refused({"--snakemake", flow}, "flow/Snakefile");
+  EXPECT_EQ(study.measured, 1);
+  study.run({"--part", "first", "--overwrite"}, folder.path());
+  study.run({"--part", "second"}, folder.path());
+  EXPECT_TRUE(study.run({"--gather"}, folder.path()));
+  write_text(folder / "counting.json", "mine");
+  expect_refused({"--gather"}, "counting.json");
+  EXPECT_TRUE(study.run({"--gather", "--overwrite"}, folder.path())) << "of the same command";
+  EXPECT_TRUE(study.run({"--overwrite"}, folder.path()));
+  EXPECT_FALSE(study.run({"--snakemake", flow, "--overwrite"}, {}));
 }
 
 TEST(StudyParts, RefuseAPartThatThereIsNotAndEqualNames) {

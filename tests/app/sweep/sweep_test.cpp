@@ -241,6 +241,35 @@ TEST(SweepChunks, HoldEveryRunOnceAndNoMoreThanTheirSeconds) {
   EXPECT_EQ(chunks.size(), 4u);
 }
 
+TEST_F(SweepTest, ReplacesNothingUnasked) {
+  fs::create_directories(out());
+  const auto expect_refused = [&](const ProgramResult& result, const std::string& file) {
+    EXPECT_EQ(result.exit_code, 6) << result.output;
+    EXPECT_NE(result.output.find((out() / file).string() + " is there already; replace it with "
+                                                           "--overwrite"),
+              std::string::npos)
+        << result.output;
+    EXPECT_EQ(read_text(out() / file), "mine");
+  };
+  write_text(out() / "six.csv", "mine");
+  expect_refused(sweep(""), "six.csv");
+  expect_refused(sweep("--resume"), "six.csv");
+  ASSERT_EQ(sweep("--jobs 0-5").exit_code, 0);
+  expect_refused(sweep("--gather"), "six.csv");
+  ASSERT_EQ(sweep("--gather --overwrite").exit_code, 0);
+  const std::string whole = csv();
+  ASSERT_EQ(sweep("--overwrite").exit_code, 0);
+  EXPECT_EQ(csv(), whole);
+
+  write_text(out() / "Snakefile", "mine");
+  write_text(out() / "measured", "mine");
+  const std::string flow = fmt::format("--chunk-seconds 0.1 --snakemake '{}'", out().string());
+  expect_refused(sweep(flow), "Snakefile");
+  ASSERT_EQ(sweep(flow + " --overwrite").exit_code, 0);
+  EXPECT_NE(read_text(out() / "Snakefile"), "mine");
+  EXPECT_EQ(read_text(out() / "measured"), "mine");
+}
+
 TEST_F(SweepTest, WritesAWorkflowOfAllRuns) {
   const ProgramResult result = run_pneuma(fmt::format(
       "sweep '{}' --snakemake '{}' --chunk-seconds 0.1 2>&1", file().string(), out().string()));
