@@ -12,6 +12,7 @@
 #include "app/bench/bench_report.h"
 #include "app/files/scene_catalogue.h"
 #include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/host/standard_streams.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
@@ -46,6 +47,7 @@ std::vector<std::string> all_overrides(const BenchOptions& options) {
 }
 
 std::vector<scenes::Scene> load_scenes(const BenchOptions& options) {
+  const NothingToKeep nothing;
   std::vector<std::string> names = options.scenes;
   if (names.empty()) {
     for (const auto& path : scenes_of_the_paper()) names.push_back(path.string());

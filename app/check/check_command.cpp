@@ -15,6 +15,7 @@
 #include "app/check/keys_json.h"
 #include "app/files/find_model.h"
 #include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/host/standard_streams.h"
 #include "app/picture/place_camera.h"
 #include "app/terminal/command.h"
@@ -80,6 +81,7 @@ ExitCode check(const CheckOptions& options) {
   if (options.scene.empty()) {
     throw UsageError("check: name a scene, or ask for the reference of all keys with --keys");
   }
+  const NothingToKeep nothing;
   const bool as_scene = options.run || !options.overrides.empty() || options.accuracy;
   if (assets::has_model_ending(options.scene) && !as_scene) return check_model_file(options);
   CheckReport report;

@@ -92,11 +92,17 @@ void check_folder(const fs::path& folder, const ExportFormat& format) {
 
 void print_path(const fs::path& path) { fmt::print("{}\n", path.string()); }
 
+sim::World start_of(const scenes::Scene& scene) {
+  const NothingToKeep nothing;
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  return start;
+}
+
 void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,
                   const ExportRequest& request) {
   Progress progress(progress_style(request.quiet));
-  sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
+  sim::World start = start_of(scene);
   start.settings.particles.shown = request.format.shows_particles;
   const auto sink = request.format.open(
       {scene, start, frames.last - frames.first + 1, folder, request.threads, progress});
@@ -124,8 +130,9 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
 }  // namespace
 
 ExitCode export_scene(const ExportRequest& request) {
-  const auto [scene, choice] =
-      open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  const auto [scene, choice] = with_nothing_to_keep([&] {
+    return open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  });
   if (!choice.empty() && !request.quiet) print_message("{}\n", choice);
   const Frames frames = frames_of(scene, request.frames);
   const fs::path folder =

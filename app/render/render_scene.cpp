@@ -79,6 +79,16 @@ void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const
                            plan.stages[stage].reason));
 }
 
+sim::World prepare_world(const RenderRequest& request, const scenes::Scene& scene,
+                         Progress& progress) {
+  const NothingToKeep nothing;
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  start.settings.particles.shown = shows_particles(request.pictures);
+  warn_before_run(request.pictures, scene, start, progress);
+  return start;
+}
+
 /// The command that continues a run.
 std::string resume_command(std::vector<std::string> command_line) {
   std::erase_if(command_line, [](const std::string& argument) {
@@ -146,10 +156,7 @@ DivergenceError with_advice(const DivergenceError& error, const RenderRequest& r
 /// Scene -> world -> step stages -> frame -> PNG; the last three are in draw_frames.
 void make_frames(const RenderRequest& request, const scenes::Scene& scene, const Frames& frames,
                  const RunFolder& folder, Progress& progress) {
-  sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
-  start.settings.particles.shown = shows_particles(request.pictures);
-  warn_before_run(request.pictures, scene, start, progress);
+  const sim::World start = prepare_world(request, scene, progress);
   render::Renderer renderer(picture_options(scene.picture, request.backend));
   RunLog log(
       folder, request.existing,
@@ -257,10 +264,7 @@ void make_turntable(const RenderRequest& request, const scenes::Scene& scene,
     refuse_to_replace(folder.frame(0), "choose another folder with --out");
   }
   folder.make();
-  sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
-  start.settings.particles.shown = shows_particles(request.pictures);
-  warn_before_run(request.pictures, scene, start, progress);
+  const sim::World start = prepare_world(request, scene, progress);
   render::Renderer renderer(picture_options(scene.picture, request.backend));
   Simulation simulation(scene, start, request.threads, request.on_divergence);
   while (simulation.frame() < last_frame) {
@@ -296,8 +300,9 @@ ExitCode make_more(const RenderRequest& request, const scenes::Scene& scene,
 
 ExitCode render_scene(const RenderRequest& request) {
   Progress progress(progress_style(request.quiet));
-  auto [scene, choice] =
-      open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  auto [scene, choice] = with_nothing_to_keep([&] {
+    return open_scene(request.scene, request.overrides, request.model, request.accuracy);
+  });
   if (!choice.empty()) progress.say(choice);
   const Frames frames = frames_of(scene, request.frames);
   const RunFolder folder = folder_of(scene, request.out);

@@ -10,6 +10,7 @@
 #include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/record/provenance.h"
 #include "app/study/diagram.h"
 #include "app/world/open_scene.h"
@@ -57,6 +58,7 @@ void refuse_paper_method(const scenes::Scene& scene) {
 
 std::vector<scenes::Scene> load_scenes(const std::vector<std::string>& names,
                                        const std::vector<std::string>& overrides) {
+  const NothingToKeep nothing;
   std::vector<scenes::Scene> loaded;
   for (const std::string& name : names) {
     loaded.push_back(open_scene(name, overrides));

@@ -12,6 +12,7 @@
 #include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
 #include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/host/machine.h"
 #include "app/host/own_program.h"
 #include "app/host/standard_streams.h"
@@ -156,9 +157,9 @@ ExitCode sweep(SweepArguments typed) {
     throw UsageError("sweep: name a sweep file, or ask for the reference of its keys with --keys");
   }
   Progress progress(progress_style(typed.quiet));
-  const Sweep sweep = read_sweep(find_sweep(typed.file));
+  const Sweep sweep = with_nothing_to_keep([&] { return read_sweep(find_sweep(typed.file)); });
   if (typed.out.empty()) typed.out = "out/sweep/" + sweep.name;
-  const std::string fingerprint = sweep_fingerprint(sweep);
+  const std::string fingerprint = with_nothing_to_keep([&] { return sweep_fingerprint(sweep); });
   if (!typed.snakemake.empty()) {
     write_workflow(typed, sweep, progress);
   } else if (!typed.jobs.empty()) {

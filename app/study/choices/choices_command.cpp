@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/host/interrupt.h"
 #include "app/host/timing_conditions.h"
 #include "app/record/provenance.h"
 #include "app/study/choices/choices_report.h"
@@ -74,7 +75,8 @@ StudyFiles files_of(const std::string& name) {
 }
 
 ExitCode study(const ChoicesArguments& typed) {
-  scenes::Scene scene = open_scene(typed.scene, typed.overrides);
+  scenes::Scene scene =
+      with_nothing_to_keep([&] { return open_scene(typed.scene, typed.overrides); });
   // Whatever the scene chooses, both are measured; the integrators on the one that is an equation.
   for (scenes::BodyScene& body : scene.bodies) body.material.damping = sim::Damping::dashpot;
   const StudyFolder folder = open_study_folder(typed, files_of(study_name(scene, typed.body)));

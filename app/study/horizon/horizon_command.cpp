@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "app/host/errors.h"
+#include "app/host/interrupt.h"
 #include "app/record/provenance.h"
 #include "app/record/vector_json.h"
 #include "app/study/csv.h"
@@ -101,10 +102,16 @@ HorizonOptions horizon_options(const HorizonArguments& typed) {
   return options;
 }
 
-ExitCode run_horizon_study(const HorizonArguments& typed) {
-  const HorizonOptions options = horizon_options(typed);
+std::vector<scenes::Scene> open_scenes(const HorizonArguments& typed) {
+  const NothingToKeep nothing;
   std::vector<scenes::Scene> scenes;
   for (const std::string& name : typed.scenes) scenes.push_back(open_scene(name, typed.overrides));
+  return scenes;
+}
+
+ExitCode run_horizon_study(const HorizonArguments& typed) {
+  const HorizonOptions options = horizon_options(typed);
+  const std::vector<scenes::Scene> scenes = open_scenes(typed);
   const StudyFolder folder =
       open_study_folder(typed, {{"horizons.json", "horizons.csv"}, {"horizons"}});
   Progress progress(progress_style(typed.quiet));
