@@ -169,6 +169,8 @@ std::string readable(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
   // The bounds are where rounding to fewer decimals sets in: 99.96 is "100".
+  // Beyond what a double has digits for, and in the end beyond what an integer holds.
+  if (size >= 1e15) return fmt::format("{:.3g}", value);
   if (size >= 99.95) return grouped(std::llround(value));
   if (size >= 9.995) return fmt::format("{:.1f}", value);
   if (size >= 0.9995 || size == 0.0) return fmt::format("{:.2f}", value);

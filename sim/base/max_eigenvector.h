@@ -21,6 +21,12 @@ inline Eigen::VectorXd random_direction(Eigen::Index size) {
   return result.normalized();
 }
 
+/// Also where the square is beyond all numbers.
+inline double norm_of(const Eigen::VectorXd& vector) {
+  const double norm = vector.norm();
+  return std::isfinite(norm) && norm > 0.0 ? norm : vector.stableNorm();
+}
+
 /// Of size 1, as far as so many Lanczos vectors find it from `start`, a vector of size 1. `apply`
 /// takes a vector and returns the operator's product with it.
 template <class Operator>
@@ -40,7 +46,7 @@ Eigen::VectorXd max_eigenvector_from(const Eigen::VectorXd& start, Eigen::Index 
     for (int twice = 0; twice < 2; ++twice) {
       next -= basis.leftCols(used) * (basis.leftCols(used).transpose() * next);
     }
-    off_diagonal[used - 1] = next.norm();
+    off_diagonal[used - 1] = norm_of(next);
     if (!(off_diagonal[used - 1] > 1e-12 * std::abs(diagonal.head(used).maxCoeff()))) break;
     next /= off_diagonal[used - 1];
   }

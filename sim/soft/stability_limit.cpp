@@ -124,8 +124,10 @@ double settled_size(const SoftBody& body, const SpringSums& springs) {
   const double squares = springs.squares, products = springs.products;
   const GasLaw law = gas_law(body.material);
   if (law.exponent == 1.0 && law.ambient_pressure == 0.0) {
-    const double gas = 3.0 * law.strength;
-    return (products + std::sqrt(products * products + 4.0 * squares * gas)) / (2.0 * squares);
+    // In a unit, a power of two, in which squares are no larger than numbers can be.
+    const double unit = std::ldexp(1.0, -std::ilogb(squares));
+    const double p = unit * products, q = unit * squares, gas = unit * (3.0 * law.strength);
+    return (p + std::sqrt(p * p + 4.0 * q * gas)) / (2.0 * q);
   }
   const double start = volume(body.mesh->topology, body.positions);
   const auto too_large = [&](double s) {

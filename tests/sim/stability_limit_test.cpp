@@ -50,6 +50,21 @@ TEST(StabilityLimit, ThereIsNoneForImplicitIntegratorsAndWithoutForces) {
   EXPECT_TRUE(std::isinf(settled_stability_limit(Integrator::rk4, body).step));
 }
 
+/// Springs alone: the step goes with the root of their stiffness, however stiff.
+TEST(StabilityLimit, HoldsForSpringsOfAnyStiffness) {
+  SoftBody body = make_body(make_sphere(3.0, 8, 8));
+  body.material.n = body.material.rho_g = 0.0;
+  body.material.k_max = 1e307;  // no damping
+  const auto step = [&](double k) {
+    body.material.k = k;
+    return settled_stability_limit(Integrator::velocity_verlet, body).step;
+  };
+  const double at_one = step(1.0);
+  for (const double k : {1e-200, 1e20, 1e160, 1e200, 1e300}) {
+    EXPECT_NEAR(step(k) * std::sqrt(k) / at_one, 1.0, 1e-6) << k;
+  }
+}
+
 /// A sphere whose springs are in equilibrium with its gas: at rest as it is.
 SoftBody held_sphere(double n, double k_max) {
   SoftBody body = make_body(make_sphere(3.0, 8, 8));

@@ -84,6 +84,8 @@ TEST(Readable, KeepsAboutThreeDigitsOrTheWholeNumber) {
   EXPECT_EQ(readable(99.96), "100");
   EXPECT_EQ(readable(1234.4), "1,234");
   EXPECT_EQ(readable(-1234567.0), "-1,234,567");
+  EXPECT_EQ(readable(9e18), "9e+18");
+  EXPECT_EQ(readable(-1.234e200), "-1.23e+200");
   EXPECT_EQ(readable(std::numeric_limits<double>::infinity()), "-");
 }
 

@@ -12,7 +12,7 @@ TEST(MaxEigenvector, IsFoundAtAnyScale) {
   constexpr int size = 60;
   Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(size, 0.01, 1.0);
   values[17] = 100.0;
-  for (const double scale : {1e-12, 1.0, 1e7, 1e15}) {
+  for (const double scale : {1e-200, 1e-12, 1.0, 1e7, 1e15, 1e200, 1e300}) {
     const Eigen::VectorXd found = max_eigenvector(size, [&](const Eigen::VectorXd& u) {
       return Eigen::VectorXd(scale * values.cwiseProduct(u));
     });
