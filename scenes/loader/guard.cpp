@@ -126,7 +126,8 @@ std::string guarded(std::string_view text, int override_index) {
   }
   if (std::count(text.begin(), text.end(), '\0') > 1) {
     throw SyntaxError(
-        {1, 1, override_index},
+        // Without the line, which may be all of the file.
+        {1, 1, override_index, override_index < 0},
         "this is no text, but a picture, a program or text in UTF-16; a scene is TOML in ASCII");
   }
   std::string result(text);

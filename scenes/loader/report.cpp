@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/base/nearest.h"
+
 namespace pneuma::scenes {
 namespace {
 
@@ -50,18 +52,19 @@ MarkedLine marked_line(std::string_view line, int column) {
   const std::size_t at = std::min(static_cast<std::size_t>(std::max(column, 1)) - 1, line.size());
   std::size_t begin = at < longest_shown_line ? 0 : at - longest_shown_line / 2;
   while (begin < at && continues_letter(line[begin])) ++begin;
-  std::size_t end = std::min(begin + longest_shown_line, line.size());
-  while (end < line.size() && continues_letter(line[end])) ++end;
+  const std::size_t end = std::min(begin + longest_shown_line, line.size());
   MarkedLine marked;
   if (begin > 0) marked = {"...", "   "};
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto byte = static_cast<unsigned char>(line[i]);
-    const bool control = (byte < 0x20 && line[i] != '\t') || byte == 0x7f;
-    marked.text += control ? '?' : line[i];
+  std::size_t i = begin;
+  while (i < end) {
+    const bool is_tab = line[i] == '\t';
+    const std::size_t size = base::letter_size(line.substr(i));
+    marked.text += is_tab ? "\t" : size > 0 ? line.substr(i, size) : "?";
     // A tab is as wide below as above.
-    if (i < at && !continues_letter(line[i])) marked.blanks += line[i] == '\t' ? '\t' : ' ';
+    if (i < at) marked.blanks += is_tab ? '\t' : ' ';
+    i += std::max<std::size_t>(size, 1);
   }
-  if (end < line.size()) marked.text += "...";
+  if (i < line.size()) marked.text += "...";
   return marked;
 }
 

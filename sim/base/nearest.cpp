@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 
@@ -15,6 +16,21 @@ constexpr std::size_t longest_quote = 60;
 
 bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// Of a letter in UTF-8, by its first byte; 0: no letter begins so.
+std::size_t bytes_announced(unsigned char first) {
+  if (first < 0x80) return 1;
+  if (first < 0xc0 || first >= 0xf8) return 0;
+  return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+}
+
+/// Control characters, which terminals obey; halves of letters in UTF-16; and what takes no room,
+/// breaks the line or turns the direction of writing.
+bool is_shown_as_none(char32_t letter) {
+  const auto within = [&](char32_t low, char32_t high) { return letter >= low && letter <= high; };
+  return letter < 0x20 || within(0x7f, 0x9f) || within(0xd800, 0xdfff) || within(0x200b, 0x200f) ||
+         within(0x2028, 0x202e) || within(0x2060, 0x206f) || letter == 0xfeff;
 }
 
 }  // namespace
@@ -66,14 +82,31 @@ std::string suggestion_and_all(std::string_view name,
   return fmt::format("{} allowed: {}", near.empty() ? ";" : near, fmt::join(candidates, ", "));
 }
 
+std::size_t letter_size(std::string_view text) {
+  if (text.empty()) return 0;
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t size = bytes_announced(first);
+  if (size == 0 || size > text.size()) return 0;
+  char32_t letter = size == 1 ? first : first & (0x7fu >> size);
+  for (const char c : text.substr(1, size - 1)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0u) != 0x80u) return 0;
+    letter = letter << 6 | (byte & 0x3fu);
+  }
+  constexpr std::array<char32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};  // else overlong
+  return letter < least[size] || letter > 0x10ffff || is_shown_as_none(letter) ? 0 : size;
+}
+
 std::string printable(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7f)
-      result += fmt::format("\\x{:02x}", byte);
-    else
-      result += c;
+  while (!text.empty()) {
+    const std::size_t size = letter_size(text);
+    if (size > 0) {
+      result += text.substr(0, size);
+    } else {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    }
+    text.remove_prefix(std::max<std::size_t>(size, 1));
   }
   return result;
 }

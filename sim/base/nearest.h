@@ -24,7 +24,11 @@ std::string suggestion(std::string_view name, const std::vector<std::string_view
 std::string suggestion_and_all(std::string_view name,
                                const std::vector<std::string_view>& candidates);
 
-/// `text` fit for a terminal: control characters escaped.
+/// Bytes of the letter that the text begins with, in UTF-8. 0 where a terminal would not show a
+/// letter: a control character, a mark that hides or turns what follows it, or no UTF-8.
+std::size_t letter_size(std::string_view text);
+
+/// `text` fit for a terminal: bytes that are of no letter are escaped.
 std::string printable(std::string_view text);
 
 /// The same in single quotes, long text cut.

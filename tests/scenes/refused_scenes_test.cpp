@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
 #include "scenes/loader/load_scene.h"
 #include "tests/scenes/broken_scenes.h"
@@ -39,6 +41,32 @@ TEST(BrokenScenes, AreFortyAndMoreAndAllDifferent) {
   for (const BrokenScene& broken : broken_scenes()) texts.insert(broken.text);
   EXPECT_EQ(texts.size(), broken_scenes().size());
   EXPECT_GE(texts.size(), 40u);
+}
+
+/// Nothing of a file reaches the terminal that it might obey, and not much.
+TEST(BrokenScenes, AreShownShortAndWithoutControlCharacters) {
+  const auto said = [](const std::string& text) {
+    try {
+      parse_scene(text, "broken.toml");
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string wild = "\x1b[2J\xc2\x9b\x9b\xff";
+  EXPECT_NE(said("# k\xc3\xa4se" + wild + "\nk = 1").find("| # k\xc3\xa4se?[2J????"),
+            std::string::npos)
+      << said("# k\xc3\xa4se" + wild + "\nk = 1");
+  EXPECT_LT(said("k = " + std::string(100'000, '\x80')).size(), 400u);
+  const std::string binary = said(std::string("\x89PNG\0\0\0", 7) + std::string(10'000, '\xf5'));
+  EXPECT_EQ(binary.find('|'), std::string::npos) << binary << ": no line of a picture";
+  EXPECT_LT(binary.size(), 200u);
+  for (const std::string& text : std::vector<std::string>{wild + "k = 1", "k = \"\\u009b\"",
+                                                          "[[body]]\nshape = \"\\u009b\""}) {
+    const std::string words = said(text);
+    EXPECT_NE(words, "");
+    EXPECT_EQ(words.find_first_of("\x1b\x9b\xff"), std::string::npos) << words;
+  }
 }
 
 }  // namespace

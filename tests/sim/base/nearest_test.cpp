@@ -34,6 +34,19 @@ RC_GTEST_PROP(Nearest, DistanceIsTheDefinition, ()) {
   RC_ASSERT(edit_distance(a, b) == defined_distance(a, b));
 }
 
+TEST(Printable, LeavesLettersAndEscapesWhatTerminalsObey) {
+  EXPECT_EQ(printable("k\xc3\xa4se \xe2\x82\xac \xf0\x9f\x90\x88"),
+            "k\xc3\xa4se \xe2\x82\xac \xf0\x9f\x90\x88");
+  EXPECT_EQ(printable("\x1b[2J\x7f\n"), "\\x1b[2J\\x7f\\x0a");
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\xc2\\x9b31m");                                 // control characters of two bytes
+  EXPECT_EQ(printable("a\x9b\xff\xc3"), "a\\x9b\\xff\\xc3");  // no UTF-8
+  EXPECT_EQ(printable("\xc1\x81\xe0\x81\x81"), "\\xc1\\x81\\xe0\\x81\\x81");  // overlong
+  EXPECT_EQ(printable("\xe2\x80\xae"), "\\xe2\\x80\\xae");                    // turns the direction
+  EXPECT_EQ(printable("\xed\xa0\x80\xf4\x90\x80\x80"), "\\xed\\xa0\\x80\\xf4\\x90\\x80\\x80");
+}
+
 TEST(Nearest, CountsEachKindOfSlipOnce) {
   EXPECT_EQ(edit_distance("radius", "radius"), 0);
   EXPECT_EQ(edit_distance("raduis", "radius"), 1);   // swapped
