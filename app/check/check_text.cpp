@@ -67,9 +67,10 @@ std::string size_text(const WorldSize& size, const scenes::Scene& scene) {
                      fmt::format("{}; with meshes and pictures about {}",
                                  bytes(static_cast<double>(size.state_bytes)), bytes(all_bytes)));
   text += named_line(
-      "run", fmt::format("{:g} s: {} steps, {} frames with the first at 0 s", scene.duration,
-                         grouped(scenes::frame_count(scene) * scenes::steps_per_frame(scene)),
-                         grouped(scenes::frame_count(scene) + 1)));
+      "run",
+      fmt::format("{:g} s: {}, {} with the first at 0 s", scene.duration,
+                  counted(scenes::frame_count(scene) * scenes::steps_per_frame(scene), "step"),
+                  counted(scenes::frame_count(scene) + 1, "frame")));
   return text;
 }
 

@@ -13,6 +13,7 @@
 #include "app/host/standard_streams.h"
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
+#include "app/terminal/table.h"
 #include "app/world/build_world.h"
 #include "app/world/simulation.h"
 #include "app/world/start_overlap.h"
@@ -112,8 +113,8 @@ void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::pa
   const auto keep_frames_so_far = [&] {
     if (state.drawn == 0) return;
     print_path(sink->finish());
-    print_message("partial: {} of {} frames, up to t = {:.2f} s\n", state.drawn,
-                  frames.last - frames.first + 1, state.time);
+    print_message("partial: {} of {}, up to t = {:.2f} s\n", state.drawn,
+                  counted(frames.last - frames.first + 1, "frame"), state.time);
   };
   try {
     run_frames(simulation, frames, *sink, state, progress);

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <iterator>
 
 #include "app/host/interrupt.h"
 #include "app/record/world_json.h"
+#include "app/terminal/table.h"
 #include "render/image/png.h"
 #include "sim/base/file.h"
 #include "sim/inspect/inspect.h"
@@ -52,7 +54,7 @@ void redraw_lost(Simulation& simulation, const FrameOutput& output, Progress& pr
       draw(simulation, camera, *output.pictures.overlay, output, folder.overlay(frame));
     }
   }
-  progress.say(fmt::format("{} lost pictures drawn again", output.log.lost().size()));
+  progress.say(counted(std::ssize(output.log.lost()), "lost picture") + " drawn again");
 }
 
 }  // namespace pneuma::app

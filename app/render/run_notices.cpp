@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/record/pressed_volume.h"
+#include "app/terminal/table.h"
 #include "app/world/may_start.h"
 #include "sim/mesh/measure.h"
 
@@ -43,8 +44,8 @@ void CrossedFrames::add(const Simulation& simulation, const FrameState& state, P
 }
 
 void CrossedFrames::summarise(Progress& progress, bool is_resumed) const {
-  const std::string frames = is_resumed ? fmt::format("the {} frames drawn now", frames_)
-                                        : fmt::format("{} frames", frames_);
+  const std::string frames = is_resumed ? fmt::format("the {} drawn now", counted(frames_, "frame"))
+                                        : counted(frames_, "frame");
   if (count_ > 0) {
     progress.say(fmt::format("bodies pass through each other in {} of {}", count_, frames));
   }

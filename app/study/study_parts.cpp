@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 
 #include "app/files/refuse_to_replace.h"
 #include "app/host/command_line.h"
@@ -19,6 +20,7 @@
 #include "app/record/provenance.h"
 #include "app/record/world_json.h"
 #include "app/study/study_folder.h"
+#include "app/terminal/table.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
 #include "sim/base/hash.h"
@@ -171,7 +173,7 @@ void write_workflow(SplitOptions typed, const std::string& study,
                   fmt::arg("here", snakemake_text(shell_line(std::span(&here, 1)))),
                   fmt::arg("command", snakemake_text(part_command(typed, "--quiet"))));
   fmt::print("{}\n", StudyFolder(typed.out).write("Snakefile", text).string());
-  print_message("{} parts; here: cd {} && snakemake --cores 1\n", parts.size(),
+  print_message("{}; here: cd {} && snakemake --cores 1\n", counted(std::ssize(parts), "part"),
                 shell_line(std::span(&typed.out, 1)));
 }
 

@@ -13,6 +13,7 @@
 #include "app/sweep/render_run.h"
 #include "app/sweep/sweep_chunks.h"
 #include "app/sweep/sweep_row.h"
+#include "app/terminal/number_text.h"
 #include "app/world/open_scene.h"
 #include "sim/base/file.h"
 
@@ -53,12 +54,16 @@ FrameChunk parse_frame_chunk(const std::string& text, const Sweep& sweep) {
   const std::size_t colon = text.find(':');
   const std::string frames = colon == std::string::npos ? std::string() : text.substr(colon + 1);
   const std::size_t dash = frames.find('-');
-  if (dash == std::string::npos) {
+  const auto run = whole_number(std::string_view(text).substr(0, colon));
+  const auto first = whole_number(std::string_view(frames).substr(0, dash));
+  const auto last = dash == std::string::npos
+                        ? std::nullopt
+                        : whole_number(std::string_view(frames).substr(dash + 1));
+  if (!run || !first || !last) {
     throw UsageError(fmt::format("--frames {}: give run and frames, as 3:120-179", text));
   }
-  const std::int64_t run = parse_runs(text.substr(0, colon), sweep).first;
-  const FrameChunk chunk{run, parse_count(frames.substr(0, dash), text),
-                         parse_count(frames.substr(dash + 1), text)};
+  parse_runs(text.substr(0, colon), sweep, "--frames");
+  const FrameChunk chunk{*run, *first, *last};
   if (chunk.first <= chunk.last) return chunk;
   throw UsageError(fmt::format("--frames {}: the last frame comes before the first", text));
 }

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <system_error>
 
 #include "app/host/errors.h"
 #include "app/study/study_folder.h"
+#include "app/terminal/table.h"
 #include "sim/base/file.h"
 
 namespace pneuma::app {
@@ -42,15 +44,16 @@ nlohmann::ordered_json read_chunk(const fs::path& path, const std::string& finge
 
 void require_all(const Sweep& sweep, const fs::path& folder, const SweepRows& rows) {
   const std::int64_t count = run_count(sweep);
-  if (static_cast<std::int64_t>(rows.size()) == count) return;
+  const std::int64_t lacking = count - std::ssize(rows);
+  if (lacking == 0) return;
   RunRange missing{0, count - 1};
   while (rows.contains(missing.first)) ++missing.first;
   const auto next = rows.upper_bound(missing.first);
   if (next != rows.end()) missing.last = next->first - 1;
   throw base::IoError(fmt::format(
-      "{} of {} runs are missing in {}, the first of them {}; make them with: pneuma sweep {} "
-      "--jobs {} --out {}",
-      count - static_cast<std::int64_t>(rows.size()), count, (folder / "chunks").string(),
+      "{} of {} {} missing in {}, the first of them {}; make them with: pneuma sweep {} --jobs {} "
+      "--out {}",
+      lacking, counted(count, "run"), lacking == 1 ? "is" : "are", (folder / "chunks").string(),
       range_text(missing), sweep.file.string(), range_text(missing), folder.string()));
 }
 
@@ -61,10 +64,10 @@ std::int64_t parse_count(std::string_view text, const std::string& whole) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   const bool read = error == std::errc() && end == text.data() + text.size() && !text.empty();
   if (read && number >= 0) return number;
-  throw UsageError(fmt::format("{}: give the first and the last, as 100-199", whole));
+  throw UsageError(fmt::format("--jobs {}: give the first and the last, as 100-199", whole));
 }
 
-RunRange parse_runs(const std::string& text, const Sweep& sweep) {
+RunRange parse_runs(const std::string& text, const Sweep& sweep, std::string_view option) {
   const std::size_t dash = text.find('-');
   RunRange range;
   range.first = parse_count(std::string_view(text).substr(0, dash), text);
@@ -73,7 +76,9 @@ RunRange parse_runs(const std::string& text, const Sweep& sweep) {
                    : parse_count(std::string_view(text).substr(dash + 1), text);
   const std::int64_t count = run_count(sweep);
   if (range.first <= range.last && range.last < count) return range;
-  throw UsageError(fmt::format("--jobs {}: the sweep has runs 0 to {}", text, count - 1));
+  throw UsageError(
+      fmt::format("{} {}: the sweep has {}", option, text,
+                  count == 1 ? "run 0 alone" : fmt::format("runs 0 to {}", count - 1)));
 }
 
 std::string range_text(const RunRange& range) {

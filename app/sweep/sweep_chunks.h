@@ -10,8 +10,9 @@
 
 namespace pneuma::app {
 
-/// "100-199" or "7". Throws UsageError, also when the sweep has not got them.
-RunRange parse_runs(const std::string& text, const Sweep& sweep);
+/// "100-199" or "7", of this option. Throws UsageError, also when the sweep has not got them.
+RunRange parse_runs(const std::string& text, const Sweep& sweep,
+                    std::string_view option = "--jobs");
 /// A number at or above 0; `whole` is named in messages. Throws UsageError.
 std::int64_t parse_count(std::string_view text, const std::string& whole);
 std::string range_text(const RunRange& range);

@@ -7,6 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "app/files/refuse_to_replace.h"
@@ -26,6 +27,7 @@
 #include "app/sweep/workflow.h"
 #include "app/terminal/common_options.h"
 #include "app/terminal/number_text.h"
+#include "app/terminal/table.h"
 
 namespace pneuma::app {
 namespace {
@@ -116,10 +118,10 @@ void add_frame_chunks(const SweepArguments& typed, const Sweep& sweep, const Cos
   workflow.frames = make_frame_chunks(sweep, cost.seconds, drawing, typed.chunk_seconds);
   const double again = simulated_again(workflow.frames, sweep, cost.seconds);
   print_message(
-      "pictures in {} parts, each simulated again from the start, which takes {:.3g} s in all; "
+      "pictures in {}, each simulated again from the start, which takes {:.3g} s in all; "
       "drawing takes {:.3g} ms a frame. Going on from states would save no more than that, and "
       "each part would wait for a run ahead of up to {:.3g} s\n",
-      workflow.frames.size(), again, 1e3 * drawing.frame,
+      counted(std::ssize(workflow.frames), "part"), again, 1e3 * drawing.frame,
       cost.seconds[static_cast<std::size_t>(dearest)]);
 }
 
@@ -136,9 +138,10 @@ void write_workflow(const SweepArguments& typed, const Sweep& sweep, Progress& p
   const auto path = folder.write(file, snakefile(sweep, own_program(), workflow));
   fmt::print("{}\n", path.string());
   print_message(
-      "{} runs of together about {:.3g} s on one core ({} measured in {:.2g} s), in {} "
-      "chunks; here: cd {} && snakemake --cores {}\n",
-      run_count(sweep), cost.total(), cost.runs, cost.measured, workflow.chunks.size(),
+      "{} of together about {:.3g} s on one core ({} measured in {:.2g} s), in {}; here: cd {} "
+      "&& snakemake --cores {}\n",
+      counted(run_count(sweep), "run"), cost.total(), cost.runs, cost.measured,
+      counted(std::ssize(workflow.chunks), "chunk"),
       shell_line(std::vector{folder.path().string()}), machine().cores);
 }
 

@@ -102,7 +102,7 @@ std::string sweep_summary(const Sweep& sweep, const SweepRows& rows) {
   for (const auto& [number, row] : rows) {
     if (++counts[row.code] == 1 && row.code != ExitCode::done) reasons += reason(sweep, row);
   }
-  std::string text = fmt::format("{} runs", grouped(static_cast<long long>(rows.size())));
+  std::string text = counted(static_cast<long long>(rows.size()), "run");
   for (const auto& [code, count] : counts) {
     text += fmt::format(", {} {}", grouped(count), verdict_text(code));
   }

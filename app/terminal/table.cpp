@@ -165,6 +165,10 @@ std::string grouped(long long value) {
   return digits;
 }
 
+std::string counted(long long count, std::string_view one) {
+  return fmt::format("{} {}{}", grouped(count), one, count == 1 ? "" : "s");
+}
+
 std::string readable(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);

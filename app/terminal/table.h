@@ -44,4 +44,7 @@ std::string named_line(std::string_view name, const std::string& text);
 /// "1,234,567".
 std::string grouped(long long value);
 
+/// "1 run", "1,234 runs".
+std::string counted(long long count, std::string_view one);
+
 }  // namespace pneuma::app

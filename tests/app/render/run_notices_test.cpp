@@ -49,7 +49,7 @@ std::string said_of_crossing(const std::string& text, bool is_resumed) {
 TEST(CrossedFrames, OfAResumedRunAreThoseDrawnNow) {
   for (const bool is_resumed : {false, true}) {
     const std::string said = said_of_crossing("[[body]]\n", is_resumed);
-    const char* of = is_resumed ? "in 1 of the 1 frames drawn now;" : "in 1 of 1 frames;";
+    const char* of = is_resumed ? "in 1 of the 1 frame drawn now;" : "in 1 of 1 frame;";
     EXPECT_NE(said.find(of), std::string::npos) << said;
   }
 }

@@ -223,7 +223,18 @@ values = [50, 1e12]
   EXPECT_NE(read_text(out() / "pictures/run_1/0-6/run.json").find("no_pictures"),
             std::string::npos);
   EXPECT_EQ(sweep("--frames 0:3-1").exit_code, 2);
-  EXPECT_EQ(sweep("--frames 2:0-1").exit_code, 2);
+  const ProgramResult beyond = sweep("--frames 2:0-1");
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_NE(beyond.output.find("--frames 2: the sweep has runs 0 to 1"), std::string::npos)
+      << beyond.output;
+  for (const char* typed : {"99:..", "x:0-1", "0:1", "0:-1", "0"}) {
+    const ProgramResult wrong = sweep(fmt::format("--frames {}", typed));
+    EXPECT_EQ(wrong.exit_code, 2) << typed;
+    EXPECT_NE(
+        wrong.output.find(fmt::format("--frames {}: give run and frames, as 3:120-179", typed)),
+        std::string::npos)
+        << wrong.output;
+  }
 }
 
 TEST(SweepChunks, HoldEveryRunOnceAndNoMoreThanTheirSeconds) {

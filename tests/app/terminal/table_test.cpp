@@ -58,6 +58,12 @@ TEST(Table, CellsOfSeveralLinesHangAndHeadingsStand) {
             "third   2\n");
 }
 
+TEST(Counted, KnowsOne) {
+  EXPECT_EQ(counted(0, "run"), "0 runs");
+  EXPECT_EQ(counted(1, "run"), "1 run");
+  EXPECT_EQ(counted(12345, "run"), "12,345 runs");
+}
+
 TEST(Wrapped, BreaksAtBlanksOnly) {
   EXPECT_EQ(wrapped("", 5), "");
   EXPECT_EQ(wrapped("ab cd", 5), "ab cd");
