@@ -310,11 +310,17 @@ ExitCode render_scene(const RenderRequest& request) {
   if (is_model) name_model_from(folder, scene);
   try {
     if (!request.video.empty()) check_video(scene, request, progress);
-    if (request.turntable > 0) {
-      const RunFolder pictures = turntable_folder(folder);
+    const bool is_turned = request.turntable > 0;
+    const RunFolder pictures = is_turned ? turntable_folder(folder) : folder;
+    const Frames compared = is_turned ? Frames{0, request.turntable - 1} : frames;
+    if (!request.reference.folder.empty()) {
+      check_reference(pictures, compared.first, compared.last, scene.picture.width,
+                      scene.picture.height, request.reference);
+    }
+    if (is_turned) {
       make_turntable(request, scene, frames.last, pictures, progress);
       fmt::print("{}\n", pictures.path().string());
-      return make_more(request, scene, pictures, {0, request.turntable - 1});
+      return make_more(request, scene, pictures, compared);
     }
     if (is_model) check_kept_scene(scene, folder, request.existing);
     make_frames(request, scene, frames, folder, progress);

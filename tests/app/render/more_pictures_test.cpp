@@ -78,7 +78,16 @@ TEST_F(MorePictures, AReferenceTellsWhatHasChanged) {
   const ProgramResult other = render(changed);
   EXPECT_EQ(other.exit_code, 7) << other.output;
   EXPECT_EQ(render(changed + " --threshold 255").exit_code, 0);
-  EXPECT_EQ(render(changed + " --size 32x32").exit_code, 6) << "another size";
+  const std::string run = read_text(out() / "run.json");
+  const ProgramResult other_size = render(changed + " --size 32x24");
+  EXPECT_EQ(other_size.exit_code, 6) << "another size";
+  EXPECT_NE(other_size.output.find("64x48 pixels, and this run 32x24; draw it with --size 64x48"),
+            std::string::npos)
+      << other_size.output;
+  const ProgramResult longer = render("--frames 6 --overwrite " + reference);
+  EXPECT_EQ(longer.exit_code, 6);
+  EXPECT_NE(longer.output.find("fall_00005.png is missing"), std::string::npos) << longer.output;
+  EXPECT_EQ(read_text(out() / "run.json"), run) << "before the run";
   EXPECT_EQ(render("--threshold 1").exit_code, 2) << "of what?";
   EXPECT_EQ(render(changed + " --threshold nan").exit_code, 2);
 }
