@@ -1,5 +1,7 @@
 #include "app/sweep/sweep_pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -41,6 +43,20 @@ int columns_of(const Sweep& sweep, std::size_t pictures, std::size_t runs) {
   return static_cast<int>(values < 2 || values > 40 ? square : values);
 }
 
+/// "body.k = 50, body.n = 0.1": what tells the run from the others.
+std::string caption_of(const Sweep& sweep, std::int64_t number) {
+  const SweepRun run = run_of(sweep, number);
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  if (sweep.scenes.size() > 1) add(fs::path(run.scene).stem().string());
+  for (std::size_t p = 0; p < run.values.size(); ++p) {
+    const Parameter& parameter = sweep.parameters[p];
+    if (!parameter.is_random() && parameter.values.size() < 2) continue;
+    add(fmt::format("{} = {}", parameter.key, run.values[p]));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::optional<std::string> write_sweep_sheet(const StudyFolder& folder, const Sweep& sweep,
@@ -49,11 +65,13 @@ std::optional<std::string> write_sweep_sheet(const StudyFolder& folder, const Sw
   std::vector<std::int64_t> numbers;
   for (const auto& [number, row] : rows) numbers.push_back(number);
   std::vector<render::Image> images;
+  std::vector<std::string> captions;
   render::Image empty;
   for (const std::int64_t i :
        evenly_chosen(0, static_cast<std::int64_t>(numbers.size()) - 1, most_pictures)) {
-    const fs::path picture =
-        last_picture(picture_folder(folder.path(), numbers[static_cast<std::size_t>(i)]));
+    const std::int64_t number = numbers[static_cast<std::size_t>(i)];
+    captions.push_back(caption_of(sweep, number));
+    const fs::path picture = last_picture(picture_folder(folder.path(), number));
     images.push_back(picture.empty() ? render::Image{} : render::read_png(picture.string()));
     if (!images.back().pixels.empty()) empty = {images.back().width, images.back().height, {}};
   }
@@ -66,7 +84,7 @@ std::optional<std::string> write_sweep_sheet(const StudyFolder& folder, const Sw
   const int columns = columns_of(sweep, images.size(), rows.size());
   const int count = static_cast<int>(images.size());
   const render::Image page =
-      render::contact_sheet(images, columns, (count + columns - 1) / columns, page_width);
+      render::contact_sheet(images, columns, (count + columns - 1) / columns, page_width, captions);
   const fs::path path = folder.path() / (sweep.name + "_sheet.png");
   base::write_file_atomically(path.string(), render::encode_png(page));
   return path.string();

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "render/text/layout.h"
+
 namespace pneuma::render {
 namespace {
 
@@ -45,6 +47,37 @@ void paste(const Image& from, Image& to, int left, int top) {
   }
 }
 
+std::vector<TextLayout> lay_out_captions(const Font& font, std::span<const std::string> captions,
+                                         int width) {
+  const float size = std::clamp(static_cast<float>(width) / 20.0f, 9.0f, 16.0f);  // of an em
+  std::vector<TextLayout> texts;
+  for (const std::string& caption : captions) {
+    texts.push_back(lay_out(font, caption, size, static_cast<float>(width)));
+  }
+  return texts;
+}
+
+/// Pixels.
+int tallest(std::span<const TextLayout> texts) {
+  float height = 0.0f;
+  for (const TextLayout& text : texts) height = std::max(height, text.height);
+  return static_cast<int>(std::ceil(height));
+}
+
+/// In black, as far as it lies within the picture.
+void write_on(Image& image, const TextCoverage& text, int left, int top) {
+  for (int y = 0; y < std::min(text.height, image.height - top); ++y) {
+    for (int x = 0; x < std::min(text.width, image.width - left); ++x) {
+      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(text.width) +
+                               static_cast<std::size_t>(x);
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        std::uint8_t& value = image.pixels[channel_index(image, left + x, top + y) + channel];
+        value = static_cast<std::uint8_t>(value * (255 - text.values[from]) / 255);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Image downscale(const Image& image, int width, int height) {
@@ -74,7 +107,8 @@ Image downscale(const Image& image, int width, int height) {
   return small;
 }
 
-Image contact_sheet(std::span<const Image> images, int columns, int rows, int width) {
+Image contact_sheet(std::span<const Image> images, int columns, int rows, int width,
+                    std::span<const std::string> captions) {
   if (images.empty() || columns < 1 || rows < 1 ||
       images.size() > static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {
     throw std::invalid_argument(fmt::format("contact_sheet: {} pictures do not go into {} x {}",
@@ -92,7 +126,10 @@ Image contact_sheet(std::span<const Image> images, int columns, int rows, int wi
         fmt::format("contact_sheet: {} pixels are too few for {} columns", width, columns));
   }
 
-  Image sheet{margin + columns * (cell_width + margin), margin + rows * (cell_height + margin), {}};
+  Font font;
+  const std::vector<TextLayout> texts = lay_out_captions(font, captions, cell_width);
+  const int row_height = cell_height + margin + tallest(texts);
+  Image sheet{margin + columns * (cell_width + margin), margin + rows * row_height, {}};
   sheet.pixels.assign(channel_index(sheet, 0, sheet.height), paper);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const Image& image = images[i];
@@ -103,8 +140,10 @@ Image contact_sheet(std::span<const Image> images, int columns, int rows, int wi
                   std::max(1, static_cast<int>(std::lround(scale * image.height))));
     const int column = static_cast<int>(i) % columns;
     const int row = static_cast<int>(i) / columns;
-    paste(small, sheet, margin + column * (cell_width + margin) + (cell_width - small.width) / 2,
-          margin + row * (cell_height + margin) + (cell_height - small.height) / 2);
+    const int left = margin + column * (cell_width + margin), top = margin + row * row_height;
+    paste(small, sheet, left + (cell_width - small.width) / 2,
+          top + (cell_height - small.height) / 2);
+    if (i < texts.size()) write_on(sheet, cover(font, texts[i]), left, top + cell_height);
   }
   return sheet;
 }

@@ -176,6 +176,28 @@ TEST(ContactSheet, IsNoWiderThanItsPicturesFill) {
   EXPECT_EQ(pixel_at(sheet, 6 + 64, 6), (Pixel{250, 250, 250}));
 }
 
+TEST(ContactSheet, HasACaptionBelowEachPicture) {
+  const std::vector<Image> images(3, plain(64, 48, {255, 0, 0}));
+  const Image bare = contact_sheet(images, 2, 2, 640);
+  const std::vector<std::string> captions = {"k = 50", "", "k = 80, and more than fits in a line"};
+  const Image sheet = contact_sheet(images, 2, 2, 640, captions);
+  EXPECT_EQ(sheet.width, bare.width);
+  EXPECT_GT(sheet.height, bare.height + 2 * 9);
+  const int row = (sheet.height - 2) / 2;
+  const auto is_written_in = [&](int left, int top) {
+    for (int y = top; y < top + row - 48 - 2; ++y) {
+      for (int x = left; x < left + 64; ++x) {
+        if (pixel_at(sheet, x, y)[0] < 100) return true;
+      }
+    }
+    return false;
+  };
+  EXPECT_TRUE(is_written_in(2, 2 + 48));
+  EXPECT_FALSE(is_written_in(2 + 64 + 2, 2 + 48));
+  EXPECT_TRUE(is_written_in(2, 2 + row + 48));
+  EXPECT_EQ(pixel_at(sheet, 2, 2 + row), (Pixel{255, 0, 0})) << "the second row begins below";
+}
+
 TEST(ContactSheet, RefusesTooManyOrTooFew) {
   const std::vector<Image> images(5, plain(10, 10, {0, 0, 0}));
   EXPECT_THROW(contact_sheet(images, 2, 2), std::invalid_argument);

@@ -11,6 +11,7 @@
 
 #include "app/sweep/sweep_plots.h"
 #include "app/sweep/workflow.h"
+#include "render/image/png.h"
 #include "tests/app/sweep/sweep_folder.h"
 #include "tests/support/paths.h"
 
@@ -188,7 +189,10 @@ TEST_F(SweepTest, PicturesOfTheLastFrameComeOnOnePage) {
   for (int run = 0; run < 6; ++run) {
     EXPECT_TRUE(fs::exists(out() / fmt::format("pictures/run_{}/fall_00006.png", run))) << run;
   }
-  EXPECT_TRUE(fs::exists(out() / "six_sheet.png"));
+  // Two rows of three pictures of 32 x 24, and below each what was varied.
+  const render::Image sheet = render::read_png((out() / "six_sheet.png").string());
+  EXPECT_EQ(sheet.width, 6 + 3 * (32 + 6));
+  EXPECT_GT(sheet.height, 6 + 2 * (24 + 6 + 9));
 
   fs::create_directory(out() / "pictures/run_of_mine");
   fs::create_directory(out() / "pictures/run_9");
