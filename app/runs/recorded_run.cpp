@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "app/render/log/run_record.h"
 #include "sim/base/file.h"
+#include "sim/base/nearest.h"
 
 namespace pneuma::app {
 namespace {
@@ -37,14 +40,30 @@ Json unfinished_record(const fs::path& folder) {
   return whole_record(*contents);
 }
 
+/// `byte`: as the parser has it, counted from 1, of the last that it has read.
+[[noreturn]] void refuse_damaged(const fs::path& file, const std::string& text, std::size_t byte) {
+  const std::size_t at = std::min(byte > 0 ? byte - 1 : 0, text.size());
+  const std::string_view before = std::string_view(text).substr(0, at);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  const std::string what =
+      at == text.size() ? "the file ends here, within the record"
+                        : fmt::format("{} is not what a record has here",
+                                      base::in_quotes(std::string_view(text).substr(at, 20)));
+  throw base::IoError(
+      fmt::format("{}:{}:{}: {}; the file is damaged and cannot be read: put a copy of it in its "
+                  "place, or render the run again with --overwrite",
+                  file.string(), line, at - line_start + 1, what));
+}
+
 Json record_in(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   if (!fs::exists(file)) return unfinished_record(folder);
+  const std::string text = base::read_text_file(file.string());
   try {
-    return Json::parse(base::read_text_file(file.string()));
-  } catch (const Json::exception& error) {
-    throw base::IoError(
-        fmt::format("{} cannot be read ({}); render the run again", file.string(), error.what()));
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    refuse_damaged(file, text, error.byte);
   }
 }
 
@@ -64,24 +83,39 @@ void check_scene_name(const fs::path& folder, const std::string& name) {
 
 /// What every look at a run relies on.
 void check_record(const fs::path& folder, const Json& record) {
+  std::string place = "run.scene";
   try {
     check_scene_name(folder, record.at("run").at("scene").get<std::string>());
+    place = "scene_toml";
     record.at("scene_toml").get_ref<const std::string&>();
-    for (const Json& frame : record.at("frames")) {
+    place = "frames";
+    const Json& frames = record.at("frames");
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Json& frame = frames.at(i);
+      const auto go_to = [&](const char* key) { place = fmt::format("frames[{}].{}", i, key); };
+      go_to("frame");
       frame.at("frame").get<std::int64_t>();
+      go_to("time");
       frame.at("time").get<double>();
+      go_to("state_hash");
       frame.at("state_hash").get_ref<const std::string&>();
+      go_to("energy.total");
       frame.at("energy").at("total");
+      go_to("volumes");
       frame.at("volumes");
+      go_to("contacts.count");
       frame.at("contacts").at("count").get<std::int64_t>();
+      go_to("greatest_penetration");
       frame.at("greatest_penetration");
+      go_to("seconds");
       frame.at("seconds");
     }
-    if (record.at("frames").empty()) throw base::IoError(folder.string() + " has no frame yet");
-  } catch (const Json::exception& error) {
-    throw base::IoError(
-        fmt::format("the record in {} is not one of this program's ({}); render the run again",
-                    folder.string(), error.what()));
+    if (frames.empty()) throw base::IoError(folder.string() + " has no frame yet");
+  } catch (const Json::exception&) {
+    throw base::IoError(fmt::format(
+        "the record in {} is not one of this program's: {} is missing or of another kind; render "
+        "the run again",
+        folder.string(), place));
   }
 }
 

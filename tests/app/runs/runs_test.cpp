@@ -231,9 +231,17 @@ TEST_F(RunsTest, SaysWhatIsWrong) {
   fails("plot '" + out("empty").string() + "'", 6, "no run");
   write_text(out("empty") / "run.json", "{\"frames\": [{}]}");
   fails("plot '" + out("empty").string() + "'", 6, "render the run again");
+  fails("plot '" + out("empty").string() + "'", 6, "run.scene is missing or of another kind");
   write_text(out("empty") / "run.json", "{");
   fails("plot '" + out("empty").string() + "'", 6, "cannot be read");
+  fails("plot '" + out("empty").string() + "'", 6, "run.json:1:2: the file ends here");
+  write_text(out("empty") / "run.json", "{\n \"run\": x}");
+  fails("plot '" + out("empty").string() + "'", 6, "run.json:2:9: 'x}' is not what a record has");
   render_as("a", "--frames 3");
+  nlohmann::json changed = record("a");
+  changed["frames"][1]["time"] = "late";
+  write_text(out("empty") / "run.json", changed.dump());
+  fails("plot '" + out("empty").string() + "'", 6, "frames[1].time is missing or of another kind");
   render_as("b", "--frames 4-6");
   EXPECT_EQ(compare("").exit_code, 6);
   const std::string a = "'" + out("a").string() + "'";
