@@ -20,7 +20,10 @@ void add_plot_command(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command->add_option("--out", request->out, "Folder for the diagrams [RUN/plots]")
       ->type_name("DIR");
-  command->add_flag("--csv", request->csv, "Print a table of all frames instead");
+  command->add_flag(
+      "--csv", request->csv,
+      "Print a table of all frames instead; stages of different frames run at the same time, "
+      "so that seconds_total may be less than their sum");
   command->add_flag("--overwrite", request->overwrite, "Replace the run's diagrams in the folder");
   add_examples(*command, {"pneuma plot out/pressure_soft", "pneuma plot out/pressure_soft --csv"});
   command->callback([request, &action] { action = [request] { return plot_run(*request); }; });
