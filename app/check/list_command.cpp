@@ -72,11 +72,18 @@ nlohmann::json list_json(const std::vector<CatalogueEntry>& entries) {
 
 void add_list_command(CLI::App& app, Action& action) {
   auto json = std::make_shared<bool>(false);
+  auto sweeps = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("list", "List the scenes with the paper's figures");
   command->add_flag("--json", *json, "Print JSON");
-  add_examples(*command, {"pneuma list", "pneuma list --json"});
-  command->callback([json, &action] {
-    action = [json] {
+  command->add_flag("--sweeps", *sweeps, "Only the names of the sweeps that come with the program")
+      ->excludes("--json");
+  add_examples(*command, {"pneuma list", "pneuma list --json", "pneuma list --sweeps"});
+  command->callback([json, sweeps, &action] {
+    action = [json, sweeps] {
+      if (*sweeps) {
+        for (const std::string& name : sweep_names()) fmt::print("{}\n", name);
+        return ExitCode::done;
+      }
       const std::vector<CatalogueEntry> entries = scene_catalogue();
       fmt::print("{}", *json ? list_json(entries).dump(2) + "\n" : list_text(entries));
       return ExitCode::done;

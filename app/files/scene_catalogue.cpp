@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
+#include <system_error>
 
+#include "app/files/data_folders.h"
 #include "app/files/find_scene.h"
 #include "scenes/loader/load_scene.h"
 
@@ -70,6 +73,17 @@ std::vector<std::filesystem::path> scenes_of_the_paper() {
   std::vector<std::filesystem::path> paths;
   for (const CatalogueEntry& entry : entries) paths.push_back(entry.path);
   return paths;
+}
+
+std::vector<std::string> sweep_names() {
+  std::set<std::string> names;
+  for (const std::filesystem::path& folder : data_folders("scenes/sweeps")) {
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() == ".toml") names.insert(entry.path().stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 }  // namespace pneuma::app

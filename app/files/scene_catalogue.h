@@ -26,4 +26,7 @@ std::vector<CatalogueEntry> scene_catalogue();
 /// Throws scenes::SceneError as scene_catalogue does, and when there is none.
 std::vector<std::filesystem::path> scenes_of_the_paper();
 
+/// Names of the sweeps that come with the program, sorted.
+std::vector<std::string> sweep_names();
+
 }  // namespace pneuma::app

@@ -13,7 +13,10 @@ namespace {
 constexpr const char* print_scenes =
     R"~(pneuma list --json 2>/dev/null | sed -n 's/.*"scene": "\([A-Za-z0-9_.-]*\)".*/\1/p')~";
 
-enum class Value { none, choice, folder, file, scene, other };
+constexpr const char* print_sweeps =
+    R"~(pneuma list --sweeps 2>/dev/null | sed -n 's/^\([A-Za-z0-9_.-]*\)$/\1/p')~";
+
+enum class Value { none, choice, folder, file, scene, sweep, other };
 
 Value kind_of(const OptionModel& option) {
   if (option.value.empty()) return Value::none;
@@ -21,6 +24,7 @@ Value kind_of(const OptionModel& option) {
   if (option.value == "DIR") return Value::folder;
   if (option.value == "FILE") return Value::file;
   if (option.value.starts_with("SCENE")) return Value::scene;
+  if (option.value == "SWEEP") return Value::sweep;
   return Value::other;
 }
 
@@ -48,6 +52,8 @@ std::string bash_offer(const OptionModel& option) {
       return "-f";
     case Value::scene:
       return fmt::format("-f -W \"$({})\"", print_scenes);
+    case Value::sweep:
+      return fmt::format("-f -W \"$({})\"", print_sweeps);
     case Value::none:
     case Value::other:
       break;
@@ -82,6 +88,8 @@ std::string zsh_action(const OptionModel& option) {
       return "_files";
     case Value::scene:
       return "_pneuma_scenes";
+    case Value::sweep:
+      return "_pneuma_sweeps";
     case Value::none:
     case Value::other:
       break;
@@ -147,6 +155,8 @@ std::string fish_value(const OptionModel& option) {
       return " -r";
     case Value::scene:
       return fmt::format(" -a '({})'", quoted(print_scenes, "\\'"));
+    case Value::sweep:
+      return fmt::format(" -a '({})'", quoted(print_sweeps, "\\'"));
     case Value::other:
       break;
   }
@@ -223,8 +233,9 @@ complete -F _pneuma pneuma
 std::string zsh_completion(const CommandModel& program) {
   std::string text = fmt::format(
       "#compdef pneuma\n# zsh completion of pneuma, written from its table of commands\n"
-      "_pneuma_scenes() {{\n  compadd -- $({})\n  _files -g '*.toml'\n}}\n",
-      print_scenes);
+      "_pneuma_scenes() {{\n  compadd -- $({})\n  _files -g '*.toml'\n}}\n"
+      "_pneuma_sweeps() {{\n  compadd -- $({})\n  _files -g '*.toml'\n}}\n",
+      print_scenes, print_sweeps);
   for (const CommandModel* command : flattened(program)) text += zsh_body(*command);
   return text + "_pneuma \"$@\"\n";
 }

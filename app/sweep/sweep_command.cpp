@@ -187,7 +187,7 @@ void add_sweep_command(CLI::App& app, Action& action, std::span<const std::strin
   const auto typed = std::make_shared<SweepArguments>();
   typed->command_line.assign(command_line.begin(), command_line.end());
   command->add_option("FILE", typed->file, "A sweep file, or the name of one in scenes/sweeps/")
-      ->type_name("FILE");
+      ->type_name("SWEEP");
   command
       ->add_option("--out", typed->out, "Folder for table, diagrams and pictures [out/sweep/NAME]")
       ->type_name("DIR");

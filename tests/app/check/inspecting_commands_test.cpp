@@ -176,6 +176,15 @@ TEST(List, HasEverySceneFile) {
   }
 }
 
+TEST(List, HasEverySweepByName) {
+  const std::string listed = '\n' + run_pneuma("list --sweeps").output;
+  for (const auto& file : fs::directory_iterator(PNEUMA_SOURCE_FOLDER "/scenes/sweeps")) {
+    if (file.path().extension() != ".toml") continue;
+    const std::string name = file.path().stem().string();
+    EXPECT_NE(listed.find('\n' + name + '\n'), std::string::npos) << name << listed;
+  }
+}
+
 TEST(List, ShowsInvalidScenesAndGoesOn) {
   const TemporaryFolder folder;
   fs::create_directory(folder.path() / "scenes");

@@ -110,7 +110,8 @@ std::string offered_by_bash(const std::string& words, const TemporaryFolder& fol
   write_text(folder / "pneuma.bash", bash_completion(program()));
   const std::string script =
       "source pneuma.bash; complete -p pneuma > complete; compopt() { echo \"$@\" > compopt; }; "
-      "pneuma() { printf '\"scene\": \"%s\",\\n' a_scene 'a_$(touch pwned).toml'; }; " +
+      "pneuma() { if [[ $2 == --sweeps ]]; then printf '%s\\n' a_sweep 'a_$(touch pwned)'; else "
+      "printf '\"scene\": \"%s\",\\n' a_scene 'a_$(touch pwned).toml'; fi; }; " +
       ("COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); ") +
       "_pneuma; echo \"${COMPREPLY[*]}\"";
   write_text(folder / "script", script);
@@ -126,6 +127,7 @@ TEST(BashCompletion, OffersCommandsOptionsChoicesAndScenes) {
   EXPECT_EQ(offered_by_bash("pneuma render --over"), "--overlay --overwrite");
   EXPECT_EQ(offered_by_bash("pneuma render --on-divergence s"), "stop substep");
   EXPECT_EQ(offered_by_bash("pneuma render a_"), "a_scene");
+  EXPECT_EQ(offered_by_bash("pneuma sweep a_"), "a_sweep");
   EXPECT_EQ(offered_by_bash("pneuma render --frames 1"), "");
 }
 
@@ -133,6 +135,7 @@ TEST(BashCompletion, OffersCommandsOptionsChoicesAndScenes) {
 TEST(BashCompletion, RunsNothingThatASceneIsCalled) {
   const TemporaryFolder folder;
   EXPECT_EQ(offered_by_bash("pneuma render a_", folder), "a_scene");
+  EXPECT_EQ(offered_by_bash("pneuma sweep a_", folder), "a_sweep");
   EXPECT_FALSE(std::filesystem::exists(folder / "pwned"));
 }
 
