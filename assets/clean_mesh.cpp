@@ -246,12 +246,20 @@ class Cleaner {
       compact();
       say(fmt::format("{} left out", counted(others, "other component", "other components")));
     }
-    if (work_.mesh.vertices.size() > at(options_.most_vertices)) {
-      throw ModelError(fmt::format(
-          "{} vertices are more than the limit of {}; simplify the model (or, in a scene, raise "
-          "vertices_per_body in [limits])",
-          work_.mesh.vertices.size(), options_.most_vertices));
-    }
+    check_count();
+  }
+
+  /// Of what will be left: that comes to so many or is refused.
+  void check_count() const {
+    const std::size_t before = work_.mesh.vertices.size();
+    const std::size_t after =
+        options_.simplify_to ? std::min(before, at(*options_.simplify_to)) : before;
+    if (after <= at(options_.most_vertices)) return;
+    throw ModelError(fmt::format(
+        "{} vertices are more than the limit of {}; simplify the model with model.vertices (of a "
+        "model file --vertices N), or raise vertices_per_body in [limits] (--set "
+        "limits.vertices_per_body=N)",
+        after, options_.most_vertices));
   }
 
   void make_surface() {

@@ -18,7 +18,7 @@ struct CleanOptions {
   bool centre = true;            // the middle of the turned bounding box comes to the origin
   bool repair = false;           // also mends what needs a guess: repair_mesh.h, part_from_itself.h
   std::optional<int> simplify_to = {};  // vertices at most, of what is repaired; none: all
-  int most_vertices = 100'000;          // of the component, after welding
+  int most_vertices = 100'000;          // of the component, once it is welded and simplified
 };
 
 /// A model that cannot be as coarse as is asked for.

@@ -51,8 +51,8 @@ std::string beginning(const std::filesystem::path& path) {
 [[noreturn]] void refuse_size(const base::FileTooLarge& error, std::size_t max_bytes,
                               std::size_t read_before) {
   throw ModelError(fmt::format(
-      "{} are more than the limit of {} for a model{}; simplify the model (or, in a scene, raise "
-      "model_file_mib in [limits])",
+      "{} are more than the limit of {} for a model{}; simplify the model, or raise "
+      "model_file_mib in [limits] (--set limits.model_file_mib=N)",
       error.size_text(read_before), max_bytes, read_before == 0 ? "" : " with its files"));
 }
 

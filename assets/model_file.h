@@ -12,8 +12,8 @@ namespace pneuma::assets {
 
 /// What to do about a file with too many vertices or triangles.
 inline constexpr std::string_view how_to_keep_counts =
-    "simplify the model (or, in a scene, raise vertices_per_body in [limits], eight times which "
-    "the file may have)";
+    "simplify the model with model.vertices (of a model file --vertices N), or raise "
+    "vertices_per_body in [limits], eight times which a file may have that is not simplified";
 
 enum class Format { obj, ply, stl, off, gltf, glb, a3ds, dae, fbx };
 

@@ -68,12 +68,25 @@ struct Choice {
   bool implicit = false;
 };
 
-assets::CleanModel read_model(const fs::path& path, const assets::CleanOptions& options) {
+assets::CleanModel read_model(const fs::path& path, const assets::CleanOptions& options,
+                              std::size_t most_bytes) {
   try {
-    return assets::load_model(path, options);
+    return assets::load_model(path, options, most_bytes);
   } catch (const assets::ModelError&) {
     throw_if_interrupted();  // Ctrl-C ends the importer first
     throw;
+  }
+}
+
+/// The refusal to simplify is what matters where there are too many vertices without it.
+assets::CleanModel unsimplified_model(const fs::path& path, assets::CleanOptions options,
+                                      std::size_t most_bytes,
+                                      const assets::SimplifyError& refusal) {
+  options.simplify_to.reset();
+  try {
+    return read_model(path, options, most_bytes);
+  } catch (const assets::ModelError&) {
+    throw refusal;
   }
 }
 
@@ -219,12 +232,12 @@ assets::CleanModel chosen_model(const fs::path& path, const ModelChoice& choice,
   placing.component = choice.component;
   placing.repair = choice.repair;
   placing.simplify_to = choice.vertices.value_or(most_chosen_vertices);
+  placing.most_vertices = choice.most_vertices;
   try {
-    return read_model(path, placing);
-  } catch (const assets::SimplifyError&) {
+    return read_model(path, placing, choice.most_bytes);
+  } catch (const assets::SimplifyError& error) {
     if (choice.vertices) throw;
-    placing.simplify_to.reset();
-    return read_model(path, placing);
+    return unsimplified_model(path, placing, choice.most_bytes, error);
   }
 }
 

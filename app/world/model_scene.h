@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "assets/clean_mesh.h"
+#include "assets/import_model.h"
 
 namespace pneuma::app {
 
@@ -26,6 +27,9 @@ struct ModelChoice {
   // Degrees about x, then y, then z, as model.rotation; none: as files of its format stand.
   std::optional<sim::Vec3> rotation = {};
   std::optional<int> vertices = {};  // at most, as model.vertices; none: most_chosen_vertices
+  // As of the scene that is made of it.
+  int most_vertices = assets::CleanOptions{}.most_vertices;
+  std::size_t most_bytes = assets::ImportLimits{}.bytes;
 };
 
 /// Finer models are simplified to it, where they can be, so that their runs do not take long.

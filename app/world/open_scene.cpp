@@ -15,6 +15,7 @@
 #include "assets/model.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
+#include "scenes/loader/overrides.h"
 #include "scenes/loader/text_checks.h"
 
 namespace pneuma::app {
@@ -23,6 +24,8 @@ namespace {
 /// So that a run still ends: stiffer bodies are for implicit methods, as the warning about them
 /// says.
 constexpr int most_chosen_steps = 100'000;
+
+constexpr double most_mib = 2048.0;  // of limits.model_file_mib
 
 /// Damping by the step is of the steps that were thought of.
 bool is_damped_by_the_step(const scenes::Scene& scene) {
@@ -98,6 +101,19 @@ scenes::Scene model_scene(const std::filesystem::path& model, ModelChoice choice
   return scene;
 }
 
+/// Those that hold before there is a scene; bad values are refused with it.
+ModelChoice with_limits(ModelChoice choice, std::span<const std::string> overrides) {
+  const auto vertices = scenes::number_override(overrides, "limits.vertices_per_body");
+  if (vertices && *vertices >= 1.0 && *vertices <= scenes::max_model_vertices) {
+    choice.most_vertices = static_cast<int>(*vertices);
+  }
+  const auto mib = scenes::number_override(overrides, "limits.model_file_mib");
+  if (mib && *mib > 0.0 && *mib <= most_mib) {
+    choice.most_bytes = static_cast<std::size_t>(*mib * 1024.0 * 1024.0);
+  }
+  return choice;
+}
+
 /// The scene made of a model names the file.
 void check_path(const std::filesystem::path& model) {
   const std::string path = std::filesystem::absolute(model).string();
@@ -112,7 +128,7 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
   if (assets::has_model_ending(name)) {
     const std::filesystem::path model = find_model(name, "");
     check_path(model);
-    return model_scene(model, choice, overrides);
+    return model_scene(model, with_limits(choice, overrides), overrides);
   }
   if (choice.repair || choice.rotation || choice.vertices || !choice.component.empty()) {
     throw UsageError(

@@ -65,6 +65,8 @@ TEST(ModelLimits, VerticesInTheFile) {
                {"800008 vertices are more than the limit of 800000 for a file",
                 "raise vertices_per_body in [limits]"});
   EXPECT_EQ(load_model(folder / "a.ply", {.most_vertices = 100'001}).mesh.vertices.size(), 8u);
+  EXPECT_EQ(load_model(folder / "a.ply", {.simplify_to = 100}).mesh.vertices.size(), 8u)
+      << "what is simplified counts when it is";
 }
 
 TEST(ModelLimits, TrianglesWithInstances) {

@@ -208,6 +208,27 @@ TEST_F(OpenScene, AModelHasAsManyVerticesAsAskedFor) {
   EXPECT_EQ(vertices_of(whole), 642);
 }
 
+/// Of what is left, and also where there is no scene yet.
+TEST_F(OpenScene, ALimitHoldsOnceAModelIsSimplified) {
+  const sim::TriangleMesh fine = sim::make_icosphere(1.0, 4);  // 2562 vertices
+  const std::vector<std::string> few = {"limits.vertices_per_body=1000"};
+  const auto refused = [&](const std::vector<std::string>& overrides) {
+    try {
+      open(fine, overrides);
+    } catch (const assets::ModelError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refused(few).find("2562 vertices are more than the limit of 1000; simplify the model"),
+            std::string::npos)
+      << refused(few);
+  const scenes::Scene scene = open_scene(file().string(), few, {.vertices = 300});
+  EXPECT_LE(build_world(scene).soft[0].positions.size(), 300);
+  EXPECT_NE(refused({"limits.model_file_mib=0.01"}).find("raise model_file_mib in [limits]"),
+            std::string::npos);
+}
+
 TEST_F(OpenScene, TakesOneComponentOfSeveral) {
   const sim::TriangleMesh two = assets::both(
       assets::cube(), assets::moved(sim::make_box({2.0, 1.0, 1.0}, 2), {9.0, 0.0, 0.0}));
