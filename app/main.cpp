@@ -28,6 +28,7 @@ ExitCode run(const app::Action& action) {
     if (std::fflush(stdout) != 0) throw base::IoError("cannot write to standard output");
     return code;
   } catch (...) {
+    std::fflush(stdout);  // what was printed before stands before
     const app::Failure failure = app::failure_of(std::current_exception());
     app::print_message("{}{}\n", failure.is_placed ? "" : "pneuma: ", failure.words);
     return failure.code;

@@ -333,7 +333,7 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
   }
   text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) +
           gas_ranges_text(run) + shapes_text(run) + momentum_text(run);
-  text += named_line("speed at the end", end_speed_text(run));
+  if (!run.divergence) text += named_line("speed at the end", end_speed_text(run));
   return text + named_line("state hash", hex(run.state_hash));
 }
 

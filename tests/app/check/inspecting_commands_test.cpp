@@ -125,6 +125,12 @@ TEST(Check, EndsWith5WhenTheRunDiverges) {
   EXPECT_NE(result.output.find("DIVERGED"), std::string::npos);
 }
 
+TEST(Check, SaysWhyItDivergedBelowTheReport) {
+  const ProgramResult result = run_pneuma(
+      "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin 2>&1");
+  EXPECT_LT(result.output.find("state hash"), result.output.rfind("pneuma: "));
+}
+
 TEST(Check, EndsWith7WhenBodiesPassThroughEachOther) {
   const std::string run = "check torus_four_cubes --run --set duration=2 ";
   const ProgramResult crossing =
