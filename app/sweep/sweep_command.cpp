@@ -20,6 +20,7 @@
 #include "app/study/study_folder.h"
 #include "app/sweep/frame_chunks.h"
 #include "app/sweep/read_sweep.h"
+#include "app/sweep/render_run.h"
 #include "app/sweep/sweep_chunks.h"
 #include "app/sweep/sweep_pictures.h"
 #include "app/sweep/sweep_plots.h"
