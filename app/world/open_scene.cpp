@@ -48,6 +48,12 @@ const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
   return shortest;
 }
 
+std::string why_shorter(const StepAdvice& advice) {
+  const std::string stable = fmt::format("small motions are stable up to {:.3g} s", advice.limit);
+  if (advice.too_long()) return stable;
+  return fmt::format("{}, and steps beyond {:.3g} s come too near that", stable, advice.safe);
+}
+
 void choose_step(scenes::Scene& scene) {
   if (scene.names_step || is_damped_by_the_step(scene)) return;
   const std::vector<StepAdvice> advices = step_advices(build_world(scene));
@@ -56,9 +62,9 @@ void choose_step(scenes::Scene& scene) {
   if (!shortest) return;
   scene.warnings.push_back(to_string(scenes::diagnostic_at(
       place_of(scene, shortest->body),
-      fmt::format("note: body '{}': {} steps per second in place of {}, because small motions are "
-                  "stable up to {:.3g} s; simulation.steps_per_second sets others",
-                  shortest->body, shortest->steps_per_second, steps, shortest->limit))));
+      fmt::format("note: body '{}': {} steps per second in place of {}, because {}; "
+                  "simulation.steps_per_second sets others",
+                  shortest->body, shortest->steps_per_second, steps, why_shorter(*shortest)))));
   steps = shortest->steps_per_second;
 }
 

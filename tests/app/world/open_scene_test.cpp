@@ -286,6 +286,17 @@ TEST_F(OpenSceneFile, KeepsAStepThatItNamesOrThatSuffices) {
   EXPECT_TRUE(soft.warnings.empty());
 }
 
+TEST_F(OpenSceneFile, KeepsAwayFromTheLimitWhereBodiesMayMeet) {
+  const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\nk = 250\n";
+  EXPECT_EQ(open(ball).settings.steps_per_second, 60);
+  const scenes::Scene two =
+      open(ball + "[[body]]\nkind = \"rigid\"\nmass = 1\nposition = [9, 0, 4]\n");
+  EXPECT_EQ(two.settings.steps_per_second, 120);
+  ASSERT_FALSE(two.warnings.empty());
+  EXPECT_NE(two.warnings.back().find("come too near that"), std::string::npos)
+      << two.warnings.back();
+}
+
 TEST_F(OpenSceneFile, TakesTheShortestStepOfItsBodies) {
   const scenes::Scene one = open(stiff_body);
   const scenes::Scene two = open(stiff_body + "[[body]]\nposition = [9, 0, 4]\nk = 500000\n");
