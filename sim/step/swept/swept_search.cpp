@@ -147,8 +147,8 @@ void SweptSearch::find_borne_boxes() {
   }
   m_.is_borne.resize(world_.rigid.size());
   for (int i = 0; i < boxes; ++i) {
-    const bool is_held = m_.touches_other[at(i)] != 0;
-    m_.is_borne[at(i)] = is_held && sets.find(i) == sets.find(bearer) ? 1 : 0;
+    const bool is_borne = m_.touches_other[at(i)] != 0 && sets.find(i) == sets.find(bearer);
+    m_.is_borne[at(i)] = is_borne ? 1 : 0;
   }
 }
 

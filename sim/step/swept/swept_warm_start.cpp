@@ -17,15 +17,15 @@ auto bodies_of_contact(const SweptContact& contact) {
   return in_order(contact.first.body, contact.second.body);
 }
 
-auto order_of(const FrictionSlip& slip) {
-  return std::tuple(in_order(slip.first, slip.second), slip.first_feature.kind,
-                    slip.first_feature.index, slip.second_feature.kind, slip.second_feature.index);
+template <typename OfFeatures>
+auto order_of_features(const OfFeatures& known) {
+  return std::tuple(in_order(known.first, known.second), known.first_feature.kind,
+                    known.first_feature.index, known.second_feature.kind,
+                    known.second_feature.index);
 }
-
+auto order_of(const FrictionSlip& slip) { return order_of_features(slip); }
 auto order_of(const FeatureImpulse& impulse) {
-  return std::tuple(impulse.is_of_start, in_order(impulse.first, impulse.second),
-                    impulse.first_feature.kind, impulse.first_feature.index,
-                    impulse.second_feature.kind, impulse.second_feature.index);
+  return std::tuple(impulse.is_of_start, order_of_features(impulse));
 }
 
 template <typename OfFeatures>
