@@ -116,10 +116,10 @@ Section simulation_section(Scene& scene) {
                                     "a box's with another or the ground"})),
           only(swept,
                of_method({"sleep_speed", &settings.sleep_speed, at_least(0), "m/s",
-                          "bodies that touch, none faster for half a second (soft ones on "
-                          "average), leave the step until something touches them; of a body "
-                          "shorter than 1 m, this times its length in m; less in gravity below "
-                          "5 m/s^2; 0: never"})),
+                          "bodies that touch leave the step, until something touches them, when no "
+                          "box was faster for half a second and no soft one got further in a "
+                          "second than this leads in half of it; of a body shorter than 1 m, this "
+                          "times its length in m; less in gravity below 5 m/s^2; 0: never"})),
           {"seed", &settings.seed, at_least(0), "",
            "of everything random: particles, jitter, tumble"},
       }};

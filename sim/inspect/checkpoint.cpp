@@ -9,7 +9,7 @@
 namespace pneuma::sim {
 namespace {
 
-constexpr std::uint64_t magic = 0x38414d55454e50ULL;  // "PNEUMA8" as little-endian bytes
+constexpr std::uint64_t magic = 0x39414d55454e50ULL;  // "PNEUMA9" as little-endian bytes
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   base::Hash hash;
@@ -150,11 +150,15 @@ void get_rest(Reader& reader, World& world) {
   for (BodyRest& rest : world.rest) {
     reader.get(rest.quiet_steps);
     reader.get(rest.group);
-    for (double& x : rest.places.reshaped()) reader.get(x);
     if (rest.quiet_steps < 0 || rest.group < -1 || rest.group >= body_count(world)) {
       throw CheckpointError("the saved state has bodies at rest with others that do not exist");
     }
   }
+  world.quiet_places.resize(reader.count());
+  if (!world.quiet_places.empty() && world.quiet_places.size() != at(soft_vertex_count(world))) {
+    throw CheckpointError("the saved state has places of other vertices than there are");
+  }
+  for (Vec3& place : world.quiet_places) reader.get(place);
 }
 
 void get(Reader& reader, const World& world, WarmStartImpulse& impulse) {
@@ -265,8 +269,9 @@ std::vector<std::uint8_t> save_state(const World& world) {
   for (const BodyRest& rest : world.rest) {
     writer.put(rest.quiet_steps);
     writer.put(rest.group);
-    for (const double x : rest.places.reshaped()) writer.put(x);
   }
+  writer.put(world.quiet_places.size());
+  for (const Vec3& place : world.quiet_places) writer.put(place);
   return writer.take();
 }
 

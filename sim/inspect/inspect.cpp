@@ -51,6 +51,16 @@ Energy energy(const SoftBody& body, const VertexArray& positions, const VertexAr
   return result;
 }
 
+/// Of bodies that are at rest: of others they are where these are.
+void add_quiet_places(base::Hash& hash, const World& world) {
+  const Vec3* place = world.quiet_places.data();
+  for (std::size_t i = 0; i < world.soft.size() && !world.quiet_places.empty(); ++i) {
+    for (int v = 0; v < world.soft[i].positions.size(); ++v, ++place) {
+      if (world.rest[i].quiet_steps > 0) add(hash, *place);
+    }
+  }
+}
+
 }  // namespace
 
 Energy energy(const SoftBody& body, const Vec3& gravity) {
@@ -166,8 +176,10 @@ std::uint64_t state_hash(const World& world) {
     hash.add(world.lost_energy[i]);
   }
   for (std::size_t i = 0; i < world.rest.size(); ++i) {
-    if (world.rest[i].group >= 0) add_list(hash, {static_cast<int>(i), world.rest[i].group});
+    const auto& [quiet_steps, group] = world.rest[i];
+    if (quiet_steps > 0 || group >= 0) add_list(hash, {static_cast<int>(i), quiet_steps, group});
   }
+  add_quiet_places(hash, world);
   return hash.value();
 }
 

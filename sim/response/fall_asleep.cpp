@@ -13,19 +13,24 @@ namespace {
 
 /// s, for which nothing may be faster: a body that comes to a halt and turns round does not sleep.
 constexpr double quiet_time = 0.5;
+/// s, of soft bodies, which may move in it as far as in the other: in half a second a ball that
+/// turns round on a slope of a degree would come back to where it was.
+constexpr double quiet_time_of_soft = 1.0;
 
 /// m/s^2. Where gravity is weaker, what it speeds up without end would be quiet for long too:
-/// speeds of rest are less in proportion.
+/// speeds of rest are less in proportion. Without gravity nothing rests but what stands still.
 constexpr double weak_gravity = 5.0;
 
+/// Of what a fall gains in a step: so fast do contacts shake what they hold.
+constexpr double shaken = 2.0;
+
 double sleep_speed(const Settings& settings) {
-  const double gravity = settings.gravity.norm();
-  const double part = gravity > 0.0 ? std::min(1.0, gravity / weak_gravity) : 1.0;
-  return part * settings.sleep_speed;
+  return std::min(1.0, settings.gravity.norm() / weak_gravity) * settings.sleep_speed;
 }
 
-int quiet_steps(const Settings& settings) {
-  return static_cast<int>(std::ceil(quiet_time * settings.steps_per_second));
+int quiet_steps(const World& world, int body) {
+  const double seconds = body < soft_count(world) ? quiet_time_of_soft : quiet_time;
+  return static_cast<int>(std::ceil(seconds * world.settings.steps_per_second));
 }
 
 /// Handles may move whenever their keys say so, gas may come or go, and what is at the other end of
@@ -39,21 +44,21 @@ bool may_sleep(const World& world, int body) {
   return !has_gas_flow(world, body) && !has_springs(world, body);
 }
 
-/// Vertices that lie apart, where their numbers say.
-BodyRest::Places places_now(const SoftBody& body) {
-  BodyRest::Places places;
-  const auto count = static_cast<int>(places.cols());
-  for (int i = 0; i < count; ++i) {
-    places.col(i) = Vec3(body.positions[i * body.positions.size() / count]);
+/// Whether the vertices are where they were, give or take `reach` (m): contacts shake what they
+/// hold, so that the way of a single step would not tell.
+bool stays(const SoftBody& body, const Vec3* places, double reach) {
+  for (int v = 0; v < body.positions.size(); ++v) {
+    if ((body.positions[v] - places[v]).squaredNorm() > reach * reach) return false;
   }
-  return places;
+  return true;
 }
 
-/// Whether the vertices are where they were, give or take `least` (m). A body that contacts shake
-/// rests if it stays where it is: neither velocities nor the way of a single step would tell.
-bool stays(const SoftBody& body, const BodyRest& rest, double least) {
-  const BodyRest::Places moved = places_now(body) - rest.places;
-  return moved.colwise().squaredNorm().maxCoeff() <= least * least;
+/// Whether it moves in a step no further (m) on average than what contacts shake: it does not ring.
+/// Velocities would not tell: those of a vertex that is pressed hold, at the end of a step, what
+/// its forces did since the impulses of its start.
+bool does_not_ring(const SoftBody& body, const VertexArray& before, double than) {
+  const double squares = (body.positions.rows() - before.rows()).squaredNorm();
+  return squares <= than * than * body.positions.size();
 }
 
 /// Whether no point of the box has moved further, m.
@@ -92,28 +97,46 @@ FallAsleep::FallAsleep(const World& world)
       never_sleeps_(islands_.size()),
       is_touched_(islands_.size()),
       stays_awake_(islands_.size()) {
+  int vertices = 0;
+  for (const SoftBody& body : world.soft) {
+    first_vertices_.push_back(vertices);
+    vertices += body.positions.size();
+  }
   for (int i = 0; i < body_count(world); ++i) {
     sizes_.push_back(length_of_rest(world, i));
     never_sleeps_[at(i)] = may_sleep(world, i) ? 0 : 1;
   }
 }
 
+void FallAsleep::note_places(World& world, int soft) const {
+  const VertexArray& positions = world.soft[at(soft)].positions;
+  Vec3* places = world.quiet_places.data() + first_vertices_[at(soft)];
+  for (int v = 0; v < positions.size(); ++v) places[v] = positions[v];
+}
+
+bool FallAsleep::is_quiet(const World& world, const MotionStart& start, int body) const {
+  const Settings& settings = world.settings;
+  const double speed = sleep_speed(settings) * sizes_[at(body)], step = time_step(settings);
+  const int box = body - soft_count(world);
+  if (box >= 0) return has_moved_less(world.rigid[at(box)], start.rigid[at(box)], step * speed);
+  const SoftBody& soft = world.soft[at(body)];
+  const double fastest = std::max(speed, shaken * step * settings.gravity.norm());
+  return stays(soft, world.quiet_places.data() + first_vertices_[at(body)], quiet_time * speed) &&
+         does_not_ring(soft, start.soft[at(body)].positions, step * fastest);
+}
+
 bool FallAsleep::count_quiet_steps(World& world, const MotionStart& start) {
   if (world.settings.sleep_speed == 0.0) return false;
   world.rest.resize(islands_.size());
-  const int enough = quiet_steps(world.settings);
-  const double speed = sleep_speed(world.settings), step = time_step(world.settings);
+  world.quiet_places.resize(at(soft_vertex_count(world)), Vec3::Zero());
   bool any = false;
   for (int i = 0; i < body_count(world); ++i) {
     BodyRest& rest = world.rest[at(i)];
     if (rest.group >= 0 || never_sleeps_[at(i)] != 0) continue;
-    const int box = i - soft_count(world);
-    const double way = speed * sizes_[at(i)];
-    const bool is_quiet =
-        box < 0 ? stays(world.soft[at(i)], rest, quiet_time * way)
-                : has_moved_less(world.rigid[at(box)], start.rigid[at(box)], step * way);
-    if (box < 0 && !is_quiet) rest.places = places_now(world.soft[at(i)]);
-    rest.quiet_steps = is_quiet ? std::min(rest.quiet_steps + 1, enough) : 0;
+    const bool rests = is_quiet(world, start, i);
+    if (!rests && i < soft_count(world)) note_places(world, i);
+    const int enough = quiet_steps(world, i);
+    rest.quiet_steps = rests ? std::min(rest.quiet_steps + 1, enough) : 0;
     any = any || rest.quiet_steps == enough;
   }
   return any;
@@ -142,9 +165,9 @@ void FallAsleep::find_who_stays_awake(const World& world, std::span<const Contac
     touch(contact.first);
     touch(contact.second);
   }
-  const int enough = quiet_steps(world.settings);
   for (int i = 0; i < body_count(world); ++i) {
-    if (world.rest[at(i)].quiet_steps < enough) stays_awake_[at(islands_.find(i))] = 1;
+    if (world.rest[at(i)].quiet_steps < quiet_steps(world, i))
+      stays_awake_[at(islands_.find(i))] = 1;
   }
 }
 

@@ -17,9 +17,11 @@ namespace pneuma::sim {
 double length_of_rest(const World& world, int body);
 
 /// Bodies near each other are an island, which falls asleep when it touches something and for half
-/// a second none of its boxes has moved faster than Settings::sleep_speed, and none of its soft
-/// bodies further than that speed leads; of a body that is shorter than a metre, that times its
-/// length in metres, and in gravity below 5 m/s^2 in proportion less.
+/// a second none of its boxes has moved faster than Settings::sleep_speed, and for a second no
+/// vertex of its soft bodies further than that speed leads in half of it; these, on average of
+/// their vertices, were not faster than it or than what gravity gives in two steps. Of a body that
+/// is shorter than a metre that speed is times its length in metres, and in gravity below 5 m/s^2
+/// in proportion less.
 /// Allocates nothing but in the first step.
 class FallAsleep {
  public:
@@ -34,10 +36,13 @@ class FallAsleep {
                       std::span<const Contact> contacts);
 
  private:
+  void note_places(World& world, int soft) const;
+  bool is_quiet(const World& world, const MotionStart& start, int body) const;
   void find_islands(const World& world, std::span<const BodyPair> pairs);
   void find_who_stays_awake(const World& world, std::span<const Contact> contacts);
 
   base::DisjointSets islands_;              // of bodies
+  std::vector<int> first_vertices_;         // per soft body, among those of all
   std::vector<double> sizes_;               // per body, m, at most 1
   std::vector<std::uint8_t> never_sleeps_;  // per body
   std::vector<std::uint8_t> is_touched_;    // per island's first body

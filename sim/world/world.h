@@ -62,14 +62,11 @@ struct DepenetratingPair {
   int second = 0;
 };
 
-/// How long a body has been slower than Settings::sleep_speed. State, because bodies at rest leave
-/// the step together, and wake together (sim/world/sleep.h).
+/// How long a body has been at rest (sim/response/fall_asleep.h). State, because bodies at rest
+/// leave the step together, and wake together (sim/world/sleep.h).
 struct BodyRest {
   int quiet_steps = 0;
   int group = -1;  // of bodies that sleep: the first of those that fell asleep with it; -1: awake
-  /// m, of vertices of a soft body, where they were when it became quiet, one per column.
-  using Places = Eigen::Matrix<double, 3, 8>;
-  Places places = Places::Zero();
 };
 
 struct World {
@@ -89,11 +86,19 @@ struct World {
   // (sim/step/swept/returned_energy.h).
   std::vector<double> lost_energy;
   std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
-  std::int64_t steps = 0;      // done so far; time is steps / steps_per_second
+  // m, of all vertices of soft bodies, body by body: where they were when the body last was not at
+  // rest. Likewise.
+  std::vector<Vec3> quiet_places;
+  std::int64_t steps = 0;  // done so far; time is steps / steps_per_second
 };
 
 /// Where bodies of both kinds are numbered, the soft ones come first, then the boxes.
 inline int soft_count(const World& world) { return static_cast<int>(world.soft.size()); }
+inline int soft_vertex_count(const World& world) {
+  int sum = 0;
+  for (const SoftBody& body : world.soft) sum += body.positions.size();
+  return sum;
+}
 inline int body_count(const World& world) {
   return soft_count(world) + static_cast<int>(world.rigid.size());
 }

@@ -12,13 +12,15 @@ constexpr double near_of_wanted = 1.5;
 
 }  // namespace
 
-/// What keeps its shape needs no skin that is thicker than the other's, however large its
-/// triangles.
+/// What keeps its shape needs no skin that is thicker than the other's, however large it is.
 double ContactMotion::distance_wanted(int first, int second) const {
   if (second == swept_ground) return 0.0;
   const double one = bodies_.skin(first), other = bodies_.skin(second);
-  return (is_kinematic(world_, first) ? std::min(one, other) : one) +
-         (is_kinematic(world_, second) ? std::min(one, other) : other);
+  const auto keeps_shape = [&](int body) {
+    return bodies_.is_rigid(body) || is_kinematic(world_, body);
+  };
+  return (keeps_shape(first) ? std::min(one, other) : one) +
+         (keeps_shape(second) ? std::min(one, other) : other);
 }
 
 double ContactMotion::near_distance(int first, int second) const {
@@ -67,11 +69,18 @@ Vec3 ContactMotion::shift(const SweptContact& contact) const {
   return bodies_.shift(contact.first) - bodies_.shift(contact.second);
 }
 
-/// The points of a contact that is placed as boxes will meet lie apart until then.
+/// At one point of both, so that they turn each other by the same. The points of a contact that is
+/// placed as boxes will meet lie apart until then; a soft body's is on its surface.
 std::pair<SurfacePoint, SurfacePoint> ContactMotion::where_impulses_act(
     const SweptContact& contact) const {
   std::pair<SurfacePoint, SurfacePoint> points(contact.first, contact.second);
-  if (is_rigid(contact)) meet_halfway(points.first, points.second);
+  if (is_rigid(contact)) {
+    meet_halfway(points.first, points.second);
+  } else if (bodies_.is_rigid(contact.first.body)) {
+    points.first.point = points.second.point;
+  } else if (contact.second.body != swept_ground && bodies_.is_rigid(contact.second.body)) {
+    points.second.point = points.first.point;
+  }
   return points;
 }
 

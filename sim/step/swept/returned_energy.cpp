@@ -16,8 +16,9 @@ namespace {
 constexpr double kept_of_loss = 0.9;
 /// Of vibrations, per step, that is taken for work that has not made energy grow.
 constexpr double fraction_of_vibration = 0.02;
-/// Of what a fall gains in a step: slower vibrations, and other motions, count as rest. So a load
-/// that is out of balance by less than a 20th of its weight may stay where it is.
+/// Of what a fall gains in a step: slower vibrations, and motions of bodies against each other,
+/// count as rest. So a load on soft bodies that is out of balance by less than a 20th of its weight
+/// may stay where it is.
 constexpr double quiet_vibration = 0.2, quiet_speed = 0.05;
 
 /// What bears an island without being moved by impulses: the ground and bodies that nothing moves,
@@ -32,10 +33,8 @@ struct Due {
   Holder holder = Holder::none;
 
   double all() const { return must + may; }
-  /// Of a motion with so much energy, J.
-  double of(double motion) const {
-    return std::min(motion, must + std::min(may, quiet_speed * quiet_speed * fall));
-  }
+  /// J, that counts as rest.
+  double of_rest() const { return std::min(may, quiet_speed * quiet_speed * fall); }
   double of_vibration(double motion) const {
     const double quiet = quiet_vibration * quiet_vibration * fall;
     const double most = std::max(fraction_of_vibration * motion, quiet);
@@ -330,7 +329,8 @@ double size_of_impulses(const SweptMemory& memory, int island) {
 
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
-/// body at rest, holds the island it takes from all motion, whose momentum the holder gets. Loads
+/// body at rest, holds the island it takes what it must from all motion, whose momentum the holder
+/// gets; what else it may not, or bodies that start to roll would stay where they are. Loads
 /// press soft bodies at the start of each step, whose damping takes that until its end, so that
 /// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
 /// against each other shrink by the same factor, so that at contacts what parts still parts.
@@ -343,12 +343,10 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
   const double whole = motion.energy();  // also of what all have in common
-  if (holder == Holder::none) {
-    motion.leave_out_common();
-  } else if (motion.has_soft_bodies()) {
-    due.forgive(energy_of_fall(world.settings, motion.mass()));
-  }
-  const double taken = motion.take(due.of(motion.energy())), left = due.must - taken;
+  const bool is_held = holder != Holder::none, is_soft = motion.has_soft_bodies();
+  if (is_held && is_soft) due.forgive(energy_of_fall(world.settings, motion.mass()));
+  if (!is_held || is_soft) motion.leave_out_common();
+  const double taken = motion.take(due.must + due.of_rest()), left = due.must - taken;
   if (holder != Holder::none || !(left > 0.0) || is_pulled(world, memory, island))
     return {.taken = taken};
   // What is left at each contact adds up from body to body.

@@ -40,7 +40,7 @@ struct Excess {
 /// (World::lost_energy): its energy may rise by what it lost in some ten steps, and no higher than
 /// it was. Balls of a few joules between plates, at the coarsest steps that they bear, were seen to
 /// rise by up to 2 % of their motion. For the rest of the work only vibrations pay, by a fraction
-/// of theirs, and what is as slow as at rest.
+/// of theirs, and motions of its bodies against each other that are as slow as at rest.
 ///
 /// Not of implicit steps, which damp what impulses at their start move.
 ///

@@ -242,10 +242,12 @@ void forget_other_bodies(World& world) {
         return std::max(impulse.first, impulse.second) < boxes;
       });
   if (knows_its_boxes && is_of(at(body_count(world)), world.rest) &&
-      is_of(world.soft.size(), world.lost_energy)) {
+      is_of(world.soft.size(), world.lost_energy) &&
+      is_of(at(soft_vertex_count(world)), world.quiet_places)) {
     return;
   }
   world.rest.clear();
+  world.quiet_places.clear();
   world.lost_energy.clear();
   world.friction_slips.clear();
   world.feature_impulses.clear();

@@ -7,6 +7,7 @@
 
 #include "sim/inspect/checkpoint.h"
 #include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::sim {
@@ -157,6 +158,48 @@ TEST(Sleep, BallsThatContactsShakeFallAsleep) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(is_asleep(world, i)) << i;
 }
 
+/// All of it is held but the last vertex, which swings by more than what rests may move.
+TEST(Sleep, ABallOfWhichOneVertexSwingsStaysAwake) {
+  for (const double swing : {0.0, 0.1}) {
+    World world;
+    world.settings.contact = ContactMethod::swept;
+    SoftBody ball = make_body(make_icosphere(1.0, 2), {0.0, 0.0, 1.0});
+    ball.material.rho_g = swing > 0.0 ? 0.0 : 0.3;
+    const int last = ball.positions.size() - 1;
+    std::vector<std::uint8_t> is_pinned(at(last + 1), 1), follows(at(last + 1), 0);
+    is_pinned[at(last)] = 0;
+    ball.pins = make_pins(ball.positions, is_pinned, follows, {});
+    ball.positions[last] += swing * (ball.positions[last] - mean(ball.positions));
+    world.soft = {ball};
+    world.rigid = {make_rigid(Vec3::Ones(), {0.0, 0.0, 2.51})};
+    ASSERT_FALSE(run(world, 5.0));
+    EXPECT_EQ(is_asleep(world, 0), swing == 0.0);
+  }
+}
+
+/// By less than what rests may move, but at a speed of 13 times that of what rests.
+TEST(Sleep, ABallThatRingsStaysAwake) {
+  World world;
+  world.settings.steps_per_second = 9600;
+  world.settings.contact = ContactMethod::swept;
+  SoftBody ball = make_body(make_icosphere(0.5, 2), {0.0, 0.0, 0.5025});
+  ball.material.k = 18000.0;
+  ball.material.rho_g = 0.0;
+  ball.material.vertex_mass = 2.0 / ball.positions.size();
+  ball.material.surface = {0.0, 0.5};
+  world.soft = {ball};
+  world.rigid = {make_rigid({4.0, 4.0, 1.0}, {0.0, 0.0, -0.5})};
+  world.rigid[0].is_kinematic = true;
+  world.settings.ground.reset();
+  for (int v = 0; v < ball.positions.size(); ++v) {
+    world.soft[0].velocities[v] =
+        0.3 * (ball.positions[v] - mean(ball.positions)).cwiseProduct(Vec3(1.0, 1.0, -2.0));
+  }
+  ASSERT_FALSE(run(world, 1.0));
+  EXPECT_GT(energy(world).kinetic, 1e-3);
+  EXPECT_FALSE(is_asleep(world, 0));
+}
+
 /// Its middle stays, and so does its outline.
 TEST(Sleep, ABallThatSpinsStaysAwake) {
   World world;
@@ -275,6 +318,17 @@ TEST(Sleep, WeakGravityLetsNothingSleepThatItSpeedsUp) {
   EXPECT_TRUE(is_asleep(world, 0));
 }
 
+/// Nothing would hold what is slow there.
+TEST(Sleep, WithoutGravityWhatPushesAnotherGoesOn) {
+  World world = make_free_boxes(
+      {make_rigid(Vec3::Ones(), {0.0, 0.0, 0.0}), make_rigid(Vec3::Ones(), {1.01, 0.0, 0.0})}, 0.0);
+  world.settings.contact = ContactMethod::swept;
+  world.rigid[0].velocity.x() = 0.008;
+  ASSERT_FALSE(run(world, 10.0));
+  EXPECT_FALSE(is_asleep(world, 0) || is_asleep(world, 1));
+  EXPECT_NEAR(momentum(world).linear.x(), 0.008, 1e-12);
+}
+
 TEST(Sleep, TheEnergyThatFallsAsleepIsWorkOfContacts) {
   World world;
   SoftBody ball = make_body(make_sphere(2.0, 8, 8), {0.0, 0.0, 2.0});
@@ -312,6 +366,26 @@ TEST(Sleep, IsPartOfTheSavedState) {
     EXPECT_EQ(state_hash(world), state_hash(loaded)) << "after " << seconds << " s";
     EXPECT_EQ(is_first_asleep(world), is_first_asleep(loaded));
   }
+}
+
+/// Of a ball that is quiet, but not yet for long enough.
+TEST(Sleep, WhereSoftBodiesWereIsPartOfTheSavedState) {
+  World world = make_shaft();
+  const auto is_quiet = [&] {
+    return world.rest.size() > 0 && world.rest[0].quiet_steps > 20 && !is_asleep(world, 0);
+  };
+  Stepper stepper(world);
+  while (!is_quiet()) {
+    ASSERT_LT(world.steps, 240 * 12);
+    ASSERT_FALSE(stepper.step(world));
+  }
+  World loaded = make_shaft();
+  load_state(save_state(world), loaded);
+  EXPECT_EQ(state_hash(world), state_hash(loaded));
+  ASSERT_FALSE(run(loaded, 0.05));
+  ASSERT_GT(loaded.rest[0].quiet_steps, 0) << "it stays where it was";
+  ASSERT_FALSE(run(world, 0.05));
+  EXPECT_EQ(state_hash(world), state_hash(loaded));
 }
 
 }  // namespace

@@ -258,6 +258,25 @@ TEST(Swept, AnImpactKeepsLinearAndAngularMomentum) {
   EXPECT_LT((momentum(world).angular - before.angular).norm(), 1e-10 * scale * 3.0);
 }
 
+/// A box that spins rubs on a ball: friction acts on both at one point, however far apart they are.
+TEST(Swept, FrictionOnABoxKeepsAngularMomentum) {
+  World world = make_free_swept_world();
+  world.settings.integrator = Integrator::symplectic_euler;  // as above
+  world.settings.steps_per_second = 240;
+  SoftBody ball = make_smooth_ball({0.0, 5.0, 0.2}, {2.0, -5.0, 0.0});
+  ball.material.surface.friction = 0.5;
+  world.soft = {ball};
+  RigidBox box = make_rigid({2.0, 2.0, 2.0}, Vec3::Zero(), 100.0);
+  box.rho_g = 0.0;
+  box.angular_velocity = {0.0, 1.0, 5.0};
+  world.rigid = {box};
+  const Momentum before = momentum(world);
+  ASSERT_FALSE(run(world, 1.0));
+  const double turned = (world.rigid[0].angular_velocity - box.angular_velocity).norm();
+  EXPECT_GT(turned, 0.1);
+  EXPECT_LT((momentum(world).angular - before.angular).norm(), 1e-11 * before.angular.norm());
+}
+
 /// Points without forces between them, and cubes, which turn evenly: contacts alone change energy.
 TEST(Swept, ContactsChangeTheEnergyByTheWorkOfTheirImpulses) {
   World world = make_free_swept_world();
