@@ -151,14 +151,14 @@ using CameraKey = std::array<double, 7>;
 /// Without an eye and a target the camera is placed so that every body is in view, and draws back
 /// when they come to go further.
 struct CameraScene {
-  std::optional<Vec3> eye;      // m
-  std::optional<Vec3> target;   // m
-  double azimuth = -60.0;       // degrees from +x towards +y: where an automatic camera stands
-  double elevation = 22.0;      // degrees above the horizon
-  double field_of_view = 35.0;  // degrees, vertical
-  std::vector<CameraKey> path;  // in place of eye and target: times rise
-  std::string follow;           // a body's name: the camera keeps its place beside it
-  double orbit = 0.0;           // degrees/s about the vertical through the target
+  std::optional<Vec3> eye;          // m
+  std::optional<Vec3> target;       // m
+  double azimuth = -60.0;           // degrees from +x towards +y: where an automatic camera stands
+  std::optional<double> elevation;  // degrees above the horizon
+  double field_of_view = 35.0;      // degrees, vertical
+  std::vector<CameraKey> path;      // in place of eye and target: times rise
+  std::string follow;               // a body's name: the camera keeps its place beside it
+  double orbit = 0.0;               // degrees/s about the vertical through the target
 };
 
 struct PictureScene {
