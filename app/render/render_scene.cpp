@@ -21,6 +21,7 @@
 #include "app/render/animated_png.h"
 #include "app/render/contact_sheet.h"
 #include "app/render/draw_frames.h"
+#include "app/render/log/past_launches.h"
 #include "app/render/log/run_log.h"
 #include "app/render/redraw.h"
 #include "app/render/turntable.h"
@@ -190,11 +191,13 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   log.close();
 }
 
-/// Before the run, which may take long.
-void check_video(const scenes::Scene& scene, const RenderRequest& request, Progress& progress) {
+/// Before the run, which may take long. A run that goes on replaces the video that it made.
+void check_video(const scenes::Scene& scene, const RenderRequest& request, const RunFolder& folder,
+                 Progress& progress) {
   const std::string& video = request.video;
   check_video_place(video);
-  if (request.existing != ExistingRun::overwrite) {
+  const bool goes_on = request.existing == ExistingRun::resume && was_to_make(folder, video);
+  if (request.existing != ExistingRun::overwrite && !goes_on) {
     refuse_to_replace(video, "name another file with --video");
   }
   if (is_animated_png(video)) return;
@@ -309,7 +312,7 @@ ExitCode render_scene(const RenderRequest& request) {
   const bool is_model = assets::has_model_ending(request.scene);
   if (is_model) name_model_from(folder, scene);
   try {
-    if (!request.video.empty()) check_video(scene, request, progress);
+    if (!request.video.empty()) check_video(scene, request, folder, progress);
     const bool is_turned = request.turntable > 0;
     const RunFolder pictures = is_turned ? turntable_folder(folder) : folder;
     const Frames compared = is_turned ? Frames{0, request.turntable - 1} : frames;

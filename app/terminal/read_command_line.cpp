@@ -146,6 +146,7 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> command_li
 bool read_command_line(CLI::App& cli, const std::vector<std::string>& typed) {
   const std::vector<std::string> command_line = with_help_as_option(typed);
   const NamedCommand named = named_command(cli, command_line);
+  if (command_line != typed) throw_complaint(*named.command, {unknown_command_complaint(named)});
   try {
     // CLI11 takes its words from the end of a vector.
     cli.parse(std::vector<std::string>(command_line.rbegin(), command_line.rend() - 1));

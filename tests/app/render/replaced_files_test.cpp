@@ -121,5 +121,20 @@ TEST_F(ReplacedFiles, DoesNotReplaceAVideoUnasked) {
   EXPECT_NE(read_text(film), "mine");
 }
 
+TEST_F(ReplacedFiles, ReplacesTheVideoOfARunThatGoesOn) {
+  const fs::path film = folder_ / "film.apng", other = folder_ / "other.apng";
+  write_text(other, "mine");
+  ASSERT_EQ(render("--frames 2 --video '" + film.string() + "'").exit_code, 0);
+  const std::string before = read_text(film);
+  EXPECT_EQ(render("--frames 3 --resume --video '" + other.string() + "'").exit_code, 6);
+  EXPECT_EQ(read_text(other), "mine");
+  for (const char* frames : {"--frames 3", "--frames 4"}) {
+    const ProgramResult longer =
+        render(std::string(frames) + " --resume --video='" + film.string() + "'");
+    EXPECT_EQ(longer.exit_code, 0) << longer.output;
+  }
+  EXPECT_GT(read_text(film).size(), before.size());
+}
+
 }  // namespace
 }  // namespace pneuma

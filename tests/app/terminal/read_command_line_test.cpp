@@ -49,6 +49,10 @@ TEST(Help, IsAskedForByAWordToo) {
   EXPECT_EQ(run_pneuma("help").output, run_pneuma("--help").output);
   EXPECT_EQ(run_pneuma("help study error").output, run_pneuma("study error --help").output);
   EXPECT_EQ(run_pneuma("help").exit_code, 0);
+  const ProgramResult unknown = run_pneuma("help scene 2>&1");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.output.find("there is no command 'scene'"), std::string::npos)
+      << unknown.output;
 }
 
 TEST(EmptyValue, IsNoValue) {

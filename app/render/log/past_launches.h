@@ -1,0 +1,13 @@
+// What a run was started with before.
+#pragma once
+
+#include <string>
+
+#include "app/render/log/run_folder.h"
+
+namespace pneuma::app {
+
+/// Whether an earlier launch of the folder's run, finished or not, was to make this video.
+bool was_to_make(const RunFolder& folder, const std::string& video);
+
+}  // namespace pneuma::app
