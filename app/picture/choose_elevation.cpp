@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/world/touch.h"
@@ -16,11 +17,13 @@ namespace {
 using sim::Bounds;
 using sim::Vec3;
 
-constexpr double usual = 22.0, highest = 70.0, interval = 6.0;  // degrees
-/// Of the places of bodies, so that what lies behind another one is no reason to look from above.
-constexpr double share_to_see = 0.6;
+constexpr double usual = 22.0, highest = 82.0, interval = 6.0;  // degrees
+/// Of the places: what lies behind another body is no reason to look from above.
+constexpr double share_to_see = 0.75;
 /// So many bodies of a scene stand for all.
-constexpr int most_samples = 64;
+constexpr int most_samples = 32;
+/// From all around.
+constexpr int azimuths_around = 8;
 
 /// m along a unit direction to where a line from a point passes the plane of a triangle within it;
 /// none behind the point (Moeller and Trumbore 1997).
@@ -52,6 +55,35 @@ std::vector<bool> have_surfaces(const scenes::Scene& scene) {
   return soft;
 }
 
+struct Obstacle {
+  explicit Obstacle(sim::ClosedSurface closed) : surface(std::move(closed)) {
+    for (const auto& point : surface.points) bounds.include(Vec3(point.data()));
+  }
+
+  /// Whether the line from a point may meet it: whether it comes into the sphere about its bounds.
+  bool may_be_met(const Vec3& point, const Vec3& direction) const {
+    const Vec3 there = bounds.centre() - point;
+    const double radius = 0.5 * bounds.size().norm(), ahead = there.dot(direction);
+    return ahead > -radius && (there - ahead * direction).squaredNorm() <= radius * radius;
+  }
+
+  /// m to where the line meets it, if it does; to the nearest such place, or to any.
+  std::optional<double> way_to(const Vec3& point, const Vec3& direction, bool any) const {
+    std::optional<double> least;
+    if (!may_be_met(point, direction)) return least;
+    for (const auto& [a, b, c] : surface.triangles) {
+      const auto corner = [&](int i) { return Vec3(surface.points[sim::at(i)].data()); };
+      const auto way = crossing(corner(a), corner(b), corner(c), point, direction);
+      if (way && (!least || *way < *least)) least = way;
+      if (least && any) return least;
+    }
+    return least;
+  }
+
+  sim::ClosedSurface surface;
+  Bounds bounds;
+};
+
 /// What no force moves.
 class Obstacles {
  public:
@@ -59,50 +91,44 @@ class Obstacles {
     const std::vector<bool> are_seen = have_surfaces(scene);
     const auto add = [&](int body, const auto& shape) {
       if (!sim::is_kinematic(world, body)) return;
-      auto& of_kind = are_seen[sim::at(body)] ? surfaces_ : seen_through_;
-      of_kind.push_back(sim::closed_surface(shape));
+      auto& of_kind = are_seen[sim::at(body)] ? opaque_ : seen_through_;
+      of_kind.emplace_back(sim::closed_surface(shape));
     };
     int body = 0;
     for (const sim::SoftBody& soft : world.soft) add(body++, soft);
     for (const sim::RigidBox& box : world.rigid) add(body++, box);
   }
 
-  bool hide_nothing() const { return surfaces_.empty(); }
+  bool hide_nothing() const { return opaque_.empty(); }
 
   bool hide(const Vec3& point, const Vec3& direction) const {
-    return std::isfinite(way_to(surfaces_, point, direction));
+    return std::ranges::any_of(opaque_, [&](const Obstacle& obstacle) {
+      return obstacle.way_to(point, direction, true).has_value();
+    });
   }
 
   /// m, to the ground too; infinite where nothing is in the way.
   double free_way(const Vec3& point, const Vec3& direction) const {
-    const double to_surfaces =
-        std::min(way_to(surfaces_, point, direction), way_to(seen_through_, point, direction));
-    if (!ground_ || direction.z() >= 0.0) return to_surfaces;
-    return std::min(to_surfaces, std::max(0.0, point.z() / -direction.z()));
-  }
-
- private:
-  static double way_to(const std::vector<sim::ClosedSurface>& surfaces, const Vec3& point,
-                       const Vec3& direction) {
     double least = std::numeric_limits<double>::infinity();
-    for (const sim::ClosedSurface& surface : surfaces) {
-      for (const auto& [a, b, c] : surface.triangles) {
-        const auto corner = [&](int i) { return Vec3(surface.points[sim::at(i)].data()); };
-        const auto way = crossing(corner(a), corner(b), corner(c), point, direction);
-        if (way) least = std::min(least, *way);
+    if (ground_ && direction.z() < 0.0) least = std::max(0.0, point.z() / -direction.z());
+    for (const auto* kind : {&opaque_, &seen_through_}) {
+      for (const Obstacle& obstacle : *kind) {
+        least = std::min(least, obstacle.way_to(point, direction, false).value_or(least));
       }
     }
     return least;
   }
 
-  std::vector<sim::ClosedSurface> surfaces_, seen_through_;
+ private:
+  std::vector<Obstacle> opaque_, seen_through_;
   bool ground_;
 };
 
-/// Of bodies that can move: the middle of each at the start, and where it comes to lie.
+/// Of bodies that can move: the middle and the top of each where it comes to lie, or where it is at
+/// the start if it falls for ever.
 std::vector<Vec3> places_to_see(const sim::World& world, const Obstacles& obstacles) {
   std::vector<int> bodies;
-  for (int i = 0; i < static_cast<int>(world.soft.size() + world.rigid.size()); ++i) {
+  for (int i = 0; i < sim::body_count(world); ++i) {
     if (!sim::is_kinematic(world, i)) bodies.push_back(i);
   }
   const Vec3 down = world.settings.gravity.normalized();
@@ -110,11 +136,12 @@ std::vector<Vec3> places_to_see(const sim::World& world, const Obstacles& obstac
   const int count = static_cast<int>(bodies.size()), samples = std::min(count, most_samples);
   for (int i = 0; i < samples; ++i) {
     const Bounds bounds = body_bounds(world, bodies[sim::at(i * count / samples)]);
-    const Vec3 middle = bounds.centre();
-    places.push_back(middle);
-    const double way = obstacles.free_way(middle, down);
+    Vec3 middle = bounds.centre();
+    const double way = down.isZero(0.0) ? 0.0 : obstacles.free_way(middle, down);
     const double radius = 0.5 * bounds.size().dot(down.cwiseAbs());
-    if (std::isfinite(way) && way > radius) places.push_back(middle + (way - radius) * down);
+    if (std::isfinite(way) && way > radius) middle += (way - radius) * down;
+    places.push_back(middle);
+    places.push_back(middle - 0.9 * radius * down);
   }
   return places;
 }
@@ -128,24 +155,26 @@ Vec3 direction_to_camera(double azimuth, double elevation) {
 
 }  // namespace
 
-double choose_elevation(const scenes::Scene& scene, const sim::World& world) {
-  if (scene.camera.elevation) return *scene.camera.elevation;
+double choose_elevation(const scenes::Scene& scene, const sim::World& world, bool from_all_around) {
+  const scenes::CameraScene& camera = scene.camera;
+  if (camera.elevation) return *camera.elevation;
+  if (!camera.follow.empty()) return usual;
   const Obstacles obstacles(scene, world);
   if (obstacles.hide_nothing()) return usual;
   const std::vector<Vec3> places = places_to_see(world, obstacles);
-  const auto share_seen = [&](double elevation) {
-    const Vec3 direction = direction_to_camera(scene.camera.azimuth, elevation);
-    const auto seen = std::ranges::count_if(
-        places, [&](const Vec3& place) { return !obstacles.hide(place, direction); });
-    return static_cast<double>(seen) / static_cast<double>(places.size());
-  };
-  if (places.empty()) return usual;
+  const int azimuths = from_all_around ? azimuths_around : 1;
+  const double all = static_cast<double>(places.size()) * azimuths;
   double best = usual, most = 0.0;
-  for (double elevation = usual; elevation <= highest; elevation += interval) {
-    const double share = share_seen(elevation);
-    if (share >= share_to_see) return elevation;
-    if (share > most) {
-      most = share;
+  for (double elevation = usual; elevation <= highest && all > 0.0; elevation += interval) {
+    double seen = 0.0;
+    for (int i = 0; i < azimuths; ++i) {
+      const Vec3 direction = direction_to_camera(camera.azimuth + 360.0 * i / azimuths, elevation);
+      seen += static_cast<double>(std::ranges::count_if(
+          places, [&](const Vec3& place) { return !obstacles.hide(place, direction); }));
+    }
+    if (seen >= share_to_see * all) return elevation;
+    if (seen > most) {
+      most = seen;
       best = elevation;
     }
   }

@@ -30,7 +30,7 @@ render::Camera fixed_camera(const scenes::CameraScene& scene) {
 render::Camera following_camera(const scenes::Scene& scene, const sim::World& start) {
   constexpr double around = 2.0;
   const Bounds body = bounds_of_body(start, scene.camera.follow);
-  render::ViewFit fit = make_fit(scene, start, body.centre());
+  render::ViewFit fit = make_fit(scene, start, body.centre(), false);
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
                     (corner & 4) != 0 ? 0.5 : -0.5);

@@ -79,10 +79,12 @@ render::Camera with_target_on_axis(render::Camera camera, const Vec3& middle) {
 
 }  // namespace
 
-render::ViewFit make_fit(const scenes::Scene& scene, const sim::World& world, const Vec3& origin) {
+render::ViewFit make_fit(const scenes::Scene& scene, const sim::World& world, const Vec3& origin,
+                         bool from_all_around) {
   // The scene counts azimuth from +x, the renderer from -y.
-  const render::ViewDirection direction{static_cast<float>(scene.camera.azimuth) + 90.0f,
-                                        static_cast<float>(choose_elevation(scene, world))};
+  const render::ViewDirection direction{
+      static_cast<float>(scene.camera.azimuth) + 90.0f,
+      static_cast<float>(choose_elevation(scene, world, from_all_around))};
   const float aspect =
       static_cast<float>(scene.picture.width) / static_cast<float>(scene.picture.height);
   return render::ViewFit(direction, static_cast<float>(scene.camera.field_of_view), aspect,
@@ -98,7 +100,7 @@ Bounds worth_showing(const Bounds& start, double largest_body) {
 ViewOfBodies::ViewOfBodies(const scenes::Scene& scene, const sim::World& start)
     : start_(sim::bounds(start)),
       turns_(scene.camera.orbit != 0.0),
-      fit_(make_fit(scene, start, start_.centre())) {}
+      fit_(make_fit(scene, start, start_.centre(), turns_)) {}
 
 std::optional<std::string> ViewOfBodies::add(const sim::World& world) {
   const Bounds shown = worth_showing(start_, largest_body(world));
@@ -117,7 +119,7 @@ render::Camera ViewOfBodies::camera() const {
 
 render::Camera camera_around(const scenes::Scene& scene, const sim::World& world) {
   const Vec3 middle = sim::bounds(world).centre();
-  render::ViewFit fit = make_fit(scene, world, middle);
+  render::ViewFit fit = make_fit(scene, world, middle, true);
   for_each_vertex(world, [&](const Vec3& point) { add_circle(point, middle, fit); });
   return with_target_on_axis(fit.camera(), middle);
 }

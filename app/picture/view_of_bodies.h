@@ -12,9 +12,9 @@
 namespace pneuma::app {
 
 /// From the direction that the scene gives, with the caption's place left free.
-/// `world`: what the camera may have to look over.
+/// `world`: what the camera may have to look over; `from_all_around`: as it goes around.
 render::ViewFit make_fit(const scenes::Scene& scene, const sim::World& world,
-                         const sim::Vec3& origin);
+                         const sim::Vec3& origin, bool from_all_around);
 
 /// Where a body is worth showing: one that falls or flies away for ever would make all others
 /// vanish. `largest_body` is the max. diagonal of a single body, m.

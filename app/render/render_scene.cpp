@@ -179,7 +179,7 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   }
   if (log.seen()) camera.go_on(*log.seen());
   fields.go_on(log.fields_seen());
-  log.append_launch(request.command_line, request.threads);
+  log.append_launch(request.command_line, whole_path(request.video), request.threads);
 
   Simulation simulation(scene, log.world(), request.threads, request.on_divergence);
   try {
@@ -191,7 +191,8 @@ void make_frames(const RenderRequest& request, const scenes::Scene& scene, const
   log.close();
 }
 
-/// Before the run, which may take long. A run that goes on replaces the video that it made.
+/// Before the run, which may take long. A run that goes on replaces the video that it was to
+/// make before.
 void check_video(const scenes::Scene& scene, const RenderRequest& request, const RunFolder& folder,
                  Progress& progress) {
   const std::string& video = request.video;

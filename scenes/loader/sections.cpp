@@ -202,8 +202,7 @@ Section camera_section(Scene& scene) {
                            "of the automatic camera's place, from +x towards +y"}),
           only(automatic, {"elevation", &camera.elevation, between(-89, 89), "degrees",
                            "of the automatic camera's place above the horizon; left out: 22, or up "
-                           "to 70 to look "
-                           "over what stands still or is moved"}),
+                           "to 82 to look over what stands still or is moved"}),
           {"field_of_view", &camera.field_of_view, between(1, 120), "degrees", "vertical"},
       }};
 }

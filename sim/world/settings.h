@@ -86,7 +86,7 @@ struct Settings {
   // or on the ground (ERRATA row 57). Where anything bounces, as many again (ERRATA row 56).
   int contact_iterations = 10;
   // m/s; bodies that touch each other or what stands still leave the step when none of them has
-  // been faster for half a second (ERRATA row 71); 0: none does. Of swept contacts.
+  // been faster, or left its place, for a while (ERRATA row 71); 0: none does. Of swept contacts.
   double sleep_speed = 0.01;
   std::uint64_t seed = 1;  // of the particles' start features (ERRATA row 40)
 };

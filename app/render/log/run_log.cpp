@@ -37,8 +37,9 @@ RunLog::RunLog(const RunFolder& folder, ExistingRun existing, const RunIdentity&
   }
 }
 
-void RunLog::append_launch(const std::vector<std::string>& command_line, int threads) {
-  journal_->append(launch_line(command_line, threads, next_frame_));
+void RunLog::append_launch(const std::vector<std::string>& command_line, const std::string& video,
+                           int threads) {
+  journal_->append(launch_line(command_line, video, threads, next_frame_));
 }
 
 void RunLog::append_divergence(const std::string& message) {

@@ -37,7 +37,8 @@ class RunLog {
   const FieldScale::Seen& fields_seen() const { return fields_seen_; }
 
   /// Each appends its line. They throw base::IoError.
-  void append_launch(const std::vector<std::string>& command_line, int threads);
+  void append_launch(const std::vector<std::string>& command_line, const std::string& video,
+                     int threads);
   void append_divergence(const std::string& message);
   /// Writes the world's state (sim/inspect/checkpoint.h) after the frame's line: whatever the
   /// moment of a kill, the state belongs to a frame that the journal knows.

@@ -137,13 +137,15 @@ Json present_header(const JournalContents& journal) {
   return header;
 }
 
-Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from) {
-  return {{"launch",
-           {{"date", utc_date()},
-            {"command_line", shell_line(command_line)},
-            {"first_frame", from},
-            {"threads", threads},
-            {"machine", machine_json<Json>()}}}};
+Json launch_line(const std::vector<std::string>& command_line, const std::string& video,
+                 int threads, std::int64_t from) {
+  Json launch = {{"date", utc_date()},
+                 {"command_line", shell_line(command_line)},
+                 {"first_frame", from},
+                 {"threads", threads},
+                 {"machine", machine_json<Json>()}};
+  if (!video.empty()) launch["video"] = video;
+  return {{"launch", launch}};
 }
 
 FrameState frame_state(const Simulation& simulation, const FrameCamera& camera) {

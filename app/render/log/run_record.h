@@ -66,8 +66,10 @@ std::optional<render::ViewFit::Seen> seen_in(const Json& line);
 /// The greatest values up to a frame's line of what its pictures show as colours.
 FieldScale::Seen fields_in(const Json& line);
 
-/// A line per time that the run is started or continued: where, when and how.
-Json launch_line(const std::vector<std::string>& command_line, int threads, std::int64_t from);
+/// A line per time that the run is started or continued: where, when and how. `video`: the whole
+/// path of that which it is to make; empty: none.
+Json launch_line(const std::vector<std::string>& command_line, const std::string& video,
+                 int threads, std::int64_t from);
 
 /// That the run has come to a step that diverges.
 Json divergence_line(const std::string& message);

@@ -12,7 +12,8 @@ constexpr double near_of_wanted = 1.5;
 
 }  // namespace
 
-/// What keeps its shape needs no skin that is thicker than the other's, however large it is.
+/// What keeps its shape needs no skin that is thicker than the other's, however large it is: two
+/// boxes keep twice the thinner one.
 double ContactMotion::distance_wanted(int first, int second) const {
   if (second == swept_ground) return 0.0;
   const double one = bodies_.skin(first), other = bodies_.skin(second);

@@ -136,5 +136,24 @@ TEST_F(ReplacedFiles, ReplacesTheVideoOfARunThatGoesOn) {
   EXPECT_GT(read_text(film).size(), before.size());
 }
 
+/// As other folders have files of its name.
+TEST_F(ReplacedFiles, KnowsTheVideoOfARunByItsWholePath) {
+  const fs::path here = folder_ / "here", there = folder_ / "there";
+  fs::create_directories(here);
+  fs::create_directories(there);
+  const auto render_in = [&](const fs::path& folder, const std::string& video,
+                             const std::string& options) {
+    return run_pneuma("render '" + scene().string() + "' --out '" + out().string() +
+                          "' --size 64x48 --video " + video + " " + options + " 2>&1",
+                      "cd '" + folder.string() + "' &&");
+  };
+  ASSERT_EQ(render_in(here, "film.apng", "--frames 2").exit_code, 0);
+  write_text(there / "film.apng", "mine");
+  EXPECT_EQ(render_in(there, "film.apng", "--frames 3 --resume").exit_code, 6);
+  EXPECT_EQ(read_text(there / "film.apng"), "mine");
+  EXPECT_EQ(render_in(here, "./film.apng", "--frames 3 --resume").exit_code, 0);
+  EXPECT_EQ(render_in(there, "../here/film.apng", "--frames 4 --resume").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace pneuma

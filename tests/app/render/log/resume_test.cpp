@@ -31,7 +31,7 @@ class UnfinishedRun : public testing::Test {
   UnfinishedRun() {
     Journal journal(folder_.journal(), 0);
     journal.append({{"run", identity_}, {"scene_toml", "k = 1\nn = 2\n"}});
-    journal.append(launch_line({"pneuma"}, 1, 0));
+    journal.append(launch_line({"pneuma"}, "", 1, 0));
     Simulation simulation(scene_, start_, 1);
     for (int frame = 0; frame < 5; ++frame) {
       if (frame > 0) simulation.advance_frame();

@@ -24,7 +24,7 @@ class RunLogOfABall : public testing::Test {
   /// Draws so many frames of the run.
   void draw(RunLog& log, int count) const {
     Simulation simulation(scene_, log.world(), 1);
-    log.append_launch({"pneuma"}, 1);
+    log.append_launch({"pneuma"}, "", 1);
     for (int frame = 0; frame < count; ++frame) {
       while (simulation.frame() < log.next_frame() + frame) simulation.advance_frame();
       write_text(folder_.frame(simulation.frame()), "12345");
