@@ -329,8 +329,8 @@ double size_of_impulses(const SweptMemory& memory, int island) {
 
 /// Takes energy (J, > 0) from the motion of an island's bodies that is not that of one rigid body
 /// with their momentum and angular momentum: these stay as they are. Where the ground, or another
-/// body at rest, holds the island it takes what it must from all motion, whose momentum the holder
-/// gets; what else it may not, or bodies that start to roll would stay where they are. Loads
+/// body at rest, holds an island of boxes it takes from all motion, whose momentum the holder gets;
+/// not of one with soft bodies: what starts to roll would stay where it is. Loads
 /// press soft bodies at the start of each step, whose damping takes that until its end, so that
 /// contacts with these do some work at rest: as much as falls by a step is let be. All velocities
 /// against each other shrink by the same factor, so that at contacts what parts still parts.

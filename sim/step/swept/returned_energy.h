@@ -30,8 +30,8 @@ struct Excess {
 /// the same at both ends. Where it grows they take energy and where it falls they add some, of
 /// second order in the step: an island whose contacts have added energy gives it up again from the
 /// motion of its soft bodies that is not that of a rigid body, and then from that of its bodies
-/// against each other, so that momentum and angular momentum stay as they are. Where the ground or
-/// a body at rest bears the island, which then changes these anyway, it gives up from all motion.
+/// against each other, so that momentum and angular momentum stay as they are. An island of boxes
+/// that the ground or a body at rest bears, which changes these anyway, gives up from all motion.
 ///
 /// Of an island that is so held and has soft bodies, springs that are damped between the impulses
 /// at both ends may have taken the work already, and steps may gain and lose energy alternately.
