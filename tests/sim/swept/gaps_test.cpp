@@ -1,4 +1,4 @@
-// What rests on a body lies on it, however large that is.
+// What rests on a body lies on it, however large that is (ERRATA row 67).
 #include <gtest/gtest.h>
 
 #include "tests/sim/swept/swept_worlds.h"
@@ -25,7 +25,7 @@ TEST(Gaps, ASmallCubeLiesOnALargeOne) {
       ASSERT_FALSE(run(world, 2.0));
       const double top = world.rigid[0].position.z() + 5.0;
       const double gap = world.rigid[1].position.z() - 0.5 * side - top;
-      // Its own skin twice, up to half as much more, and what two sides of it leave.
+      // Twice its own skin of a 400th of its side, and half as much more, up to which boxes touch.
       EXPECT_LT(gap, 0.0075 * side + 1e-4) << side << " " << start;
       EXPECT_GT(gap, -0.002 * side) << side << " " << start;
     }
@@ -42,7 +42,7 @@ TEST(Gaps, ASmallBallLiesOnALargeCube) {
   world.settings.steps_per_second = 960;
   ASSERT_FALSE(run(world, 2.0));
   const double gap = lowest(world.soft[0]) - (world.rigid[0].position.z() + 5.0);
-  // 2 and a half of the ball's skin, a hundredth of its edges.
+  // Twice its skin, a hundredth of its edges of 2.7 cm, is 0.5 mm; it may still bounce.
   EXPECT_LT(gap, 1e-3);
 }
 

@@ -177,7 +177,7 @@ TEST(Sleep, ABallOfWhichOneVertexSwingsStaysAwake) {
   }
 }
 
-/// By less than what rests may move, but at a speed of 13 times that of what rests.
+/// Faster than contacts shake what they hold.
 TEST(Sleep, ABallThatRingsStaysAwake) {
   World world;
   world.settings.steps_per_second = 9600;
