@@ -76,7 +76,21 @@ bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints&
   const auto [first, second] = candidate.bodies;
   const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
   return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
-                              closest, moment, has_box ? flat_of_boxes : flat);
+                              closest, moment, has_box ? flat_of_boxes : flat) &&
+         obstacle_is_nearest(candidate, closest, moment);
+}
+
+/// A vertex in the flat of an obstacle has faces beside it that a tilted triangle is nearer to: the
+/// triangle's normal there would brake what slides.
+bool ContactPlaces::obstacle_is_nearest(const SweptCandidate& candidate,
+                                        const ClosestPoints& closest, Moment moment) const {
+  const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
+    return !bodies_.is_obstacle(body) || feature.kind != FeatureKind::vertex ||
+           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat);
+  };
+  const auto [first, second] = candidate.bodies;
+  return is_nearest(first, candidate.features.first, closest.second_point) &&
+         is_nearest(second, candidate.features.second, closest.first_point);
 }
 
 /// With a face of one towards the other.
@@ -137,7 +151,7 @@ SweptContact ContactPlaces::place_along_line(const SweptCandidate& candidate,
 }
 
 std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& candidate,
-                                                        bool acted) const {
+                                                        const SweptContact* acted) const {
   const auto [first, second] = candidate.bodies;
   return place_at_end(candidate, acted,
                       acted ? any_distance : motion_.near_distance(first, second));
@@ -146,14 +160,15 @@ std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& ca
 std::optional<SweptContact> ContactPlaces::place_beside_hit(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;
   const double near = motion_.near_distance(first, second);
-  auto contact = place_at_end(candidate, false, near + hit_together * bodies_.skin(first));
+  auto contact = place_at_end(candidate, nullptr, near + hit_together * bodies_.skin(first));
   if (!contact || contact->distance < near) return std::nullopt;
   contact->is_near = true;
   return contact;
 }
 
 /// Within the `reach`, m.
-std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& candidate, bool acted,
+std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& candidate,
+                                                        const SweptContact* acted,
                                                         double reach) const {
   const auto [first, second] = candidate.bodies;
   if (second == swept_ground || candidate.is_of_near_boxes) {
@@ -167,8 +182,26 @@ std::optional<SweptContact> ContactPlaces::place_at_end(const SweptCandidate& ca
   if (!acted && (!stands(candidate, *closest, Moment::end) ||
                  are_beside_each_other(candidate, *closest, Moment::end)))
     return std::nullopt;
-  const SweptContact contact = place(candidate, *closest, Moment::end);
-  return motion_.is_moved(contact) ? std::optional(contact) : std::nullopt;
+  SweptContact contact = place(candidate, *closest, Moment::end);
+  if (!motion_.is_moved(contact)) return std::nullopt;
+  if (acted && has_slid_off(candidate, *closest, contact)) {
+    contact.is_near = false;
+    contact.normal = acted->normal;
+  }
+  return contact;
+}
+
+/// From one face onto the next: another pair holds it now, and this one gives its impulse back
+/// along the line on which it was given. Along the line to the edge between the faces it would
+/// brake what slides. (Two soft bodies that both give way have no common point where that line
+/// would not turn them.)
+bool ContactPlaces::has_slid_off(const SweptCandidate& candidate, const ClosestPoints& closest,
+                                 const SweptContact& contact) const {
+  const auto gives_way_softly = [&](const SurfacePoint& side) {
+    return !bodies_.is_rigid(side.body) && bodies_.side(world_, side).moves();
+  };
+  if (gives_way_softly(contact.first) && gives_way_softly(contact.second)) return false;
+  return !contact.is_near || !stands(candidate, closest, Moment::end);
 }
 
 /// A contact at the start of the step that keeps two boxes apart where they would be in each other

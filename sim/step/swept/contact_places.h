@@ -42,20 +42,25 @@ class ContactPlaces {
                                 const BoxContactPoint& point) const;
   /// The points of near boxes go with them, and their normal is that of the start.
   SweptContact move_to_end(const SweptCandidate& candidate) const;
-  /// Where the features of a candidate are nearest at the end, if they are in contact then or
-  /// `acted` on each other at the start. None if another pair stands for it, or if nothing says
-  /// where they would part.
-  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted) const;
+  /// Where the features of a candidate are nearest at the end, if they are in contact then or have
+  /// `acted` on each other at the start (else null). None if another pair stands for it, or if
+  /// nothing says where they would part.
+  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate,
+                                           const SweptContact* acted) const;
   /// Of two boxes, or of one and the ground: where the features are nearest at the end, if they
   /// are not in contact but so little further apart that they are hit together with others.
   std::optional<SweptContact> place_beside_hit(const SweptCandidate& candidate) const;
 
  private:
+  bool obstacle_is_nearest(const SweptCandidate& candidate, const ClosestPoints& closest,
+                           Moment moment) const;
   bool face_each_other(const BodyPair& boxes, Moment moment) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;
-  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate, bool acted,
-                                           double reach) const;
+  std::optional<SweptContact> place_at_end(const SweptCandidate& candidate,
+                                           const SweptContact* acted, double reach) const;
+  bool has_slid_off(const SweptCandidate& candidate, const ClosestPoints& closest,
+                    const SweptContact& contact) const;
 
   const World& world_;
   const MotionStart& start_;

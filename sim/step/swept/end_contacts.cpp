@@ -82,7 +82,8 @@ class EndContacts {
     const auto [first, second] = candidate.bodies;
     const Given before = given_at_start(candidate);
     const bool acted = before.normal > 0.0;
-    auto contact = places_.place_at_end(candidate, acted);
+    auto contact = places_.place_at_end(
+        candidate, acted ? &m_.first_contacts[at(candidate.contact)] : nullptr);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
     if (!acted && is_left_to_next_step(*contact, both.restitution)) return;

@@ -136,7 +136,7 @@ TEST(Piles, RodsOfManyMassesAcrossEachOtherComeToRest) {
 
 /// Some of these heaps had no way on, though nothing in them moved faster than a hand.
 TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
-  std::mt19937 random(2);
+  std::mt19937 random(1);
   std::uniform_real_distribution<double> aside(-0.3, 0.3), turn(-1.0, 1.0);
   for (int run = 0; run < 2; ++run) {
     World world = make_tower({});
@@ -245,7 +245,7 @@ TEST(Piles, CubesOnATorusDoNotCreep) {
 /// Boxes of less than half a metre fall further in a step than their search allows for, and so are
 /// searched for again in each.
 TEST(Piles, SmallCubesOnATorusComeToRest) {
-  World world = make_tumbling_cubes(3, 27);
+  World world = make_tumbling_cubes(3, 27, 9);
   for (RigidBox& box : world.rigid) {
     box.size = {0.5, 0.5, 0.5};
     box.position = 0.25 * box.position + Vec3(4.5, -1.0, 5.0);

@@ -1,0 +1,90 @@
+// What slides over the edges between triangles that lie in one plane does not feel them.
+#include <gtest/gtest.h>
+
+#include "sim/equilibrium/held_shape.h"
+#include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
+#include "tests/sim/swept/swept_worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr double speed = 4.0;  // m/s
+/// m/s: a point less than 0.03 of its height beside a triangle still counts as over it
+/// (contact_places.cpp), which tilts its normal for a step.
+constexpr double least_seen = 5e-4;
+const Vec3 slab_size(30.0, 6.0, 1.0);
+
+/// All of its vertices are pinned: an obstacle of triangles of half a metre, top at z = 0.
+SoftBody make_fine_slab(double friction) {
+  SoftBody body = make_body(make_box(slab_size, 12), {0.0, 0.0, -0.5});
+  const auto count = at(body.positions.size());
+  GivenMotion motion;
+  motion.position = {0.0, 0.0, -0.5};
+  body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
+                        std::vector<std::uint8_t>(count, 0), motion);
+  body.material.n = 0.0;
+  body.material.surface = {0.0, friction};
+  return body;
+}
+
+RigidBox make_slab(double friction) {
+  RigidBox slab = make_rigid(slab_size, {0.0, 0.0, -0.5});
+  slab.is_kinematic = true;
+  slab.surface = {0.0, friction};
+  return slab;
+}
+
+class FlatTriangles : public testing::TestWithParam<bool> {
+ protected:
+  /// Of a static box each side is two triangles.
+  static World make_world(double friction) {
+    World world = make_swept_world();
+    world.settings.ground.reset();
+    if (GetParam()) {
+      world.soft.push_back(make_fine_slab(friction));
+    } else {
+      world.rigid.push_back(make_slab(friction));
+    }
+    return world;
+  }
+};
+
+/// It rings, as it was put down, and none of that may turn into motion along the plane.
+TEST_P(FlatTriangles, DoNotBrakeABall) {
+  for (const double aside : {-1.07, 0.03, 0.71}) {
+    World world = make_world(0.0);
+    world.settings.steps_per_second = 480;
+    SoftBody ball = make_body(make_icosphere(1.0, 2), {-7.03, aside, 1.01});
+    ball.material.n = 300.0 * volume_of(ball) / (gas_constant * ball.material.temperature);
+    ball.material.k = 900.0;
+    ball.material.vertex_mass = 10.0 / ball.positions.size();
+    ball.material.rho_g = 0.0;
+    ball.material.surface = {0.0, 0.0};
+    ball.mesh = held_mesh(*ball.mesh, ball.positions, ball.material);
+    for (int v = 0; v < ball.velocities.size(); ++v) ball.velocities[v].x() = speed;
+    world.soft.push_back(ball);
+    ASSERT_FALSE(run(world, 3.0));
+    const Vec3 velocity = mean(world.soft.back().velocities);
+    EXPECT_NEAR(velocity.x(), speed, least_seen) << aside;
+    EXPECT_NEAR(velocity.y(), 0.0, least_seen) << aside;
+  }
+}
+
+TEST_P(FlatTriangles, DoNotBrakeABox) {
+  for (const double aside : {-1.07, 0.03, 0.71}) {
+    World world = make_world(0.0);
+    world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {-7.03, aside, 0.5025}));
+    world.rigid.back().surface = {0.0, 0.0};
+    world.rigid.back().rho_g = 0.0;
+    world.rigid.back().velocity.x() = speed;
+    ASSERT_FALSE(run(world, 3.0));
+    EXPECT_NEAR(world.rigid.back().velocity.x(), speed, least_seen) << aside;
+    EXPECT_NEAR(world.rigid.back().velocity.y(), 0.0, least_seen) << aside;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfABoxAndFine, FlatTriangles, testing::Bool());
+
+}  // namespace
+}  // namespace pneuma::sim
