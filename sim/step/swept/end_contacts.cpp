@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "sim/step/swept/contact_places.h"
+
 namespace pneuma::sim {
 namespace {
 
