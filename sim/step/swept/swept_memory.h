@@ -135,9 +135,10 @@ struct SweptMemory {
   std::vector<double> work_of_islands;  // J, of the impulses of the start and of the end
   std::vector<int> members;             // bodies of an island, or of other groups
   std::vector<MetFreely> met_freely;
-  std::vector<Partner> partners;        // of each body
-  std::vector<std::uint8_t> is_pushed;  // of each body: 1 if anything has, in this step
-  std::vector<SweptImpulse> of_impact;  // that is solved for
+  std::vector<Partner> partners;         // of each body
+  std::vector<std::uint8_t> is_pushed;   // of each body: 1 if anything has, in this step
+  std::vector<std::uint8_t> is_stopped;  // of each island of the end: a box on something soft was
+  std::vector<SweptImpulse> of_impact;   // that is solved for
   NearGroups near_groups;
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;

@@ -1,6 +1,7 @@
 #include "sim/step/swept/swept_warm_start.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "sim/world/sleep.h"
@@ -10,6 +11,8 @@ namespace {
 
 /// Of the shortest side of a box: points nearer than this are one, a step later.
 constexpr double same_contact = 0.05;
+/// Of what a step of free fall gains: a box that changes its velocity by more is not at rest.
+constexpr double most_falls = 4.0;
 /// Of the friction that there may be: what has more slides.
 constexpr double friction_of_sticking = 0.999;
 
@@ -123,6 +126,7 @@ void SweptWarmStart::remember(double fraction) {
   std::erase_if(world_.feature_impulses, [&](const FeatureImpulse& impulse) {
     return !sleeps(impulse.first, impulse.second);
   });
+  find_stopped_islands();
   remember(m_.first_contacts, m_.first_impulses, Moment::start, fraction);
   remember(m_.contacts, m_.impulses, Moment::end, fraction);
   sort_by_features(world_.feature_impulses);
@@ -138,10 +142,37 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
     const Vec3 impulse = impulses[i].given() / fraction;
     if (is_of_boxes(contacts[i])) {
       remember_of_boxes(contacts[i], moment, impulse);
-    } else if (contacts[i].previous < 0) {
+    } else if (contacts[i].previous < 0 && !is_stopped(contacts[i])) {
       world_.feature_impulses.push_back(make_feature_impulse(contacts[i], moment, impulse));
     }
   }
+}
+
+/// Where the step has changed the velocity of a box on something soft by more than some steps of
+/// free fall: what stops it is not needed again, and of an impact more than iterations could take
+/// back.
+void SweptWarmStart::find_stopped_islands() {
+  if (m_.first_contacts.empty() && m_.contacts.empty()) return;  // without a solution no islands
+  m_.is_stopped.assign(at(m_.solver.island_count()), 0);
+  const double most = most_falls * time_step(world_.settings) * world_.settings.gravity.norm();
+  for (const auto* contacts : {&m_.first_contacts, &m_.contacts}) {
+    for (const SweptContact& contact : *contacts) {
+      if (is_of_boxes(contact)) continue;
+      for (const int body : {contact.first.body, contact.second.body}) {
+        if (body == swept_ground || !m_.bodies.is_box(body)) continue;
+        const int box = m_.bodies.box(body), island = m_.solver.island_of(body);
+        const Vec3 change = world_.rigid[at(box)].velocity - start_.rigid[at(box)].velocity;
+        if (island >= 0 && change.norm() > most) m_.is_stopped[at(island)] = 1;
+      }
+    }
+  }
+}
+
+bool SweptWarmStart::is_stopped(const SweptContact& contact) {
+  return std::ranges::any_of(std::array{contact.first.body, contact.second.body}, [&](int body) {
+    const int island = body == swept_ground ? -1 : m_.solver.island_of(body);
+    return island >= 0 && m_.is_stopped[at(island)] != 0;
+  });
 }
 
 void SweptWarmStart::remember_of_boxes(const SweptContact& contact, Moment moment,

@@ -46,6 +46,8 @@ class SweptWarmStart {
   SweptImpulse* find(const WarmStartImpulse& kept, Moment moment);
   void remember(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses,
                 Moment moment, double fraction);
+  void find_stopped_islands();
+  bool is_stopped(const SweptContact& contact);
   void remember_of_boxes(const SweptContact& contact, Moment moment, const Vec3& impulse);
   FrictionSlip* find_slip(const SweptContact& contact) const;
   Vec3 turned(const SweptContact& contact, const Vec3& slip) const;
