@@ -118,40 +118,6 @@ void SweptSearch::mark_candidates() {
   }
 }
 
-/// What parts so fast that gravity does not bring it back within the step is on its way.
-bool SweptSearch::touches(const SweptCandidate& candidate) const {
-  const SweptContact contact = candidate.bodies.second == swept_ground
-                                   ? places_.place_on_ground(candidate, Moment::start)
-                                   : places_.place(candidate, candidate.start, Moment::start);
-  const double returns = 0.5 * time_step(world_.settings) * world_.settings.gravity.norm();
-  return contact.is_near && contact.normal.dot(motion_.start_velocity(contact)) <= returns;
-}
-
-/// Boxes that touch each other alone fall together: none must fall by another way than the next.
-void SweptSearch::find_borne_boxes() {
-  base::DisjointSets& sets = m_.near_groups.sets;
-  sets.reset();
-  const int boxes = static_cast<int>(world_.rigid.size()), bearer = boxes;
-  const auto number = [&](int body) {
-    return bodies_.is_box(body) && !is_fixed(world_, body) ? bodies_.box(body) : bearer;
-  };
-  m_.touches_other.assign(world_.rigid.size() + 1, 0);
-  for (const SweptCandidate& candidate : m_.candidates) {
-    const int first = number(candidate.bodies.first), second = number(candidate.bodies.second);
-    const bool on_ground = candidate.bodies.second == swept_ground;
-    const auto is_marked = [&](int box) { return box == bearer || m_.touches_other[at(box)] != 0; };
-    const bool is_known = on_ground || (is_marked(first) && is_marked(second));
-    if ((is_known && sets.find(first) == sets.find(second)) || !touches(candidate)) continue;
-    sets.unite(first, second);
-    if (!on_ground) m_.touches_other[at(first)] = m_.touches_other[at(second)] = 1;
-  }
-  m_.is_borne.resize(world_.rigid.size());
-  for (int i = 0; i < boxes; ++i) {
-    const bool is_borne = m_.touches_other[at(i)] != 0 && sets.find(i) == sets.find(bearer);
-    m_.is_borne[at(i)] = is_borne ? 1 : 0;
-  }
-}
-
 /// Impulses keep from the ground what other impulses may move, and what would come so far below it
 /// that it might not be put back onto it by itself.
 void SweptSearch::find_near_ground() {

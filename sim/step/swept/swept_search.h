@@ -39,8 +39,8 @@ class SweptSearch {
   /// Of the candidates as they are now.
   void mark_candidates();
   /// Which boxes touch, at the start of the step, what does not fall: the ground, soft bodies or
-  /// what stands still or is moved, directly or through other boxes; but those that touch the
-  /// ground alone are not among them (ERRATA row 36).
+  /// what stands still or is moved, directly or through other boxes; but those that touch nothing
+  /// but the ground, or but one body that stands still, are not among them (ERRATA row 36).
   void find_borne_boxes();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
