@@ -100,14 +100,22 @@ class TwoBodies {
 /// Of a way: how much longer than needed it may be.
 constexpr double needed = 0.05;
 
+/// Each way tried is so many times the one before, from a part of what surely suffices: what is
+/// hollow may come apart soon, and not again until it has left the hollow.
+constexpr double growth_of_way = 1.5, first_part_of_way = 1.0 / 64.0;
+
 /// m along a unit `direction`, by which the second comes apart, of `all` that surely suffices; none
 /// if it is no shorter than `shortest`. Of fine bodies all of it.
 std::optional<double> way_along(const TwoBodies& both, const sim::Vec3& direction, double all,
                                 double shortest) {
   if (!(all > 0.0)) return std::nullopt;
-  double too_short = 0.0, enough = std::min(all, shortest);
   if (both.are_fine()) return all < shortest ? std::optional(all) : std::nullopt;
-  if (enough < all && !both.are_apart(enough * direction)) return std::nullopt;
+  double too_short = 0.0, enough = first_part_of_way * all;
+  while (enough < std::min(all, shortest) && !both.are_apart(enough * direction)) {
+    too_short = enough;
+    enough = std::min(all, growth_of_way * enough);
+  }
+  if (enough >= shortest) return std::nullopt;
   while (enough - too_short > needed * enough) {
     // Of what is not in another deeply, halves would come near it slowly.
     const double between = too_short > 0.0 ? 0.5 * (too_short + enough) : enough / 8.0;

@@ -1,5 +1,6 @@
 #include "app/world/start_overlap.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/world/build_world.h"
@@ -203,8 +204,23 @@ TEST(StartOverlap, NamesAWayThatParts) {
       "[[body]]\nshape = \"torus\"\ntube_radius = 1\nposition = [0, 0, 4]\n"
       "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = ";
   const std::string back = refusal_of(ring + "[1.8, 0, 4]\n");
-  EXPECT_NE(back.find("move it 0.523 m along -x"), std::string::npos) << back;
-  EXPECT_EQ(refusal_of(ring + "[1.277, 0, 4]\n"), "");
+  EXPECT_NE(back.find("move it 0.514 m along -x"), std::string::npos) << back;
+  EXPECT_EQ(refusal_of(ring + "[1.285, 0, 4]\n"), "");
+}
+
+/// A ring that hangs on a bar is lifted off it, and not pulled down until it is below.
+TEST(StartOverlap, NamesTheWayToWhereARingHangs) {
+  const std::string hung =
+      "[[body]]\nname = \"bar\"\nkind = \"static\"\nsize = [6, 0.4, 0.4]\nposition = [0, 0, 5]\n"
+      "[[body]]\nshape = \"torus\"\nradius = 1.5\ntube_radius = 0.4\nrotation = [0, 90, 0]\n"
+      "position = [0, 0, ";
+  const std::string message = refusal_of(hung + "4.0]\n");
+  const std::size_t move = message.find("; move it ");
+  ASSERT_NE(move, std::string::npos) << message;
+  const double way = std::stod(message.substr(move + 10));
+  EXPECT_LT(way, 0.25) << message;  // it starts 0.17 m deep
+  EXPECT_NE(message.find(" m along +z"), std::string::npos) << message;
+  EXPECT_EQ(refusal_of(fmt::format("{}{}]\n", hung, 4.0 + way)), "");
 }
 
 TEST(StartOverlap, TellsATouchByWeightFromAnOverlap) {
