@@ -115,15 +115,20 @@ struct RunNotices {
   DividedSteps divided;
   CrossedFrames crossed;
   PressedBodies pressed;
+  UnseenFrames unseen;
 
-  void add(const Simulation& simulation, const FrameState& frame, Progress& progress) {
-    crossed.add(simulation, frame, progress);
+  void add(const Simulation& simulation, const TakenFrame& frame, Progress& progress) {
+    crossed.add(simulation, frame.state, progress);
     pressed.add(simulation.world());
+    const scenes::PictureScene& size = simulation.scene().picture;
+    unseen.add(simulation.world(), frame.picture.camera,
+               static_cast<double>(size.width) / size.height);
   }
   void summarise(Progress& progress, bool is_resumed) const {
     divided.summarise(progress);
     crossed.summarise(progress, is_resumed);
     pressed.summarise(progress);
+    unseen.summarise(progress);
   }
 };
 
@@ -164,7 +169,7 @@ void draw_frames(Simulation& simulation, std::int64_t last, const FrameOutput& o
     state.frame = simulation.frame();
     state.time = sim::time(simulation.world());
     state.simulated = state.time - time_at_start;
-    if (next) notices.add(simulation, next->state, progress);
+    if (next) notices.add(simulation, *next, progress);
     std::optional<TakenFrame> frame = std::exchange(next, std::nullopt);
     const bool more = state.frame < last;
     if (more) {

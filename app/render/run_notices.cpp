@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/record/pressed_volume.h"
 #include "app/terminal/table.h"
 #include "app/world/may_start.h"
+#include "render/frame/camera.h"
+#include "sim/collision/point_in_body.h"
 #include "sim/mesh/measure.h"
 
 namespace pneuma::app {
@@ -83,6 +86,82 @@ void PressedBodies::summarise(Progress& progress) const {
       "body '{}' was pressed to {:.2g} % of its shape's volume, at t = {:.2f} s: more gas (n, "
       "gauge_pressure) carries more, and what closes in on it can leave it more room",
       body_, 100.0 * least_fraction_, time_));
+}
+
+namespace {
+
+constexpr double radians_per_degree = 3.14159265358979 / 180.0;
+
+/// What a camera has in its picture, without what may hide it.
+class Picture {
+ public:
+  Picture(const render::Camera& camera, double aspect) : view_(view_matrix(camera)) {
+    upright_ = std::tan(0.5 * radians_per_degree * static_cast<double>(camera.field_of_view));
+    across_ = aspect * upright_;
+  }
+
+  bool has(const sim::Vec3& point) const {
+    const Eigen::Vector4f seen = view_ * point.cast<float>().homogeneous();
+    const double ahead = -static_cast<double>(seen.z());
+    return ahead > 0.0 && std::abs(static_cast<double>(seen.x())) <= across_ * ahead &&
+           std::abs(static_cast<double>(seen.y())) <= upright_ * ahead;
+  }
+
+ private:
+  render::Mat4f view_;
+  double upright_, across_;  // slopes of its sides
+};
+
+bool is_in(const Picture& picture, const sim::SoftBody& body) {
+  for (int v = 0; v < body.positions.size(); ++v) {
+    if (picture.has(body.positions[v])) return true;
+  }
+  return false;
+}
+
+bool any_is_in(const Picture& picture, const sim::World& world) {
+  return std::ranges::any_of(world.soft,
+                             [&](const sim::SoftBody& body) {
+                               return !sim::is_kinematic(body) && is_in(picture, body);
+                             }) ||
+         std::ranges::any_of(world.rigid, [&](const sim::RigidBox& box) {
+           return !box.is_kinematic && picture.has(box.position);
+         });
+}
+
+bool any_may_move(const sim::World& world) {
+  const auto may_move = [](const auto& body) { return !sim::is_kinematic(body); };
+  return std::ranges::any_of(world.soft, may_move) ||
+         std::ranges::any_of(world.rigid,
+                             [](const sim::RigidBox& box) { return !box.is_kinematic; });
+}
+
+}  // namespace
+
+void UnseenFrames::add(const sim::World& world, const render::Camera& camera, double aspect) {
+  if (!any_may_move(world)) return;
+  ++frames_;
+  if (!any_is_in(Picture(camera, aspect), world)) ++empty_;
+  const sim::Vec3 eye = camera.eye.cast<double>();
+  const auto holds_eye = [&](const sim::SoftBody& body) {
+    return sim::is_inside({body.mesh->topology, body.positions}, eye);
+  };
+  const auto holder = std::ranges::find_if(world.soft, holds_eye);
+  if (holder == world.soft.end()) return;
+  if (inside_++ == 0) body_ = holder->name;
+}
+
+void UnseenFrames::summarise(Progress& progress) const {
+  constexpr const char* remedy =
+      "without [camera] eye and target, or with camera.follow, the camera goes where bodies are";
+  if (empty_ > 0) {
+    progress.say(fmt::format("no body that may move is in the picture in {} of {}; {}", empty_,
+                             counted(frames_, "frame"), remedy));
+  }
+  if (inside_ > 0) {
+    progress.say(fmt::format("the camera is inside of body '{}' in {} of {}; {}", body_, inside_,
+                             counted(frames_, "frame"), remedy));
+  }
 }
 
 }  // namespace pneuma::app

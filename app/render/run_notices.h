@@ -1,5 +1,5 @@
 // What a run says beside its frames: steps that were done in parts, bodies that pass through each
-// other or are pressed to next to nothing.
+// other, are pressed to next to nothing or are not in the picture.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "app/render/log/run_record.h"
 #include "app/terminal/progress.h"
 #include "app/world/simulation.h"
+#include "render/frame/frame.h"
 
 namespace pneuma::app {
 
@@ -52,6 +53,21 @@ class PressedBodies {
   double least_fraction_ = 1.0;
   double time_ = 0.0;  // s
   std::string body_;
+};
+
+/// Says in the end in how many frames no body that may move was in the picture, and in how many
+/// the camera was inside of one.
+class UnseenFrames {
+ public:
+  /// `aspect`: width over height of the picture.
+  void add(const sim::World& world, const render::Camera& camera, double aspect);
+  void summarise(Progress& progress) const;
+
+ private:
+  std::int64_t frames_ = 0;
+  std::int64_t empty_ = 0;
+  std::int64_t inside_ = 0;
+  std::string body_;  // the first that the camera was inside of
 };
 
 }  // namespace pneuma::app

@@ -68,6 +68,21 @@ void choose_step(scenes::Scene& scene) {
   steps = shortest->steps_per_second;
 }
 
+constexpr int steps_of_paper = 60;  // per second
+
+/// More steps damp more, and a body that falls hangs in the air.
+void note_damping_by_the_step(scenes::Scene& scene) {
+  const int steps = scene.settings.steps_per_second;
+  if (!is_damped_by_the_step(scene) || steps == steps_of_paper) return;
+  const bool is_printed = sim::is_as_printed(scene.settings);
+  scene.warnings.push_back(fmt::format(
+      "note: {} acts once in every step, at {} steps per second {:.3g} times as often as at the "
+      "paper's {}; {} does not depend on the step",
+      is_printed ? "the damping of simulation.method = \"paper\"" : "damping = \"literal\"", steps,
+      static_cast<double>(steps) / steps_of_paper, steps_of_paper,
+      is_printed ? "that of simulation.method = \"corrected\"" : "damping = \"dashpot\""));
+}
+
 /// Where the file does not say how it is to be read.
 std::vector<std::string> notes(const std::filesystem::path& model, const ModelChoice& choice,
                                const scenes::ModelScene& made) {
@@ -144,6 +159,7 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
   }
   scenes::Scene scene = scenes::load_scene(find_scene(name), overrides, model_error);
   choose_step(scene);
+  note_damping_by_the_step(scene);
   return scene;
 }
 

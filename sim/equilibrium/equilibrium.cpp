@@ -66,7 +66,8 @@ void check_balance(const VertexArray& positions, const Eigen::VectorXd& force) {
     return;
   throw EquilibriumError("the pressure has a net force of " + base::text(net.norm()) +
                          " N and a net torque of " + base::text(torque.norm()) +
-                         " N m, which springs cannot balance: use uniform pressure, not valence");
+                         " N m, which springs cannot balance: give the pressure by area "
+                         "(pressure_weighting = \"uniform\") or start without (rest = \"shape\")");
 }
 
 /// Column e holds the force of a tension of 1 N in spring e on every vertex.

@@ -1,4 +1,4 @@
-// What a run says of bodies that are pressed to next to nothing.
+// What a run says of bodies that are pressed to next to nothing, or not in the picture.
 #include "app/render/run_notices.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include "app/world/build_world.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/mesh/primitives.h"
+#include "sim/soft/pins.h"
 #include "tests/support/worlds.h"
 
 namespace pneuma::app {
@@ -69,6 +70,50 @@ TEST(PressedBodies, AreNamedWithTheShareThatIsLeft) {
       << said;
   EXPECT_EQ(said_of(0.2), "");
   EXPECT_EQ(said_of(0.05, true), "");
+}
+
+/// Of three frames of a ball at the origin, the last of them where it has gone by `way`.
+std::string said_of_unseen(const sim::Vec3& eye, const sim::Vec3& way, bool is_pinned = false) {
+  sim::World world;
+  world.soft.push_back(sim::make_body(sim::make_icosphere(1.0, 2)));
+  world.soft[0].name = "ball";
+  if (is_pinned) {
+    const std::vector<std::uint8_t> all(sim::at(world.soft[0].positions.size()), 1);
+    world.soft[0].pins = sim::make_pins(world.soft[0].positions, all, all, {});
+  }
+  const render::Camera camera{.eye = eye.cast<float>(),
+                              .target = (eye + sim::Vec3::UnitY()).cast<float>()};
+  UnseenFrames unseen;
+  unseen.add(world, camera, 1.5);
+  unseen.add(world, camera, 1.5);
+  for (int v = 0; v < world.soft[0].positions.size(); ++v) world.soft[0].positions[v] += way;
+  unseen.add(world, camera, 1.5);
+  Progress progress(Progress::Style::lines);
+  testing::internal::CaptureStderr();
+  unseen.summarise(progress);
+  return testing::internal::GetCapturedStderr();
+}
+
+TEST(UnseenFrames, AreThoseWithNoMovableBodyInThePicture) {
+  const sim::Vec3 before(0.0, -10.0, 0.0), still = sim::Vec3::Zero();
+  EXPECT_EQ(said_of_unseen(before, still), "");
+  // 40 degrees upright and half as much again across: 3.6 m up and 5.5 m aside at 10 m.
+  EXPECT_EQ(said_of_unseen(before, {0.0, 0.0, 4.4}), "");
+  EXPECT_EQ(said_of_unseen(before, {6.3, 0.0, 0.0}), "");
+  for (const sim::Vec3& way : {sim::Vec3(0.0, 0.0, 4.8), sim::Vec3(6.7, 0.0, 0.0)}) {
+    const std::string said = said_of_unseen(before, way);
+    EXPECT_NE(said.find("no body that may move is in the picture in 1 of 3 frames"),
+              std::string::npos)
+        << said << way.transpose();
+  }
+  EXPECT_NE(said_of_unseen({0.0, 10.0, 0.0}, still).find("in 3 of 3 frames"), std::string::npos);
+  EXPECT_EQ(said_of_unseen({0.0, 10.0, 0.0}, still, true), "");  // of what none may move
+}
+
+TEST(UnseenFrames, AreTheInsideOfABodyToo) {
+  const std::string said = said_of_unseen({0.0, -0.5, 0.0}, {0.0, 30.0, 0.0});
+  EXPECT_NE(said.find("the camera is inside of body 'ball' in 2 of 3 frames"), std::string::npos)
+      << said;
 }
 
 }  // namespace

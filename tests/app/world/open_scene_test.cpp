@@ -286,6 +286,25 @@ TEST_F(OpenSceneFile, KeepsAStepThatItNamesOrThatSuffices) {
   EXPECT_TRUE(soft.warnings.empty());
 }
 
+TEST_F(OpenSceneFile, SaysThatDampingByTheStepIsMoreInShorterSteps) {
+  const std::string literal = "[[body]]\nposition = [0, 0, 4]\ndamping = \"literal\"\n";
+  const auto steps = [](int n) { return fmt::format("[simulation]\nsteps_per_second = {}\n", n); };
+  EXPECT_TRUE(open(steps(60) + literal).warnings.empty());
+  EXPECT_TRUE(open(steps(240) + "[[body]]\nposition = [0, 0, 4]\n").warnings.empty());
+  const scenes::Scene scene = open(steps(240) + literal);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].find("note: damping = \"literal\" acts once in every step, at 240 "
+                                   "steps per second 4 times as often"),
+            std::string::npos)
+      << scene.warnings[0];
+  const scenes::Scene paper =
+      open(steps(240) + "method = \"paper\"\n[[body]]\nposition = [0, 0, 4]\n");
+  ASSERT_EQ(paper.warnings.size(), 1u);
+  EXPECT_NE(paper.warnings[0].find("the damping of simulation.method = \"paper\" acts once"),
+            std::string::npos)
+      << paper.warnings[0];
+}
+
 TEST_F(OpenSceneFile, KeepsAwayFromTheLimitWhereBodiesMayMeet) {
   const std::string ball = "[[body]]\nname = \"ball\"\nposition = [0, 0, 4]\nk = 250\n";
   EXPECT_EQ(open(ball).settings.steps_per_second, 60);
