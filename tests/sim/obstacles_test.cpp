@@ -7,6 +7,7 @@
 
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
+#include "sim/mesh/rotation.h"
 #include "sim/soft/pins.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/worlds.h"
@@ -139,6 +140,39 @@ TEST(Obstacles, ThatAreFineAreNotCrossed) {
       }
       EXPECT_GT(contacts, 5u) << velocity.transpose() << ", " << angular_velocity.transpose();
     }
+  }
+}
+
+/// A face on vertices of some of them, tilted by a hair against one or the other: to touch but the
+/// nearest would let it rock.
+TEST(Obstacles, HoldABoxThatLiesOnSeveral) {
+  struct Fall {
+    Vec3 size, turned, place;  // degrees
+    double restitution, friction;
+  };
+  const Fall falls[] = {
+      {{1.02, 0.58, 0.64}, {9.6, 8.9, -1.0}, {0.22, -0.30, 0.87}, 0.2, 1.0},
+      {{0.968, 0.471, 0.905}, {-11.63, 13.75, 5.28}, {0.288, -0.046, 0.903}, 0.5, 0.8},
+      {{0.815, 0.612, 0.503}, {-3.6, -14.3, -7.85}, {-0.288, -0.064, 0.769}, 0.0, 0.8},
+      {{0.846, 0.694, 0.572}, {3.34, 7.09, -14.54}, {-0.069, -0.043, 0.818}, 0.5, 0.5}};
+  for (const Fall& fall : falls) {
+    World world;
+    world.settings.ground.reset();
+    world.settings.sleep_speed = 0.0;
+    const ContactMaterial surface{fall.restitution, fall.friction};
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 place(-1.23 + 1.3 * (i / 3), -1.33 + 1.3 * (i % 3), -0.8);
+      world.soft.push_back(make_obstacle(make_icosphere(0.8, 1), place));
+      world.soft.back().material.surface = surface;
+    }
+    RigidBox box = make_rigid(fall.size, fall.place);
+    box.orientation = rotation_of_degrees(fall.turned);
+    box.rho_g = 0.0;
+    box.surface = surface;
+    world.rigid = {box};
+    ASSERT_FALSE(run(world, 8.0));
+    EXPECT_LT(world.rigid[0].velocity.norm(), 1e-4) << fall.size.transpose();
+    EXPECT_LT(world.rigid[0].angular_velocity.norm(), 1e-4) << fall.size.transpose();
   }
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "sim/inspect/inspect.h"
 #include "tests/support/worlds.h"
@@ -155,6 +156,19 @@ TEST_P(OnGroundAndSlab, AnElasticCubeThatRocksGainsNoEnergy) {
       // A thousandth of its energy above the ground.
       EXPECT_LT(energy_above_rest(world), before + 1e-3 * g * 0.33) << tilt << " " << second;
     }
+  }
+}
+
+/// What follows keys stands still between them.
+TEST(RigidRest, AnElasticCubeThatRocksOnAPlateThatHasStoppedGainsNoEnergy) {
+  World world = make_rocking_cube(7.0, 60, true);
+  auto motion = std::make_shared<GivenMotion>();
+  motion->position = world.rigid[1].position;
+  world.rigid[1].motion = motion;
+  const double before = energy_above_rest(world);
+  for (int second = 1; second <= 30; ++second) {
+    ASSERT_FALSE(run(world, 1.0));
+    EXPECT_LT(energy_above_rest(world), before + 1e-3 * g * 0.33) << second;
   }
 }
 

@@ -34,7 +34,7 @@ class TouchedByBoxes {
   static constexpr int nothing = -2, others = -3;  // besides bodies and the ground
 
   bool stands_still(int body) const {
-    return body == swept_ground || (is_kinematic(world_, body) && !bodies_.pushes(body));
+    return body == swept_ground || (is_kinematic(world_, body) && !bodies_.moves(world_, body));
   }
   bool knows(int body, int other) const {
     if (!is_free_box(body)) return true;

@@ -75,18 +75,20 @@ bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints&
   if (candidate.is_of_near_boxes) return true;
   const auto [first, second] = candidate.bodies;
   const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
+  const double sine_of_flat = has_box ? flat_of_boxes : flat;
   return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
-                              closest, moment, has_box ? flat_of_boxes : flat) &&
-         obstacle_is_nearest(candidate, closest, moment);
+                              closest, moment, sine_of_flat) &&
+         obstacle_is_nearest(candidate, closest, moment, sine_of_flat);
 }
 
 /// A vertex in the flat of an obstacle has faces beside it that a tilted triangle is nearer to: the
 /// triangle's normal there would brake what slides.
 bool ContactPlaces::obstacle_is_nearest(const SweptCandidate& candidate,
-                                        const ClosestPoints& closest, Moment moment) const {
+                                        const ClosestPoints& closest, Moment moment,
+                                        double sine_of_flat) const {
   const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
     return !bodies_.is_obstacle(body) || feature.kind != FeatureKind::vertex ||
-           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat);
+           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, sine_of_flat);
   };
   const auto [first, second] = candidate.bodies;
   return is_nearest(first, candidate.features.first, closest.second_point) &&

@@ -53,7 +53,7 @@ class ContactPlaces {
 
  private:
   bool obstacle_is_nearest(const SweptCandidate& candidate, const ClosestPoints& closest,
-                           Moment moment) const;
+                           Moment moment, double sine_of_flat) const;
   bool face_each_other(const BodyPair& boxes, Moment moment) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;

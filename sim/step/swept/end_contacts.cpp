@@ -23,6 +23,7 @@ struct Given {
   double normal = 0.0;     // N s, of all
   Vec3 friction = Vec3::Zero();
   Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
+  const SweptContact* strongest = nullptr;
 };
 
 class EndContacts {
@@ -51,6 +52,7 @@ class EndContacts {
 
   Given given_at_start(const SweptCandidate& candidate) const {
     Given given;
+    double greatest = 0.0;
     for (int i = candidate.contact; i >= 0; i = m_.first_contacts[at(i)].previous) {
       given.is_known = true;
       given.is_near = m_.first_contacts[at(i)].is_near;
@@ -59,6 +61,10 @@ class EndContacts {
       given.normal += m_.first_impulses[at(i)].normal_impulse();
       given.friction += m_.first_impulses[at(i)].friction_impulse();
       given.impulse += m_.first_impulses[at(i)].given();
+      if (m_.first_impulses[at(i)].normal_impulse() > greatest) {
+        greatest = m_.first_impulses[at(i)].normal_impulse();
+        given.strongest = &m_.first_contacts[at(i)];
+      }
     }
     return given;
   }
@@ -84,8 +90,7 @@ class EndContacts {
     const auto [first, second] = candidate.bodies;
     const Given before = given_at_start(candidate);
     const bool acted = before.normal > 0.0;
-    auto contact = places_.place_at_end(
-        candidate, acted ? &m_.first_contacts[at(candidate.contact)] : nullptr);
+    auto contact = places_.place_at_end(candidate, before.strongest);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
     if (!acted && is_left_to_next_step(*contact, both.restitution)) return;

@@ -144,7 +144,7 @@ struct SweptMemory {
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<std::uint8_t> is_borne;         // per box, at the start
-  std::vector<int> touched_by_box;            // per box, at the start (borne_boxes.cpp)
+  std::vector<int> touched_by_box;            // per box: a body, -1 the ground, less: not one alone
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies

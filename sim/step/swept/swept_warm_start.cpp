@@ -154,7 +154,8 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
 void SweptWarmStart::find_stopped_islands() {
   if (m_.first_contacts.empty() && m_.contacts.empty()) return;  // without a solution no islands
   m_.is_stopped.assign(at(m_.solver.island_count()), 0);
-  const double most = most_falls * time_step(world_.settings) * world_.settings.gravity.norm();
+  const double fall = time_step(world_.settings) * world_.settings.gravity.norm();
+  const double most = std::max(min_bounce_speed, most_falls * fall);
   for (const auto* contacts : {&m_.first_contacts, &m_.contacts}) {
     for (const SweptContact& contact : *contacts) {
       if (is_of_boxes(contact)) continue;

@@ -311,7 +311,7 @@ duration = 1.5
 [[body]]
 kind = "rigid"
 size = [3, 3, 3]
-mass = 10000
+mass = 1e6
 position = [0, 0, 4]
 [[body]]
 name = "under"

