@@ -232,6 +232,8 @@ void SweptWarmStart::remember_slips() {
   }
   sort_by_features(slips);
   std::swap(slips, world_.friction_slips);
+  slips.reserve(
+      world_.friction_slips.capacity());  // both take turns, and the next may need as many
 }
 
 void SweptWarmStart::add_slip(const SweptContact& contact, const Vec3& slip,
@@ -262,6 +264,8 @@ void SweptWarmStart::remember_held_boxes(double tolerance) {
   }
   sort_by_features(slips);
   std::swap(slips, world_.friction_slips);
+  slips.reserve(
+      world_.friction_slips.capacity());  // both take turns, and the next may need as many
 }
 
 void forget_other_bodies(World& world) {
