@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "app/record/pressed_volume.h"
 #include "app/terminal/table.h"
 #include "app/world/may_start.h"
 #include "render/frame/camera.h"
+#include "sim/collision/oriented_box.h"
 #include "sim/collision/point_in_body.h"
 #include "sim/mesh/measure.h"
 
@@ -90,58 +91,57 @@ void PressedBodies::summarise(Progress& progress) const {
 
 namespace {
 
-constexpr double radians_per_degree = 3.14159265358979 / 180.0;
-
-/// What a camera has in its picture, without what may hide it.
-class Picture {
+/// Which sides of a picture all points of a body are beyond: where there is one, the body is not in
+/// the picture.
+class BeyondSides {
  public:
-  Picture(const render::Camera& camera, double aspect) : view_(view_matrix(camera)) {
-    upright_ = std::tan(0.5 * radians_per_degree * static_cast<double>(camera.field_of_view));
-    across_ = aspect * upright_;
-  }
+  BeyondSides(const render::Camera& camera, double aspect)
+      // Sides do not depend on how near and how far the camera sees.
+      : clip_(render::projection_matrix(camera.field_of_view, static_cast<float>(aspect), 1.0f,
+                                        2.0f) *
+              render::view_matrix(camera)) {}
 
-  bool has(const sim::Vec3& point) const {
-    const Eigen::Vector4f seen = view_ * point.cast<float>().homogeneous();
-    const double ahead = -static_cast<double>(seen.z());
-    return ahead > 0.0 && std::abs(static_cast<double>(seen.x())) <= across_ * ahead &&
-           std::abs(static_cast<double>(seen.y())) <= upright_ * ahead;
+  void add(const sim::Vec3& point) {
+    const Eigen::Vector4f seen = clip_ * point.cast<float>().homogeneous();
+    const float x = seen.x(), y = seen.y(), w = seen.w();
+    const std::array beyond{x > w, -x > w, y > w, -y > w, w <= 0.0f};
+    for (std::size_t side = 0; side < beyond.size(); ++side) all_[side] &= beyond[side];
   }
+  bool any() const { return std::ranges::find(all_, true) != all_.end(); }
 
  private:
-  render::Mat4f view_;
-  double upright_, across_;  // slopes of its sides
+  render::Mat4f clip_;
+  std::array<bool, 5> all_{true, true, true, true, true};  // the last: behind the camera
 };
 
-bool is_in(const Picture& picture, const sim::SoftBody& body) {
-  for (int v = 0; v < body.positions.size(); ++v) {
-    if (picture.has(body.positions[v])) return true;
+bool may_be_seen(const sim::World& world, int body, BeyondSides beyond) {
+  const std::size_t i = sim::at(body), soft = world.soft.size();
+  if (i < soft) {
+    for (int v = 0; v < world.soft[i].positions.size(); ++v) {
+      beyond.add(world.soft[i].positions[v]);
+    }
+  } else {
+    const sim::RigidBox& box = world.rigid[i - soft];
+    const sim::Mat3 axes = box.orientation.toRotationMatrix();
+    for (const sim::Vec3& corner : sim::corners({box.position, axes, 0.5 * box.size})) {
+      beyond.add(corner);
+    }
   }
-  return false;
-}
-
-bool any_is_in(const Picture& picture, const sim::World& world) {
-  return std::ranges::any_of(world.soft,
-                             [&](const sim::SoftBody& body) {
-                               return !sim::is_kinematic(body) && is_in(picture, body);
-                             }) ||
-         std::ranges::any_of(world.rigid, [&](const sim::RigidBox& box) {
-           return !box.is_kinematic && picture.has(box.position);
-         });
-}
-
-bool any_may_move(const sim::World& world) {
-  const auto may_move = [](const auto& body) { return !sim::is_kinematic(body); };
-  return std::ranges::any_of(world.soft, may_move) ||
-         std::ranges::any_of(world.rigid,
-                             [](const sim::RigidBox& box) { return !box.is_kinematic; });
+  return !beyond.any();
 }
 
 }  // namespace
 
 void UnseenFrames::add(const sim::World& world, const render::Camera& camera, double aspect) {
-  if (!any_may_move(world)) return;
+  bool any = false, any_seen = false;
+  for (int body = 0; body < sim::body_count(world) && !any_seen; ++body) {
+    if (sim::is_kinematic(world, body)) continue;
+    any = true;
+    any_seen = may_be_seen(world, body, BeyondSides(camera, aspect));
+  }
+  if (!any) return;
   ++frames_;
-  if (!any_is_in(Picture(camera, aspect), world)) ++empty_;
+  if (!any_seen) ++empty_;
   const sim::Vec3 eye = camera.eye.cast<double>();
   const auto holds_eye = [&](const sim::SoftBody& body) {
     return sim::is_inside({body.mesh->topology, body.positions}, eye);

@@ -265,7 +265,7 @@ void SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<cons
 
 /// Returns by how much the last correction changed a velocity. Where soft bodies bear boxes,
 /// friction may not converge to the tolerance of boxes, and Newton's method costs as much as the
-/// rest of the step: the tolerance of all contacts will do, as no tower stands on them alone.
+/// rest of the step: there the tolerance of all contacts will do. Boxes alone would lean by it.
 double SweptSolver::solve_with_boxes(std::span<SweptImpulse* const> impulses, double tolerance) {
   const double of_boxes = tolerance_of_boxes * tolerance;
   iterations_.begin(impulses);

@@ -36,10 +36,10 @@ class SweptSolver {
   /// Corrects the impulses of the contacts until none changes a velocity by more than `tolerance`,
   /// in the unit of what they aim at, or 50 times, by Gauss-Seidel iterations. Where a box is on a
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
-  /// if that can help. Patches without a contact from `first_new` on stay as they are: what springs
-  /// bring to them from other patches of their bodies, when the step is done once more, is left.
-  /// Returns false if something was let go that boxes are pressed against: what is moved or, where
-  /// they are shifted, what is soft.
+  /// if that can help; beside soft bodies 20 times at most once `tolerance` is met. Patches without
+  /// a contact from `first_new` on stay: what springs bring from others in a step done again is
+  /// left. Returns false if something was let go that boxes are pressed against: what is moved or,
+  /// where they are shifted, what is soft.
   bool solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance, std::size_t first_new = 0);
   /// The same for one of the islands that the last call has found.

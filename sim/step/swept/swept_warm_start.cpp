@@ -230,10 +230,14 @@ void SweptWarmStart::remember_slips() {
     const Vec3 moved = motion_.displacement(contact) - motion_.shift(contact);
     add_slip(contact, turned(contact, slip(contact)) + moved, slips);
   }
+  keep(slips);
+}
+
+/// The two lists take turns, and the next step may need as much room.
+void SweptWarmStart::keep(std::vector<FrictionSlip>& slips) {
   sort_by_features(slips);
   std::swap(slips, world_.friction_slips);
-  slips.reserve(
-      world_.friction_slips.capacity());  // both take turns, and the next may need as many
+  slips.reserve(world_.friction_slips.capacity());
 }
 
 void SweptWarmStart::add_slip(const SweptContact& contact, const Vec3& slip,
@@ -262,10 +266,7 @@ void SweptWarmStart::remember_held_boxes(double tolerance) {
     if ((sliding - taken_back).norm() > taken_back.norm() + tolerance) continue;
     add_slip(contact, known, slips);
   }
-  sort_by_features(slips);
-  std::swap(slips, world_.friction_slips);
-  slips.reserve(
-      world_.friction_slips.capacity());  // both take turns, and the next may need as many
+  keep(slips);
 }
 
 void forget_other_bodies(World& world) {

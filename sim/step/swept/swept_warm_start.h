@@ -51,6 +51,7 @@ class SweptWarmStart {
   void remember_of_boxes(const SweptContact& contact, Moment moment, const Vec3& impulse);
   FrictionSlip* find_slip(const SweptContact& contact) const;
   Vec3 turned(const SweptContact& contact, const Vec3& slip) const;
+  void keep(std::vector<FrictionSlip>& slips);
   static void add_slip(const SweptContact& contact, const Vec3& slip,
                        std::vector<FrictionSlip>& slips);
   bool slides(const SweptContact& contact, const SweptImpulse& impulse) const;

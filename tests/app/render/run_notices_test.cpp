@@ -110,6 +110,18 @@ TEST(UnseenFrames, AreThoseWithNoMovableBodyInThePicture) {
   EXPECT_EQ(said_of_unseen({0.0, 10.0, 0.0}, still, true), "");  // of what none may move
 }
 
+/// Of a box that fills the picture no corner and no middle is in it.
+TEST(UnseenFrames, AreNoneWhereABoxReachesIntoThePicture) {
+  sim::World world;
+  world.rigid = {sim::make_rigid({40.0, 1.0, 40.0}, {15.0, 0.0, 0.0})};
+  UnseenFrames unseen;
+  unseen.add(world, {.eye = {0.0f, -10.0f, 0.0f}, .target = {0.0f, 0.0f, 0.0f}}, 1.5);
+  Progress progress(Progress::Style::lines);
+  testing::internal::CaptureStderr();
+  unseen.summarise(progress);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(UnseenFrames, AreTheInsideOfABodyToo) {
   const std::string said = said_of_unseen({0.0, -0.5, 0.0}, {0.0, 30.0, 0.0});
   EXPECT_NE(said.find("the camera is inside of body 'ball' in 2 of 3 frames"), std::string::npos)

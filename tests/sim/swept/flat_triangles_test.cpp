@@ -18,8 +18,8 @@ constexpr double speed = 4.0;  // m/s
 constexpr double least_seen = 5e-4;
 const Vec3 slab_size(30.0, 6.0, 1.0);
 
-/// All of its vertices are pinned: an obstacle of triangles of half a metre, top at z = 0.
-SoftBody make_fine_slab(double friction) {
+/// All of its vertices are pinned: an obstacle of triangles of about 2.5 by 0.5 m, top at z = 0.
+SoftBody make_fine_slab() {
   TriangleMesh mesh = make_box(slab_size, 12);
   for (Vec3& x : mesh.vertices) {  // beside a grid, but for the rims
     x.x() += 0.2 * std::sin(3.0 * x.x() + 7.0 * x.y()) * (1.0 - std::abs(x.x()) / 15.0);
@@ -32,27 +32,27 @@ SoftBody make_fine_slab(double friction) {
   body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
                         std::vector<std::uint8_t>(count, 0), motion);
   body.material.n = 0.0;
-  body.material.surface = {0.0, friction};
+  body.material.surface = {0.0, 0.0};
   return body;
 }
 
-RigidBox make_slab(double friction) {
+RigidBox make_slab() {
   RigidBox slab = make_rigid(slab_size, {0.0, 0.0, -0.5});
   slab.is_kinematic = true;
-  slab.surface = {0.0, friction};
+  slab.surface = {0.0, 0.0};
   return slab;
 }
 
 class FlatTriangles : public testing::TestWithParam<bool> {
  protected:
   /// Of a static box each side is two triangles.
-  static World make_world(double friction) {
+  static World make_world() {
     World world = make_swept_world();
     world.settings.ground.reset();
     if (GetParam()) {
-      world.soft.push_back(make_fine_slab(friction));
+      world.soft.push_back(make_fine_slab());
     } else {
-      world.rigid.push_back(make_slab(friction));
+      world.rigid.push_back(make_slab());
     }
     return world;
   }
@@ -61,7 +61,7 @@ class FlatTriangles : public testing::TestWithParam<bool> {
 /// It rings, as it was put down, and none of that may turn into motion along the plane.
 TEST_P(FlatTriangles, DoNotBrakeABall) {
   for (const double aside : {-1.07, 0.03, 0.71}) {
-    World world = make_world(0.0);
+    World world = make_world();
     world.settings.steps_per_second = 480;
     SoftBody ball = make_body(make_icosphere(1.0, 2), {-7.03, aside, 1.01});
     ball.material.n = 300.0 * volume_of(ball) / (gas_constant * ball.material.temperature);
@@ -79,10 +79,11 @@ TEST_P(FlatTriangles, DoNotBrakeABall) {
   }
 }
 
-/// It falls onto a corner and tumbles, so that its impulses are of all sizes.
+/// It falls onto a corner and tumbles: impulses of its impacts are some ten times those at rest,
+/// and so is what a tilted normal may give.
 TEST_P(FlatTriangles, DoNotBrakeABox) {
   for (const double aside : {-1.07, 0.03, 0.71}) {
-    World world = make_world(0.0);
+    World world = make_world();
     world.rigid.push_back(make_rigid({1.0, 1.0, 1.0}, {-7.03, aside, 0.9}));
     RigidBox& box = world.rigid.back();
     box.orientation = rotation_of_degrees({17.0, -12.0, 31.0});
