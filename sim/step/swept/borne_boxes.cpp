@@ -6,13 +6,12 @@
 namespace pneuma::sim {
 namespace {
 
-/// What each free box touches at the start of a step: nothing, the ground, one body that stands
-/// still, or others.
+/// What each free box touches at the start of a step.
 class TouchedByBoxes {
  public:
   TouchedByBoxes(const World& world, const SweptBodies& bodies, SweptMemory& memory)
       : world_(world), bodies_(bodies), m_(memory) {
-    m_.touched_by_box.assign(world.rigid.size(), nothing);
+    m_.touched_by_box.assign(world.rigid.size(), TouchedByBox::nothing);
   }
 
   bool knows(const BodyPair& pair) const {
@@ -22,35 +21,23 @@ class TouchedByBoxes {
     add(pair.first, pair.second);
     add(pair.second, pair.first);
   }
-  /// What is on its way to another body may slide from one onto the next (ERRATA row 67).
-  void add_near(const BodyPair& pair) {
-    add_near(pair.first, pair.second);
-    add_near(pair.second, pair.first);
-  }
   bool is_free_box(int body) const { return bodies_.is_box(body) && !is_fixed(world_, body); }
-  bool are_others(int box) const { return m_.touched_by_box[at(box)] == others; }
+  bool are_others(int box) const { return m_.touched_by_box[at(box)] == TouchedByBox::others; }
 
  private:
-  static constexpr int nothing = -2, others = -3;  // besides bodies and the ground
-
   bool stands_still(int body) const {
     return body == swept_ground || (is_kinematic(world_, body) && !bodies_.moves(world_, body));
   }
   bool knows(int body, int other) const {
     if (!is_free_box(body)) return true;
-    const int touched = m_.touched_by_box[at(bodies_.box(body))];
-    return touched == others || touched == other;
+    const TouchedByBox touched = m_.touched_by_box[at(bodies_.box(body))];
+    return touched == TouchedByBox::others ||
+           (touched == TouchedByBox::still && stands_still(other));
   }
   void add(int body, int other) {
     if (knows(body, other)) return;
-    int& touched = m_.touched_by_box[at(bodies_.box(body))];
-    touched = touched == nothing && stands_still(other) ? other : others;
-  }
-
-  void add_near(int body, int other) {
-    if (!is_free_box(body)) return;
-    int& touched = m_.touched_by_box[at(bodies_.box(body))];
-    if (touched >= 0 && touched != other) touched = others;
+    m_.touched_by_box[at(bodies_.box(body))] =
+        stands_still(other) ? TouchedByBox::still : TouchedByBox::others;
   }
 
   const World& world_;
@@ -85,7 +72,6 @@ void SweptSearch::find_borne_boxes() {
     sets.unite(first, second);
     touched.add(candidate.bodies);
   }
-  for (const SweptCandidate& candidate : m_.candidates) touched.add_near(candidate.bodies);
   m_.is_borne.resize(world_.rigid.size());
   for (int i = 0; i < boxes; ++i) {
     const bool is_borne = touched.are_others(i) && sets.find(i) == sets.find(bearer);

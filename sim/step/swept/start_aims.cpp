@@ -39,7 +39,8 @@ class StartAims {
     if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
       // Shifts do the rest. What presses boxes together must not take them back.
       const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second) ||
-                           (contact.is_of_near_boxes && stands_alone(contact));
+                           (contact.is_of_near_boxes &&
+                            (stands_on_still(contact.first) || stands_on_still(contact.second)));
       const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
       const double room = is_held ? -missing_distance(contact) : contact.distance - least;
       return closer - std::max(0.0, room);
@@ -53,15 +54,11 @@ class StartAims {
     return box.body != swept_ground && m_.carried_boxes.is_carried(m_.bodies.box(box.body));
   }
 
-  /// A box that touches but one body that stands still would fall into the room that others leave
-  /// to shifts.
-  bool stands_alone(const SweptContact& contact) const {
-    return stands_alone(contact.first, contact.second) ||
-           stands_alone(contact.second, contact.first);
-  }
-  bool stands_alone(const SurfacePoint& side, const SurfacePoint& other) const {
+  /// A box that touches only what stands still would fall into the room that others leave to
+  /// shifts.
+  bool stands_on_still(const SurfacePoint& side) const {
     return m_.bodies.is_box(side.body) && !is_kinematic(world_, side.body) &&
-           m_.touched_by_box[at(m_.bodies.box(side.body))] == other.body;
+           m_.touched_by_box[at(m_.bodies.box(side.body))] == TouchedByBox::still;
   }
 
   bool on_ground_as_box(const SweptContact& contact) const {

@@ -91,6 +91,9 @@ struct Partner {
   double restitution = 1.0;  // the least of those in which it may be hit
 };
 
+/// What a box touches: nothing, only what stands still, or others.
+enum class TouchedByBox : std::uint8_t { nothing, still, others };
+
 struct SweptMemory {
   explicit SweptMemory(const World& world)
       : bodies(world),
@@ -144,7 +147,7 @@ struct SweptMemory {
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<std::uint8_t> is_borne;         // per box, at the start
-  std::vector<int> touched_by_box;            // per box: a body, -1 the ground, less: not one alone
+  std::vector<TouchedByBox> touched_by_box;   // per box, at the start
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies
