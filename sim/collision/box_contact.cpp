@@ -145,7 +145,8 @@ Vec3 support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
 /// Halfway between the nearest points of the two edges p + s a and q + t b. There the line between
 /// them is at right angles to both: with r = p - q and c = a.b,
 ///   s = (c b.r - a.r) / (1 - c^2),  t = (b.r - c a.r) / (1 - c^2).
-/// The axis exists, so the edges are not parallel.
+/// The axis exists, so the edges are not parallel. Edges of boxes that are apart may not cross:
+/// these pass each other by their sides.
 void add_edge_point(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
                     const MinOverlap& overlap) {
   const Vec3 p = support_edge(first, overlap.first_axis, -overlap.normal);
@@ -157,8 +158,11 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
   const double c = a.dot(b);
   const double s_reach = first.half[overlap.first_axis];
   const double t_reach = second.half[overlap.second_axis];
-  const double s = std::clamp((c * b.dot(r) - a.dot(r)) / squared_sine, -s_reach, s_reach);
-  const double t = std::clamp((b.dot(r) - c * a.dot(r)) / squared_sine, -t_reach, t_reach);
+  const double s_on_line = (c * b.dot(r) - a.dot(r)) / squared_sine;
+  const double t_on_line = (b.dot(r) - c * a.dot(r)) / squared_sine;
+  const double s = std::clamp(s_on_line, -s_reach, s_reach);
+  const double t = std::clamp(t_on_line, -t_reach, t_reach);
+  if (overlap.overlap < 0.0 && (s != s_on_line || t != t_on_line)) return;
   const Vec3 middle = 0.5 * (p + s * a + q + t * b);
   contact.all[at(contact.count++)] = {middle, overlap.overlap};
 }

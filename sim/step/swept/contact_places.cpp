@@ -106,11 +106,11 @@ bool ContactPlaces::face_each_other(const BodyPair& boxes, Moment moment) const 
 bool ContactPlaces::are_beside_each_other(const SweptCandidate& candidate,
                                           const ClosestPoints& closest, Moment moment) const {
   const auto [first, second] = candidate.bodies;
-  if (bodies_.is_box(first) && bodies_.is_box(second))
-    return !face_each_other(candidate.bodies, moment);
+  const bool are_boxes = bodies_.is_box(first) && bodies_.is_box(second);
   const bool is_beside_obstacle = (bodies_.is_box(first) && bodies_.is_obstacle(second)) ||
                                   (bodies_.is_obstacle(first) && bodies_.is_box(second));
-  if (!is_beside_obstacle) return false;
+  if (!are_boxes && !is_beside_obstacle) return false;
+  if (are_boxes && !face_each_other(candidate.bodies, moment)) return true;
   const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
     return feature.kind != FeatureKind::vertex ||
            is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);
