@@ -32,6 +32,7 @@ class EndContacts {
               const SweptWarmStart& warm_start)
       : world_(world),
         m_(memory),
+        start_(start),
         motion_(world, start, memory.bodies),
         places_(world, start, memory.bodies),
         warm_start_(warm_start) {}
@@ -87,7 +88,6 @@ class EndContacts {
   /// What touches at the end does not approach, or bounces. An impulse of the start whose features
   /// did not meet is given back.
   void touch(const SweptCandidate& candidate) {
-    const auto [first, second] = candidate.bodies;
     const Given before = given_at_start(candidate);
     const bool acted = before.normal > 0.0;
     auto contact = places_.place_at_end(candidate, before.strongest);
@@ -99,7 +99,7 @@ class EndContacts {
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
-    const bool arrives = !acted && motion_.is_rigid(*contact) && flew(first) && flew(second);
+    const bool arrives = !acted && motion_.is_rigid(*contact);
     set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
@@ -115,10 +115,27 @@ class EndContacts {
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
   bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
 
-  /// `alone`: no other point of the two bodies says that they are hit.
+  /// `alone`: no other point of the two bodies says that they are hit. What something has pushed in
+  /// this step arrives with no more speed than it had at its start, as a box that slides against a
+  /// wall has: what the step gave it, the next one may take again.
   Given hit_at_end(const SweptContact& contact, bool alone) const {
-    const double approach = -contact.normal.dot(motion_.end_velocity(contact));
+    double approach = -contact.normal.dot(motion_.end_velocity(contact));
+    if (alone && !(flew(contact.first.body) && flew(contact.second.body))) {
+      const Vec3 before = velocity_before(contact.first) - velocity_before(contact.second);
+      approach = std::min(approach, -contact.normal.dot(before));
+    }
     return {.is_known = true, .is_of_end = alone, .approach = approach};
+  }
+
+  /// m/s, of a point of a box as it moved when the step began.
+  Vec3 velocity_before(const SurfacePoint& point) const {
+    if (point.body == swept_ground || is_kinematic(world_, point.body)) {
+      return m_.bodies.end_velocity(world_, point);
+    }
+    const int box = m_.bodies.box(point.body);
+    const RigidState& start = start_.rigid[at(box)];
+    return start.velocity +
+           start.angular_velocity.cross(point.point - world_.rigid[at(box)].position);
   }
 
   void hit_as_well(const SweptCandidate& candidate) {
@@ -172,6 +189,7 @@ class EndContacts {
 
   const World& world_;
   SweptMemory& m_;
+  const MotionStart& start_;
   ContactMotion motion_;
   ContactPlaces places_;
   const SweptWarmStart& warm_start_;
