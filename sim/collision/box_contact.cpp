@@ -14,6 +14,9 @@ namespace {
 constexpr double angle_of_face = 0.1;
 /// Of half the boxes' shortest sides: a point that is no further from the depth is as deep.
 constexpr double same_depth = 1e-6;
+/// Of the same: boxes that are apart, and share a narrower strip of their faces, do not face each
+/// other. A box on the ground passes over a slab whose top is level with that.
+constexpr double narrow = 5e-4;
 
 /// The incident face while it is being clipped: a convex polygon, in the reference face's
 /// coordinates. A square clipped by four lines has at most eight corners; what rounding might
@@ -24,6 +27,12 @@ class Polygon {
   const Vec3& operator[](int i) const { return corners_[at(i % size_)]; }
   void add(const Vec3& corner) {
     if (size_ < BoxContact::max_points) corners_[at(size_++)] = corner;
+  }
+  double extent(int coordinate) const {
+    const auto [least, greatest] = std::minmax_element(
+        corners_.begin(), corners_.begin() + size_,
+        [&](const Vec3& a, const Vec3& b) { return a[coordinate] < b[coordinate]; });
+    return size_ == 0 ? 0.0 : (*greatest)[coordinate] - (*least)[coordinate];
   }
   bool is_within(int coordinate, double sign, double limit) const {
     return std::all_of(corners_.begin(), corners_.begin() + size_,
@@ -115,6 +124,8 @@ Polygon shared_face(const FacePair& faces) {
 /// `cosine`: of the angle from the face's normal to the contact's.
 void add_shared_points(BoxContact& contact, const FacePair& faces, double cosine, double reach) {
   const Polygon polygon = shared_face(faces);
+  const double strip = narrow * (faces.reference.half.minCoeff() + faces.incident.half.minCoeff());
+  if (contact.depth < 0.0 && std::min(polygon.extent(0), polygon.extent(1)) < strip) return;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];
     const double height = cosine * corner.z();

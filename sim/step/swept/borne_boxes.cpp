@@ -25,19 +25,16 @@ class TouchedByBoxes {
   bool are_others(int box) const { return m_.touched_by_box[at(box)] == TouchedByBox::others; }
 
  private:
-  bool stands_still(int body) const {
-    return body == swept_ground || (is_kinematic(world_, body) && !bodies_.moves(world_, body));
-  }
   bool knows(int body, int other) const {
     if (!is_free_box(body)) return true;
     const TouchedByBox touched = m_.touched_by_box[at(bodies_.box(body))];
     return touched == TouchedByBox::others ||
-           (touched == TouchedByBox::still && stands_still(other));
+           (touched == TouchedByBox::still && bodies_.stands_still(world_, other));
   }
   void add(int body, int other) {
     if (knows(body, other)) return;
     m_.touched_by_box[at(bodies_.box(body))] =
-        stands_still(other) ? TouchedByBox::still : TouchedByBox::others;
+        bodies_.stands_still(world_, other) ? TouchedByBox::still : TouchedByBox::others;
   }
 
   const World& world_;

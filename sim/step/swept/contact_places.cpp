@@ -95,22 +95,30 @@ bool ContactPlaces::obstacle_is_nearest(const SweptCandidate& candidate,
          is_nearest(second, candidate.features.second, closest.first_point);
 }
 
-/// With a face of one towards the other.
-bool ContactPlaces::face_each_other(const BodyPair& boxes, Moment moment) const {
+/// Of boxes of which no face is towards the other, and of features that are nearest in another
+/// direction than across the faces that are.
+bool ContactPlaces::boxes_are_beside(const BodyPair& boxes, const ClosestPoints& closest,
+                                     Moment moment) const {
   const auto [first, second] = boxes;
   const auto box = [&](int i) { return moment == Moment::start ? start_box(i) : end_box(i); };
   const double near = motion_.near_distance(first, second);
-  return find_box_contact_within(near, box(first), box(second)).has_value();
+  const auto contact = find_box_contact_within(near, box(first), box(second));
+  if (!contact) return true;
+  if (closest.distance < rounding_distance) return false;
+  const Vec3 apart = (closest.first_point - closest.second_point) / closest.distance;
+  const double across = contact->normal.dot(apart);
+  return across < 0.0 || (apart - across * contact->normal).norm() > flat_of_boxes;
 }
 
 bool ContactPlaces::are_beside_each_other(const SweptCandidate& candidate,
                                           const ClosestPoints& closest, Moment moment) const {
   const auto [first, second] = candidate.bodies;
-  const bool are_boxes = bodies_.is_box(first) && bodies_.is_box(second);
+  if (bodies_.is_box(first) && bodies_.is_box(second)) {
+    return boxes_are_beside(candidate.bodies, closest, moment);
+  }
   const bool is_beside_obstacle = (bodies_.is_box(first) && bodies_.is_obstacle(second)) ||
                                   (bodies_.is_obstacle(first) && bodies_.is_box(second));
-  if (!are_boxes && !is_beside_obstacle) return false;
-  if (are_boxes && !face_each_other(candidate.bodies, moment)) return true;
+  if (!is_beside_obstacle) return false;
   const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
     return feature.kind != FeatureKind::vertex ||
            is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);

@@ -18,6 +18,13 @@ double reach_of(const OrientedBox& one, const OrientedBox& other) {
   return near_of_side * 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
 }
 
+/// m, of another box's lowest corner over the face on one side of the axis.
+double height_over(const OrientedBox& box, int axis, double sign, const OrientedBox& other) {
+  const Vec3 outward = sign * box.axes.col(axis);
+  const double extent = (other.axes.transpose() * outward).cwiseAbs().dot(other.half);
+  return outward.dot(other.centre - box.centre) - box.half[axis] - extent;
+}
+
 }  // namespace
 
 /// m, of a corner of one box against one of another, at most: the same motion of both is left out.
@@ -74,6 +81,30 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
     m_.candidates.push_back(candidate);
   }
   return true;
+}
+
+/// Boxes of which one goes along a face of the other and comes no nearer to it, nor further into it
+/// than boxes that are near: their edges pass, and meet nowhere. Over a face that does not turn,
+/// what goes along straight lines is lowest at their ends.
+bool SweptSearch::slide_past_each_other(const BodyPair& bodies) const {
+  const auto [first, second] = bodies;
+  if (!bodies_.is_box(first) || !bodies_.is_box(second)) return false;
+  const double allowed = allowed_sinking * motion_.distance_wanted(first, second);
+  const auto keeps_apart = [&](int with_face, int other) {
+    const OrientedBox start = places_.start_box(with_face), end = places_.end_box(with_face);
+    const OrientedBox from = places_.start_box(other), to = places_.end_box(other);
+    const double reach = (from.centre - start.centre).norm() + from.half.norm();
+    if (reach * (end.axes - start.axes).norm() > allowed) return false;
+    for (const double sign : {1.0, -1.0}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double before = height_over(start, axis, sign, from);
+        const double after = height_over(end, axis, sign, to);
+        if (after >= -allowed && std::abs(after - before) <= allowed) return true;
+      }
+    }
+    return false;
+  };
+  return keeps_apart(first, second) || keeps_apart(second, first);
 }
 
 /// Boxes that turn or slide into each other, which the points of their contact at the start of the

@@ -188,6 +188,10 @@ bool SweptBodies::moves(const World& world, int body) const {
   return is_driven(body) ? moved_[at(body)]->moves() : sim::moves(world, body);
 }
 
+bool SweptBodies::stands_still(const World& world, int body) const {
+  return body == swept_ground || (is_kinematic(world, body) && !moves(world, body));
+}
+
 bool SweptBodies::any_driven_moves() const {
   return std::ranges::any_of(
       moved_, [](const auto& moved) { return moved && moved->is_driven() && moved->moves(); });

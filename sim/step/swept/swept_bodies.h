@@ -43,6 +43,8 @@ class SweptBodies {
   void begin_step(const World& world);
   /// Whether a body of this step has a velocity.
   bool moves(const World& world, int body) const;
+  /// The ground does, and what nothing moves in this step.
+  bool stands_still(const World& world, int body) const;
   bool any_driven_moves() const;
   /// Whether it may move where no impulse moves it: an obstacle or box that is moved, or a soft
   /// body, whose vertices may be pinned.

@@ -11,6 +11,8 @@ namespace {
 /// What features keep of their distance on their way: of that at the start, and of that wanted.
 constexpr double kept_of_start = 0.1;
 constexpr double kept_of_wanted = 0.05;
+/// Of the step: what boxes meet so soon after one another they meet at once.
+constexpr double at_once = 0.01;
 
 }  // namespace
 
@@ -36,7 +38,7 @@ bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
 }
 
 void SweptSearch::find_candidates() {
-  has_started_ = false;
+  has_started_ = has_looked_ = false;
   std::ranges::fill(m_.on_ground, OnGround{});
   m_.earlier_candidates.clear();
   search_ways();
@@ -154,6 +156,7 @@ void SweptSearch::follow_ends() {
 bool SweptSearch::find_collisions() {
   blocked_.reset();
   follow_ends();
+  find_first_meetings();
   bool collided = false;
   const auto all = std::span(m_.candidates);
   for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
@@ -161,7 +164,38 @@ bool SweptSearch::find_collisions() {
     while (end < all.size() && all[end].bodies == bodies) ++end;
     collided = find_collisions_of_pair(all.subspan(first, end - first)) || collided;
   }
+  has_looked_ = true;
   return collided;
+}
+
+/// Of each box with what stands still: held there, it may not meet what it would later. A box that
+/// falls onto tiles, and is held by their tops, comes to none of their sides.
+void SweptSearch::find_first_meetings() {
+  m_.first_meeting.assign(has_looked_ ? 0 : world_.rigid.size(), 1.0);
+  if (has_looked_) return;
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const int box = box_beside_still(candidate.bodies);
+    if (box < 0 || candidate.is_of_near_boxes) continue;
+    if (const auto fraction = fraction_of_meeting(candidate)) {
+      double& earliest = m_.first_meeting[at(box)];
+      earliest = std::min(earliest, *fraction);
+    }
+  }
+}
+
+/// Than something else that its box meets: that is held first, and the next search looks again.
+bool SweptSearch::comes_later(const SweptCandidate& candidate, double fraction) const {
+  const int box = has_looked_ ? -1 : box_beside_still(candidate.bodies);
+  return box >= 0 && fraction > m_.first_meeting[at(box)] + at_once;
+}
+
+/// The number of a box that is free, and of which the other of two boxes stands still; or -1.
+int SweptSearch::box_beside_still(const BodyPair& bodies) const {
+  const auto [first, second] = bodies;
+  if (second == swept_ground || !bodies_.is_box(first) || !bodies_.is_box(second)) return -1;
+  if (is_fixed(world_, first) == is_fixed(world_, second)) return -1;
+  const int free = is_fixed(world_, first) ? second : first;
+  return bodies_.stands_still(world_, free == first ? second : first) ? bodies_.box(free) : -1;
 }
 
 bool SweptSearch::find_collisions_of_pair(std::span<SweptCandidate> candidates) {
@@ -188,21 +222,29 @@ void SweptSearch::hold_where_they_meet() {
   }
 }
 
-/// Whether two features come too near each other on their ways. It becomes a contact: of boxes as
-/// they meet, since they may turn until then; of others as they are at the start.
-bool SweptSearch::meets(SweptCandidate& candidate) {
+/// Of the step, at which two features come too near each other on their ways.
+std::optional<double> SweptSearch::fraction_of_meeting(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;
   const double distance = candidate.start.distance;
-  if (candidate.is_of_near_boxes) return sinks_in(candidate);
   // What touches at the start is held from there.
-  if (distance < rounding_distance) return false;
+  if (distance < rounding_distance) return std::nullopt;
   const double least =
       std::min(kept_of_start * distance, kept_of_wanted * motion_.distance_wanted(first, second));
   const auto fraction = time_of_meeting(bodies_.surface(first), bodies_.surface(second),
                                         candidate.features, distance, least);
+  return fraction && slide_past_each_other(candidate.bodies) ? std::nullopt : fraction;
+}
+
+/// Whether two features come too near each other on their ways. It becomes a contact: of boxes as
+/// they meet, since they may turn until then; of others as they are at the start.
+bool SweptSearch::meets(SweptCandidate& candidate) {
+  const auto [first, second] = candidate.bodies;
+  if (candidate.is_of_near_boxes) return sinks_in(candidate);
+  const auto fraction = fraction_of_meeting(candidate);
   if (!fraction || !motion_.is_moved(places_.place(candidate, candidate.start, Moment::start)))
     return false;
   blocked_ = candidate.bodies;
+  if (comes_later(candidate, *fraction)) return true;
   m_.meetings.push_back({static_cast<int>(&candidate - m_.candidates.data()), *fraction});
   if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
     add(candidate, places_.place_at(candidate, *fraction));

@@ -40,7 +40,7 @@ class SweptSearch {
   void mark_candidates();
   /// Which boxes touch, at the start of the step, what does not fall: the ground, soft bodies or
   /// what stands still or is moved, directly or through other boxes; but those that touch nothing
-  /// but the ground, or but one body that stands still, are not among them (ERRATA row 36).
+  /// but the ground and what stands still are not among them (ERRATA row 36).
   void find_borne_boxes();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
@@ -80,6 +80,7 @@ class SweptSearch {
   /// the distance that shifts keep, m.
   template <class Visit>
   void for_each_of_boxes(const Visit& visit) const;
+  bool slide_past_each_other(const BodyPair& bodies) const;
   bool turn_into_each_other(SweptCandidate& first_point);
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
@@ -89,6 +90,10 @@ class SweptSearch {
   void put_back_missing();
   SweptCandidate missing_candidate(const RecalledContact& recalled) const;
   bool find_collisions_of_pair(std::span<SweptCandidate> candidates);
+  void find_first_meetings();
+  std::optional<double> fraction_of_meeting(const SweptCandidate& candidate) const;
+  int box_beside_still(const BodyPair& bodies) const;
+  bool comes_later(const SweptCandidate& candidate, double fraction) const;
   bool meets(SweptCandidate& candidate);
   void hold_where_they_meet();
   bool sinks_in(SweptCandidate& candidate);
@@ -105,6 +110,7 @@ class SweptSearch {
   ContactPlaces places_;
   std::optional<BodyPair> blocked_;
   bool has_started_ = false;           // the contacts of the start are found
+  bool has_looked_ = false;            // for collisions
   bool are_beside_obstacles_ = false;  // any candidates
   std::size_t next_earlier_ = 0;       // of the candidates of the search before
   std::size_t next_near_ = 0;          // of the near triangles

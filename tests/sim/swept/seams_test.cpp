@@ -48,20 +48,20 @@ TEST(Seams, DoNotBrakeWhatSlidesOverThem) {
   }
 }
 
-/// A box that slides at 6 m/s over tiles of 1 m that lie side by side.
-World make_tiled_floor(int steps_per_second, double x, double turn) {
+/// A floor of 10 m along x, of so many static boxes side by side, and a box at `place` above it.
+World make_floor(int steps_per_second, int tiles, const Vec3& place, double turn) {
   World world = make_swept_world();
   world.settings.ground.reset();
   world.settings.gravity = {0.0, 0.0, -9.81};
   world.settings.steps_per_second = steps_per_second;
-  for (int i = 0; i < 10; ++i) {
-    world.rigid.push_back(make_rigid({1.0, 4.0, 0.5}, {i + 0.5, 0.0, -0.25}));
+  const double width = 10.0 / tiles;
+  for (int i = 0; i < tiles; ++i) {
+    world.rigid.push_back(make_rigid({width, 4.0, 0.5}, {(i + 0.5) * width, 0.0, -0.25}));
     world.rigid.back().is_kinematic = true;
     world.rigid.back().surface = {0.2, 0.3};
   }
-  RigidBox box = make_rigid({0.6, 0.6, 0.4}, {x, 0.0, 0.2});
+  RigidBox box = make_rigid({0.6, 0.6, 0.4}, place);
   box.orientation = rotation_of_degrees({0.0, 0.0, turn});
-  box.velocity = {6.0, 0.0, 0.0};
   box.surface = {0.0, 0.3};
   box.rho_g = 0.0;
   world.rigid.push_back(box);
@@ -71,16 +71,53 @@ World make_tiled_floor(int steps_per_second, double x, double turn) {
 /// Corners that pass a seam within a step are beside the next tile's edge at its end, above it.
 TEST(Seams, LetABoxSlideOverTilesAsFarAsFrictionDoes) {
   constexpr double distance = 6.0 * 6.0 / (2.0 * 0.3 * 9.81);
-  for (const int steps_per_second : {60, 120, 240}) {
+  for (const int steps_per_second : {60, 120, 240, 480}) {
     for (const double turn : {0.0, 10.0, 30.0}) {
       for (double x = 1.33; x < 2.3; x += 0.11) {
-        World world = make_tiled_floor(steps_per_second, x, turn);
+        World world = make_floor(steps_per_second, 10, {x, 0.0, 0.2}, turn);
+        world.rigid.back().velocity = {6.0, 0.0, 0.0};
         ASSERT_FALSE(run(world, 2.6));
         // Of 1.5 %: what is left of a landing on the next tile by the gap between boxes.
         EXPECT_NEAR(world.rigid.back().position.x() - x, distance, 0.015 * distance)
             << steps_per_second << " " << turn << " " << x;
         EXPECT_LT(std::abs(world.rigid.back().position.y()), 0.015 * distance);
       }
+    }
+  }
+}
+
+/// What would meet the side of a tile within the step is held by the tops of others before.
+TEST(Seams, ABoxLandsOnTilesAsOnOne) {
+  for (const int steps_per_second : {60, 240}) {
+    for (const double turn : {0.0, 10.0, 30.0, 45.0}) {
+      for (double x = 1.33; x < 2.3; x += 0.11) {
+        const auto lands = [&](int tiles) {
+          World world = make_floor(steps_per_second, tiles, {x, 0.0, 0.3}, turn);
+          world.rigid.back().velocity = {5.0, 0.0, -2.0};
+          EXPECT_FALSE(run(world, 1.0));
+          return world.rigid.back();
+        };
+        const RigidBox one = lands(1), tiles = lands(10);
+        // Of 3 m: what is left of a solution, which friction follows.
+        EXPECT_LT((tiles.position - one.position).norm(), 0.03)
+            << steps_per_second << " " << turn << " " << x;
+        EXPECT_LT((tiles.velocity - one.velocity).norm(), 0.03);
+      }
+    }
+  }
+}
+
+/// Slabs let into the ground, as a user gives a part of it another friction.
+TEST(Seams, ABoxOnTheGroundPassesOverSlabsThatAreLevelWithIt) {
+  constexpr double distance = 6.0 * 6.0 / (2.0 * 0.3 * 9.81);
+  for (const int steps_per_second : {60, 240, 960}) {
+    for (double x = -1.5; x < -0.9; x += 0.11) {
+      World world = make_floor(steps_per_second, 10, {x, 0.0, 0.2}, 0.0);
+      world.settings.ground = ContactMaterial{0.0, 0.3};
+      world.rigid.back().velocity = {6.0, 0.0, 0.0};
+      ASSERT_FALSE(run(world, 2.6));
+      EXPECT_NEAR(world.rigid.back().position.x() - x, distance, 0.015 * distance)
+          << steps_per_second << " " << x;
     }
   }
 }
