@@ -40,7 +40,7 @@ json key_json(std::string_view table, const scenes::Key& key) {
           {"takes", scenes::type_text(key.slot)},
           {"words", word == nullptr ? json() : json(word->words)},
           {"range", text_or_null(key.range.text(key.name))},
-          {"unit", text_or_null(key.unit)},
+          {"unit", text_or_null(scenes::units_text(key))},
           {"default", std::visit(ValueJson{}, key.slot)},
           {"only_for", text_or_null(key.only_for)},
           {"set_by_paper_method", key.of_method},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/loader/make_keys.h"
 #include "scenes/loader/text_checks.h"
 #include "sim/base/nearest.h"
 
@@ -115,16 +116,17 @@ class Assignment {
   void check_range(const Value& value, std::string_view name, Number number) const {
     if (key_.range.contains(static_cast<double>(number))) return;
     const std::string unit = key_.unit.empty() ? std::string() : fmt::format(" {}", key_.unit);
-    if (!std::isfinite(static_cast<double>(number))) {
-      refuse(value, fmt::format("{} = {} is not finite; write a finite number{}", name, number,
-                                unit.empty() ? unit : " of" + unit));
-    }
     refuse(value, fmt::format("{} = {}{} is out of range; allowed: {}{} ({})", name, number, unit,
                               key_.range.text(key_.name), unit, key_.meaning));
   }
 
-  /// `in_range`: or any finite number.
-  double number(const Value& value, std::string_view name, bool in_range = true) const {
+  double number(const Value& value, std::string_view name) const {
+    const double result = finite(value, name, key_.unit);
+    check_range(value, name, result);
+    return result;
+  }
+
+  double finite(const Value& value, std::string_view name, std::string_view unit) const {
     double result = 0.0;
     if (const auto* whole = std::get_if<std::int64_t>(&value.data)) {
       result = static_cast<double>(*whole);
@@ -135,7 +137,10 @@ class Assignment {
       refuse(value, fmt::format("{}: expected a number, got {}{}", name, describe(value),
                                 text == nullptr ? std::string() : number_hint(*text)));
     }
-    if (in_range || !std::isfinite(result)) check_range(value, name, result);
+    if (!std::isfinite(result)) {
+      refuse(value, fmt::format("{} = {} is not finite; write a finite number{}{}", name, result,
+                                unit.empty() ? "" : " of ", unit));
+    }
     return result;
   }
 
@@ -198,10 +203,14 @@ class Assignment {
     member = std::move(keys);
   }
 
-  void check_start(const Value& time, double seconds) const {
-    if (seconds >= 0.0) return;
-    refuse(time, fmt::format("{}: a time of {} s is before the start; allowed: 0 or more",
-                             key_.name, seconds));
+  /// s, of a row, whatever the range of its values is.
+  double time(const Value& value) const {
+    const double seconds = finite(value, fmt::format("{} time", key_.name), time_unit);
+    if (seconds >= 0.0 && seconds <= longest_duration) return seconds;
+    refuse(value,
+           fmt::format("{}: a time of {} {} is {}; allowed: 0 to {:.0f}", key_.name, seconds,
+                       time_unit, seconds < 0.0 ? "before the start" : "after the longest run",
+                       longest_duration));
   }
 
   TimedValue timed_value(const Value& row) const {
@@ -209,10 +218,7 @@ class Assignment {
     if (elements == nullptr || elements->size() != 2) {
       refuse_type(row, key_.name, "a row [time, value]");
     }
-    const TimedValue key = {number((*elements)[0], fmt::format("{} time", key_.name), false),
-                            number((*elements)[1], key_.name)};
-    check_start(elements->front(), key[0]);
-    return key;
+    return {time((*elements)[0]), number((*elements)[1], key_.name)};
   }
 
   /// A time, then places along x, y, z.
@@ -223,11 +229,10 @@ class Assignment {
     if (elements == nullptr || elements->size() != key.size()) {
       refuse_type(row, key_.name, expected);
     }
-    for (std::size_t i = 0; i < key.size(); ++i) {
-      key[i] = number((*elements)[i],
-                      i == 0 ? fmt::format("{} time", key_.name) : element_name((i - 1) % 3));
+    key[0] = time(elements->front());
+    for (std::size_t i = 1; i < key.size(); ++i) {
+      key[i] = number((*elements)[i], element_name((i - 1) % 3));
     }
-    check_start(elements->front(), key[0]);
     return key;
   }
 

@@ -94,14 +94,16 @@ struct TypeText {
   std::string operator()(const std::optional<Vec3>*) const { return "3 numbers"; }
   std::string operator()(const std::array<int, 3>*) const { return "3 whole numbers"; }
   std::string operator()(const std::vector<std::string>*) const { return "1 to 3 strings"; }
-  std::string operator()(const std::vector<sim::KeyFrame>*) const { return "rows [time, x, y, z]"; }
+  std::string operator()(const std::vector<sim::KeyFrame>*) const {
+    return "rows [time in s, x, y, z]";
+  }
   std::string operator()(const std::vector<CameraKey>*) const {
-    return "rows [time, eye x, y, z, target x, y, z]";
+    return "rows [time in s, eye x, y, z, target x, y, z]";
   }
   std::string operator()(const std::vector<Region>*) const {
     return "rows [xmin, ymin, zmin, xmax, ymax, zmax]";
   }
-  std::string operator()(const std::vector<TimedValue>*) const { return "rows [time, value]"; }
+  std::string operator()(const std::vector<TimedValue>*) const { return "rows [time in s, value]"; }
   std::string operator()(const std::optional<sim::ContactMaterial>*) const {
     return "true or false";
   }
@@ -109,6 +111,12 @@ struct TypeText {
     return fmt::format("\"{}\"", fmt::join(word.words, "\", \""));
   }
 };
+
+bool is_timed(const Slot& slot) {
+  return std::holds_alternative<std::vector<sim::KeyFrame>*>(slot) ||
+         std::holds_alternative<std::vector<TimedValue>*>(slot) ||
+         std::holds_alternative<std::vector<CameraKey>*>(slot);
+}
 
 struct MemberOf {
   const void* operator()(std::monostate) const { return nullptr; }
@@ -155,6 +163,10 @@ const void* member_of(const Slot& slot) { return std::visit(MemberOf{}, slot); }
 std::string type_text(const Slot& slot) { return std::visit(TypeText{}, slot); }
 
 std::string value_text(const Slot& slot) { return std::visit(ValueText{}, slot); }
+
+std::string units_text(const Key& key) {
+  return is_timed(key.slot) ? fmt::format("{}, {}", time_unit, key.unit) : std::string(key.unit);
+}
 
 bool is_listed(std::string_view table) {
   return table == "body" || table == "valve" || table == "spring";

@@ -58,7 +58,7 @@ struct Key {
   std::string_view name;
   Slot slot;
   Range range = {};
-  std::string_view unit = {};  // empty: none
+  std::string_view unit = {};  // of each number, but of times before them; empty: none
   std::string_view meaning;
   TextCheck check = nullptr;          // of strings
   std::string_view only_for = {};     // "soft bodies"; empty: for all
@@ -72,6 +72,12 @@ struct Key {
   bool selects = false;                  // decides which other keys apply, so it is read first
   bool or_number = false;  // a string's key that also takes a whole number as its digits
 };
+
+/// Of the times that rows of values begin with.
+inline constexpr std::string_view time_unit = "s";
+
+/// The units of all that a key takes: "s, mol" of rows of a time and an amount; empty: none.
+std::string units_text(const Key& key);
 
 /// One table of a scene file.
 struct Section {

@@ -14,6 +14,8 @@ namespace pneuma::scenes {
 // 6 cm.
 inline constexpr double farthest = 1e6;
 
+inline constexpr double longest_duration = 1e6;  // s, of a run
+
 // m^2, of an opening through which gas flows.
 inline constexpr double max_hole = 1e3;
 

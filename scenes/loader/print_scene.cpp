@@ -14,7 +14,8 @@ namespace {
 std::string comment(const Key& key, const std::string& value, const std::string& default_value) {
   const bool changed = value != default_value;
   std::string text = fmt::format("# {} ", changed ? '*' : ' ');
-  if (!key.unit.empty()) text += fmt::format("{}: ", key.unit);
+  const std::string units = units_text(key);
+  if (!units.empty()) text += fmt::format("{}: ", units);
   text += key.meaning;
   if (!changed) return text;
   return text + (default_value.empty() ? " (not set by default)"

@@ -41,7 +41,7 @@ Section top_section(Scene& scene) {
           {"figure", &scene.figure, any(), "", "the paper's figure or benchmark row", check_line},
           {"paper_fps", &scene.paper_fps, above(0), "frames/s",
            "frame rate that the paper measured"},
-          {"duration", &scene.duration, above_to(0, 1e6), "s",
+          {"duration", &scene.duration, above_to(0, longest_duration), "s",
            "length of the run, a whole number of frames"},
       }};
 }
@@ -190,7 +190,7 @@ Section camera_section(Scene& scene) {
       .keys = {
           selector(only(free, {"eye", &camera.eye, place(), "m", "where the camera stands"})),
           selector(only(free, {"target", &camera.target, place(), "m", "the point it looks at"})),
-          selector({"path", &camera.path, place(), "s, m",
+          selector({"path", &camera.path, place(), "m",
                     "where eye and target are at some times, in place of both"}),
           only(free, {"follow", &camera.follow, any(), "",
                       "a body's name: the camera moves as it does, and shows it alone if it "

@@ -45,7 +45,8 @@ TEST(CameraKeys, AreRefusedWithWhatIsAllowed) {
   expect_camera_refused("path = []", {"x.toml:2:8", "an array of rows"});
   expect_camera_refused("path = [[0, 1, 2, 3]]", {"x.toml:2:9", "a row [time, eye"});
   expect_camera_refused("path = [[-1, 0, 0, 0, 1, 1, 1]]", {"x.toml:2:10", "before the start"});
-  expect_camera_refused("path = [[0, 0, 0, 0, 1, 1, 1e9]]", {"path z", "out of range"});
+  expect_camera_refused("path = [[0, 0, 0, 0, 1, 1, 1e9]]",
+                        {"path z = 1000000000 m is out of range"});
   expect_camera_refused("path = [[0, 1, 2, 3, 1, 2, 3]]", {"x.toml:2:9", "the same point"});
   expect_camera_refused("path = [[1, 0, 0, 0, 1, 1, 1], [1, 0, 0, 0, 1, 1, 2]]",
                         {"x.toml:2:32", "times must rise"});

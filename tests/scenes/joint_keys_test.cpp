@@ -59,7 +59,11 @@ TEST(JointKeys, OfGasSayWhatIsAllowed) {
   const auto body = [](const std::string& keys) { return refusal("[[body]]\n" + keys); };
   expect_in(body("supply.n = [[0, 1], [0, 2]]\n"), {"x.toml:2:21", "times must rise"});
   expect_in(body("supply.n = [[-1, 1]]\n"), {"x.toml:2:14", "before the start"});
-  expect_in(body("supply.n = [[0, -1]]\n"), {"x.toml:2:17", "supply.n >= 0"});
+  expect_in(body("supply.n = [[0, -1]]\n"),
+            {"x.toml:2:17", "supply.n = -1 mol is", "allowed: supply.n >= 0 mol ("});
+  expect_in(body("supply.temperature = [[0, -1]]\n"), {"supply.temperature = -1 K is"});
+  expect_in(body("supply.n = [[inf, 1]]\n"), {"supply.n time = inf", "a finite number of s"});
+  expect_in(body("supply.n = [[2e6, 1]]\n"), {"x.toml:2:14", "after the longest run", "1000000"});
   expect_in(body("supply.n = [[0, 1, 2]]\n"), {"a row [time, value]"});
   expect_in(body("supply.n = 5\n"), {"an array of rows [time, value]"});
   expect_in(body("supply.n = [[0, 1]]\nn = 1\n"),

@@ -31,7 +31,9 @@ TEST(MotionKeys, SayWhatIsAllowed) {
   expect_in(refusal_of_body(moved + "motion.path = [[0, 1, 2]]\n"),
             {"x.toml:3:16", "a row [time, x, y, z]"});
   expect_in(refusal_of_body(moved + "motion.path = [[0, 1, 2, 1e9]]\n"),
-            {"motion.path z", "out of range"});
+            {"motion.path z = 1000000000 m is out of range"});
+  expect_in(refusal_of_body(moved + "motion.rotation = [[0, 1, 1e9, 2]]\n"),
+            {"motion.rotation y = 1000000000 degrees is out of range"});
   expect_in(refusal_of_body(moved + "motion.path = [[-1, 1, 2, 3]]\n"),
             {"x.toml:3:17", "before the start"});
   expect_in(refusal_of_body(moved + "motion.path = [[1, 0, 0, 0], [1, 0, 0, 1]]\n"),
