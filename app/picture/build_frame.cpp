@@ -185,7 +185,9 @@ FrameBuilder::FrameBuilder(const scenes::Scene& scene, const sim::World& start)
       const sim::SoftMesh& mesh = *soft.mesh;
       const bool means_faces =
           body.shape == scenes::Shape::box || body.shape == scenes::Shape::model;
-      const bool has_faces = rounded_ && means_faces && is_faceted(mesh);
+      const bool keeps_shape = body.kind != scenes::BodyKind::soft;
+      const bool has_faces =
+          rounded_ && means_faces && (is_faceted(mesh) || (keeps_shape && has_flat_faces(mesh)));
       soft_looks_.insert(soft_looks_.end(), copies,
                          look(body, soft_shape(mesh, body, has_faces), !rounded_ || has_faces,
                               sim::bounds(soft.positions).size().norm()));

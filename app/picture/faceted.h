@@ -14,6 +14,11 @@ namespace pneuma::app {
 /// cube, a house or a part of a machine. Round shapes have edges between, however coarse they are.
 bool is_faceted(const sim::SoftMesh& mesh);
 
+/// Whether the edges of the shape at rest that are bent by 40 degrees and more, from which on
+/// corner_normals parts their sides, mostly bound flat faces, as the rims of a long cylinder do. A
+/// coarse animal has as sharp edges, but between faces that are bent on all sides.
+bool has_flat_faces(const sim::SoftMesh& mesh);
+
 /// As render::MeshShape::corner_normals: corners of one vertex have a normal in common if a way
 /// around the vertex from one to the other crosses edges only that are bent by less than 40 degrees
 /// in the shape at rest.

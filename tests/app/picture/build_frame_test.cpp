@@ -8,6 +8,9 @@
 #include "app/world/build_world.h"
 #include "render/frame/check_frame.h"
 #include "scenes/loader/load_scene.h"
+#include "tests/app/picture/prism.h"
+#include "tests/assets/model_writers.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pneuma::app {
 namespace {
@@ -163,6 +166,30 @@ TEST(BuildFrame, HasTheGroundOnlyWhereThereIsOneAndItIsWanted) {
   EXPECT_FALSE(is_flat("shape = \"sphere\"\nstacks = 2\nslices = 3"));
   EXPECT_FALSE(is_flat("shape = \"icosphere\""));
   EXPECT_FALSE(build({"ground.present=false"}).frame.ground);
+}
+
+/// Their rims are a twentieth of the length of all edges that are not flat.
+TEST(BuildFrame, ModelsThatKeepTheirShapeHaveRims) {
+  const TemporaryFolder folder;
+  write_text(folder / "pin.obj", assets::obj_text(make_prism(8.0)));
+  const auto mesh_of = [&](const std::string& kind) {
+    write_text(folder / "scene.toml", "[[body]]\nkind = \"" + kind +
+                                          "\"\nshape = \"model\"\nmodel.file = \"pin.obj\"\n"
+                                          "position = [0, 0, 9]\n");
+    const scenes::Scene scene = scenes::load_scene(folder / "scene.toml");
+    const sim::World world = build_world(scene);
+    return FrameBuilder(scene, world).build(world, {}).meshes.at(0);
+  };
+  for (const char* kind : {"static", "moved"}) {
+    const render::Mesh mesh = mesh_of(kind);
+    EXPECT_TRUE(mesh.normals.empty()) << kind;
+    std::set<std::uint32_t> normals;
+    for (const auto& corners : mesh.shape->corner_normals) {
+      normals.insert(corners.begin(), corners.end());
+    }
+    EXPECT_EQ(normals.size(), 2u * 2u * 24u + 2u) << "two on rims, one in a face's middle";
+  }
+  EXPECT_FALSE(mesh_of("soft").normals.empty());
 }
 
 TEST(BuildFrame, ItsGridIsOfTheSizeOfTheBodies) {

@@ -3,35 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 
+#include "assets/load_model.h"
 #include "sim/mesh/primitives.h"
+#include "tests/app/picture/prism.h"
+#include "tests/support/paths.h"
 
 namespace pneuma::app {
 namespace {
 
-/// A prism of 24 sides, of radius 1 m, which turn by 15 degrees from one to the next.
-sim::SoftMesh prism(double height) {
-  constexpr int sides = 24;
-  sim::TriangleMesh mesh;
-  mesh.vertices.resize(2 * sides + 2);
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / sides;
-    mesh.vertices[sim::at(i)] = sim::Vec3(std::cos(angle), std::sin(angle), 0.0);
-    mesh.vertices[sim::at(sides + i)] = sim::Vec3(std::cos(angle), std::sin(angle), height);
-    const int next = (i + 1) % sides;
-    mesh.triangles.push_back({i, next, sides + next});
-    mesh.triangles.push_back({i, sides + next, sides + i});
-    mesh.triangles.push_back({2 * sides, next, i});
-    mesh.triangles.push_back({2 * sides + 1, sides + i, sides + next});
-  }
-  mesh.vertices[2 * sides] = sim::Vec3::Zero();
-  mesh.vertices[2 * sides + 1] = sim::Vec3(0.0, 0.0, height);
-  return *sim::make_soft_mesh(mesh);
-}
+sim::SoftMesh prism(double height) { return *sim::make_soft_mesh(make_prism(height)); }
 
 TEST(Faceted, IsWhatBendsAtSharpEdgesForTheMostPart) {
   EXPECT_TRUE(is_faceted(*sim::make_soft_mesh(sim::make_box({2.0, 2.0, 2.0}, 3))));
@@ -39,6 +22,16 @@ TEST(Faceted, IsWhatBendsAtSharpEdgesForTheMostPart) {
   EXPECT_TRUE(is_faceted(prism(0.8)));
   EXPECT_FALSE(is_faceted(prism(2.0)));
   EXPECT_FALSE(is_faceted(*sim::make_soft_mesh(sim::make_sphere(1.0, 8, 8))));
+}
+
+TEST(FlatFaces, AreFoundHoweverFewTheirEdges) {
+  for (const double height : {0.8, 8.0, 100.0}) EXPECT_TRUE(has_flat_faces(prism(height)));
+  EXPECT_TRUE(has_flat_faces(*sim::make_soft_mesh(sim::make_box({2.0, 2.0, 2.0}, 3))));
+  EXPECT_FALSE(has_flat_faces(*sim::make_soft_mesh(sim::make_sphere(1.0, 16, 16))));
+  // Of an icosahedron all edges bend by 41.8 degrees, and of the cat many by more.
+  EXPECT_FALSE(has_flat_faces(*sim::make_soft_mesh(sim::make_icosphere(1.0, 0))));
+  const auto cat = assets::load_model(project_folder() / "assets" / "cat_500.ply");
+  EXPECT_FALSE(has_flat_faces(*sim::make_soft_mesh(cat.mesh)));
 }
 
 /// How many normals the corners have at each vertex; no two vertices may share one.
