@@ -19,6 +19,8 @@ namespace {
 /// Times its volume: a body that grows further has no more than its first picture in common with
 /// the shape in the scene file.
 constexpr double most_growth = 2.0;
+/// Likewise of a body that keys fill in time, which is to grow: here to twice its length.
+constexpr double most_filled_growth = 8.0;
 /// Times its volume: less is called crushed.
 constexpr double least_share = 0.5;
 /// Times its volume: what is advised for.
@@ -223,7 +225,9 @@ GasAdvice gas_advice(const sim::World& world, const sim::SoftBody& at_start, int
 
 bool GasAdvice::crushed() const { return limp || (pressed && *pressed < least_share * volume); }
 
-bool GasAdvice::blown_up() const { return settled && *settled > most_growth * volume; }
+bool GasAdvice::blown_up() const {
+  return settled && *settled > (filled_at ? most_filled_growth : most_growth) * volume;
+}
 
 bool GasAdvice::bursts() const { return shatters && !blown_up(); }
 

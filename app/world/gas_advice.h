@@ -45,7 +45,7 @@ struct GasAdvice {
   std::optional<double> strengthened;  // times its gas and its springs, which keeps its shape;
                                        // none: its gas does not press, or air does too
 
-  bool blown_up() const;      // to more than twice its volume
+  bool blown_up() const;      // to more than twice its volume; if keys fill it, its length
   bool bursts() const;        // it starts so far from rest that its shape is lost on the way
   bool crushed() const;       // by its weight, to less than half its volume, or being limp
   bool leaves_shape() const;  // being held: it folds, or rests at another volume

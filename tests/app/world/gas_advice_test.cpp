@@ -288,6 +288,12 @@ TEST(GasAdvice, IsOfTheMostGasThatKeysGive) {
   const std::string warning = gas_warning(fed);
   EXPECT_NE(warning.find("with its gas of 0.5 s, 10 mol at 293.15 K"), std::string::npos)
       << warning;
+  // What keys fill is meant to grow: of 1 mol it does to 2.5 times its volume.
+  const GasAdvice swells = advice("supply.n = [[0, 0.05], [2, 1]]"), sudden = advice("n = 1");
+  EXPECT_EQ(swells.filled_at, 2.0);
+  EXPECT_EQ(swells.settled, sudden.settled);
+  EXPECT_TRUE(sudden.blown_up());
+  EXPECT_FALSE(swells.blown_up()) << volumes_text(swells);
   EXPECT_EQ(advice("n = 1\nsupply.temperature = [[0, 300], [2, 600]]").settled,
             advice("n = 2\ntemperature = 300").settled);
   // Of what is pumped in, a leak lets some out again.
