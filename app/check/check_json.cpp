@@ -83,10 +83,15 @@ json run_statistics_json(const RunStatistics& run) {
   for (const VolumeRange& range : run.volumes) {
     if (range.is_obstacle) continue;
     volumes.push_back({{"body", range.body},
-                       {"start", range.start},
-                       {"least", range.least},
-                       {"greatest", range.greatest},
-                       {"end", range.end},
+                       {"start", range.start.value},
+                       {"least", range.least.value},
+                       {"greatest", range.greatest.value},
+                       {"end", range.end.value},
+                       {"crosses_itself",
+                        {{"start", range.start.crosses_itself},
+                         {"least", range.least.crosses_itself},
+                         {"greatest", range.greatest.crosses_itself},
+                         {"end", range.end.crosses_itself}}},
                        {"shape_deviation_of_diagonal", range.shape_deviation}});
   }
   json gas = json::array();

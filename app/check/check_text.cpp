@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "app/check/check_report.h"
-#include "app/record/pressed_volume.h"
 #include "app/record/world_json.h"
 #include "app/terminal/table.h"
 #include "app/world/gas_warnings.h"
@@ -197,23 +196,6 @@ std::string contacts_text(const ContactTally& contacts) {
   return text;
 }
 
-std::string volumes_text(const RunStatistics& run) {
-  std::string text;
-  for (const VolumeRange& range : run.volumes) {
-    if (range.is_obstacle) continue;
-    const bool is_pressed = range.keeps_gas && range.least < pressed_fraction * range.start;
-    text += named_line(
-        text.empty() ? "volume" : "",
-        fmt::format("{}: {} to {} m^3, {} at the start, {} at the end{}", range.body,
-                    readable(range.least), readable(range.greatest), readable(range.start),
-                    readable(range.end),
-                    is_pressed ? fmt::format(": PRESSED to {:.2g} %, more gas carries more",
-                                             100.0 * range.least / range.start)
-                               : ""));
-  }
-  return text;
-}
-
 /// Of those whose gas comes or goes also how much there is.
 std::string gas_ranges_text(const RunStatistics& run) {
   std::string pressures, amounts;
@@ -331,7 +313,7 @@ std::string run_statistics_text(const RunStatistics& run, const sim::Settings& s
     text += named_line("overlap at the end",
                        fmt::format("{:.4f} m, {}", run.end_overlap, run.end_overlap_bodies));
   }
-  text += energy_text(run) + contacts_text(run.contacts) + volumes_text(run) +
+  text += energy_text(run) + contacts_text(run.contacts) + volume_ranges_text(run.volumes) +
           gas_ranges_text(run) + shapes_text(run) + momentum_text(run);
   if (!run.divergence) text += named_line("speed at the end", end_speed_text(run));
   return text + named_line("state hash", hex(run.state_hash));

@@ -124,10 +124,15 @@ class Observer {
     look_for_crossings(start);
     has_been_out_.resize(sim::at(sim::body_count(start)));
     for (const sim::SoftBody& body : start.soft) {
-      const double now = volume(body);
-      const int index = static_cast<int>(result_.volumes.size());
-      result_.volumes.push_back(
-          {body.name, now, now, now, now, 0.0, sim::is_kinematic(body), keeps_gas(start, index)});
+      const std::size_t index = result_.volumes.size();
+      const Volume now = volume_now(start, index);
+      result_.volumes.push_back({.body = body.name,
+                                 .start = now,
+                                 .least = now,
+                                 .greatest = now,
+                                 .end = now,
+                                 .is_obstacle = sim::is_kinematic(body),
+                                 .keeps_gas = keeps_gas(start, static_cast<int>(index))});
       result_.gas.push_back({.body = body.name, .pressure = {}, .n = {}});
       look_at_gas(body, result_.gas.back());
     }
@@ -165,9 +170,7 @@ class Observer {
     look_for_crossings(world);
     look_for_sunk_bodies(world);
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
-      VolumeRange& range = result_.volumes[b];
-      range.least = std::min(range.least, volume(world.soft[b]));
-      range.greatest = std::max(range.greatest, volume(world.soft[b]));
+      add_volume(volume_now(world, b), result_.volumes[b]);
       look_at_gas(world.soft[b], result_.gas[b]);
     }
     motion_ = motion(world, before_, sim::time(world) - frame_time_, rest_limits_);
@@ -191,8 +194,9 @@ class Observer {
     if (!result_.divergence && has_been_quiet()) result_.rests_from = quiet_from_;
     result_.state_hash = sim::state_hash(world);
     if (!has_touched_ground()) std::erase(result_.pushed_by, "the ground");
+    if (result_.divergence) mark_self_crossings(world, sim::crossings(world));
     for (std::size_t b = 0; b < world.soft.size(); ++b) {
-      result_.volumes[b].end = volume(world.soft[b]);
+      result_.volumes[b].end = volume_now(world, b);
       result_.volumes[b].shape_deviation = shape_deviation(world.soft[b]);
       look_at_gas(world.soft[b], result_.gas[b]);
     }
@@ -215,6 +219,10 @@ class Observer {
     if (body.material.n > 0.0 && body.material.ambient_pressure == 0.0) {
       result_.has_gas_in_vacuum = true;
     }
+  }
+
+  Volume volume_now(const sim::World& world, std::size_t soft) const {
+    return {volume(world.soft[soft]), crosses_itself_[soft] != 0};
   }
 
   bool has_been_quiet() const {
@@ -272,6 +280,14 @@ class Observer {
                          [](const sim::CrossingPair& pair) { return pair.first == pair.second; });
     add(world, between, result_.crossings);
     add(world, within, result_.self_crossings);
+    mark_self_crossings(world, found);
+  }
+
+  void mark_self_crossings(const sim::World& world, const sim::Crossings& found) {
+    crosses_itself_.assign(world.soft.size(), 0);
+    for (const sim::CrossingPair& pair : found.pairs) {
+      if (pair.first == pair.second) crosses_itself_[sim::at(pair.first)] = 1;
+    }
   }
 
   /// Those that start in the ground count once they have come out of it.
@@ -313,8 +329,9 @@ class Observer {
     statistics.more = static_cast<int>(pairs.size()) - 1;
   }
 
-  std::set<Pair> start_overlaps_;           // that did not come apart yet
-  std::vector<std::uint8_t> has_been_out_;  // per body: of the ground
+  std::set<Pair> start_overlaps_;             // that did not come apart yet
+  std::vector<std::uint8_t> has_been_out_;    // per body: of the ground
+  std::vector<std::uint8_t> crosses_itself_;  // per soft body, in the last frame
   RunStatistics result_;
   std::int64_t all_steps_;
   Places before_;  // in the last frame

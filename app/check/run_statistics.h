@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/check/volume_range.h"
 #include "app/record/contact_tally.h"
 #include "app/world/simulation.h"
 #include "scenes/loader/scene.h"
@@ -18,17 +19,6 @@ namespace pneuma::app {
 struct Peak {
   double value = 0.0;
   double time = 0.0;
-};
-
-struct VolumeRange {
-  std::string body;
-  double start = 0.0;  // m^3
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = 0.0;
-  double end = 0.0;              // m^3
-  double shape_deviation = 0.0;  // at the end (app/record/shape_deviation.h)
-  bool is_obstacle = false;      // static or moved: it keeps volume and shape
-  bool keeps_gas = false;        // it has some, which neither comes nor goes
 };
 
 /// What a value does over a run.

@@ -44,7 +44,7 @@ constexpr std::array<const char*, 8> usual = {"seconds", "energy",      "energy_
 /// A run of one soft body, whose values say nothing: only what there is.
 nlohmann::json example() {
   RunStatistics run;
-  run.volumes.push_back({.body = "body", .least = 0.0});
+  run.volumes.push_back({.body = "body", .least = {}});
   return run_statistics_json(run);
 }
 

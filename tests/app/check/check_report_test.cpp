@@ -184,14 +184,25 @@ TEST(RunStatisticsText, SaysWhatWasPressedToNextToNothing) {
     RunStatistics run;
     VolumeRange& ball = run.volumes.emplace_back();
     ball.body = "ball";
-    ball.start = 2.0;
-    ball.least = least;
+    ball.start.value = 2.0;
+    ball.least.value = least;
     ball.keeps_gas = keeps_gas;
     return run_statistics_text(run, by_impulses(0.5));
   };
   EXPECT_NE(text(true, 0.1).find(": PRESSED to 5 %"), std::string::npos);
   EXPECT_EQ(text(false, 0.1).find("PRESSED"), std::string::npos);  // a balloon that leaks
   EXPECT_EQ(text(true, 0.3).find("PRESSED"), std::string::npos);
+}
+
+TEST(RunStatisticsText, SaysWhichVolumesAreNotToBeTrusted) {
+  RunStatistics run;
+  run.volumes.push_back(
+      {.body = "bag", .start = {7.0}, .least = {5.0}, .greatest = {9.0, true}, .end = {8.0, true}});
+  const std::string text = run_statistics_text(run, by_impulses(0.5));
+  EXPECT_EQ(after(text, "volume"), "bag: 5.00 to 9.00* m^3, 7.00 at the start, 8.00* at the end");
+  EXPECT_NE(text.find(" * not to be trusted"), std::string::npos) << text;
+  run.volumes[0].greatest.crosses_itself = run.volumes[0].end.crosses_itself = false;
+  EXPECT_EQ(run_statistics_text(run, by_impulses(0.5)).find('*'), std::string::npos);
 }
 
 TEST(RunStatisticsText, SaysHowItDiverged) {

@@ -166,7 +166,7 @@ TEST(RunStatistics, TellPressureAndGasThatComes) {
   EXPECT_EQ(run.gas[1].n.least, 1.5);
   EXPECT_EQ(run.gas[1].n.greatest, 1.5);
   // P = nRT / V, of the volume at the same end.
-  const double pressure = 0.5 * sim::gas_constant * 293.15 / run.volumes[0].end;
+  const double pressure = 0.5 * sim::gas_constant * 293.15 / run.volumes[0].end.value;
   EXPECT_NEAR(run.gas[0].pressure.end, pressure, 1e-9 * pressure);
   EXPECT_GE(run.gas[0].pressure.greatest, run.gas[0].pressure.end);
   EXPECT_LE(run.gas[1].pressure.least, run.gas[1].pressure.end);
@@ -267,11 +267,37 @@ TEST(RunStatistics, FollowTheVolumeOfEachBody) {
   const RunStatistics run = statistics_of(free_sphere);
   ASSERT_EQ(run.volumes.size(), 1u);
   EXPECT_EQ(run.volumes[0].body, "balloon");
-  EXPECT_EQ(run.volumes[0].least, run.volumes[0].start);  // gas of 10 mol only blows it up
-  EXPECT_GT(run.volumes[0].greatest, 2.0 * run.volumes[0].start);
+  const double start = run.volumes[0].start.value;
+  EXPECT_EQ(run.volumes[0].least.value, start);  // gas of 10 mol only blows it up
+  EXPECT_GT(run.volumes[0].greatest.value, 2.0 * start);
   // The mesh is inscribed in the sphere.
-  EXPECT_LT(run.volumes[0].start, 4.0 / 3.0 * std::numbers::pi);
-  EXPECT_GT(run.volumes[0].start, 2.0);
+  EXPECT_LT(start, 4.0 / 3.0 * std::numbers::pi);
+  EXPECT_GT(start, 2.0);
+}
+
+TEST(RunStatistics, MarkVolumesOfWhatCrossesItself) {
+  // The top of a bag is led down through its bottom, a little aside.
+  const RunStatistics run = statistics_of(R"(
+duration = 0.5
+[ground]
+present = false
+[simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "bag"
+shape = "box"
+divisions = 2
+size = [2, 2, 2]
+n = 0
+pinned = [[-9, -9, -9, 9, 9, -0.9], [-9, -9, 0.9, 9, 9, 9]]
+motion.still = [[-9, -9, -9, 9, 9, -0.9]]
+motion.path = [[0, 0, 0, 0], [0.5, 0.3, 0.2, -3]]
+)");
+  const VolumeRange& bag = run.volumes.at(0);
+  EXPECT_NEAR(bag.start.value, 8.0, 1e-12);
+  EXPECT_LT(bag.end.value, 0.0) << "inside out";
+  EXPECT_FALSE(bag.start.crosses_itself || bag.greatest.crosses_itself);
+  EXPECT_TRUE(bag.least.crosses_itself && bag.end.crosses_itself);
 }
 
 TEST(RunStatistics, AreNotOfAFreeSceneUnderGravityOrOnAGround) {
