@@ -37,6 +37,7 @@ struct CheckOptions {
   std::optional<Accuracy> accuracy;
   ModelChoice model;
   bool run = false;
+  bool no_scene = false;
   bool keys = false;
   bool json = false;
   int threads = 1;
@@ -73,6 +74,14 @@ void warn(const CheckReport& report, const sim::World& world) {
   if (!hidden.empty()) print_message("{}: {}\n", report.scene.name, hidden);
 }
 
+std::string report_text(const CheckReport& report, const CheckOptions& options) {
+  if (options.json) {
+    return (options.no_scene ? run_json(report) : check_json(report)).dump(2) + "\n";
+  }
+  return options.no_scene ? run_statistics_text(*report.run, report.scene.settings)
+                          : check_text(report);
+}
+
 ExitCode check(const CheckOptions& options) {
   if (options.keys) {
     fmt::print("{}", options.json ? keys_json().dump(2) + "\n" : scenes::scene_reference());
@@ -97,8 +106,7 @@ ExitCode check(const CheckOptions& options) {
   report.gas = gas_advices(world);
   warn(report, world);
   if (options.run) report.run = run_statistics(report.scene, options.threads);
-
-  fmt::print("{}", options.json ? check_json(report).dump(2) + "\n" : check_text(report));
+  fmt::print("{}", report_text(report, options));
   if (!report.run) return ExitCode::done;
   if (report.run->divergence) throw DivergenceError(*report.run->divergence);
   return judge(report.scene, *report.run);
@@ -120,14 +128,18 @@ void add_check_command(CLI::App& app, Action& action) {
   add_override_option(*command, options->overrides);
   add_accuracy_option(*command, options->accuracy);
   add_model_options(*command, options->model);
-  command->add_flag(
+  CLI::Option* run = command->add_flag(
       "--run", options->run,
       "Also run it without pictures: penetration, energy, contacts, volumes; exit code 7 if "
       "bodies pass through each other");
+  command
+      ->add_flag("--no-scene", options->no_scene,
+                 "Of --run: print what it comes to, without the scene, its stages and sizes")
+      ->needs(run);
   command->add_flag("--keys", options->keys, "Print the reference of all keys of scene files");
   add_threads_option(*command, options->threads);
   command->add_flag("--json", options->json, "JSON in place of text");
-  add_examples(*command, {"pneuma check one_torus", "pneuma check two_balls.toml --run",
+  add_examples(*command, {"pneuma check one_torus", "pneuma check two_balls.toml --run --no-scene",
                           "pneuma check one_sphere --run --set simulation.steps_per_second=120",
                           "pneuma check --keys"});
   command->callback([options, &action] { action = [options] { return check(*options); }; });

@@ -152,14 +152,19 @@ json run_statistics_json(const RunStatistics& run) {
       {"state_hash", hex(run.state_hash)}};
 }
 
-json check_json(const CheckReport& report) {
+json run_json(const CheckReport& report) {
   return {{"scene", report.scene.name},
-          {"effective_scene", scenes::print_scene(report.scene)},
-          {"plan", plan_json(report.plan)},
-          {"size", size_json(report.size)},
-          {"steps", steps_json(report.steps)},
-          {"gas", gas_json(report.gas)},
           {"run", report.run ? run_statistics_json(*report.run) : json(nullptr)}};
+}
+
+json check_json(const CheckReport& report) {
+  json result = run_json(report);
+  result["effective_scene"] = scenes::print_scene(report.scene);
+  result["plan"] = plan_json(report.plan);
+  result["size"] = size_json(report.size);
+  result["steps"] = steps_json(report.steps);
+  result["gas"] = gas_json(report.gas);
+  return result;
 }
 
 }  // namespace pneuma::app

@@ -29,6 +29,9 @@ struct CheckReport {
 std::string check_text(const CheckReport& report);
 nlohmann::json check_json(const CheckReport& report);
 
+/// Of check_json the scene's name and the run.
+nlohmann::json run_json(const CheckReport& report);
+
 /// "torus and cube: overlap from the start, parted by t = 0.40 s".
 std::string start_overlap_text(const StartOverlapStatistics& start);
 

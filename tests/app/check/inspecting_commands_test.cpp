@@ -118,6 +118,23 @@ TEST(Check, RunsTheScene) {
   EXPECT_EQ(json["run"]["steps"], 30);
 }
 
+TEST(Check, LeavesOutTheSceneIfThatIsAskedFor) {
+  const std::string command = "check one_sphere --run --set duration=0.5";
+  const std::string run = run_pneuma(command + " --no-scene", no_gl).output;
+  EXPECT_TRUE(run.starts_with("Run of 30 steps, 0.5 s\n")) << run;
+  // The same lines as comments below the scene.
+  std::string comments;
+  std::istringstream lines(run);
+  for (std::string line; std::getline(lines, line);) comments += "# " + line + '\n';
+  EXPECT_TRUE(run_pneuma(command, no_gl).output.ends_with("\n" + comments)) << run;
+
+  auto json = nlohmann::json::parse(run_pneuma(command + " --json --no-scene", no_gl).output);
+  EXPECT_EQ(json.size(), 2u);
+  EXPECT_EQ(json["scene"], "one_sphere");
+  EXPECT_EQ(json["run"]["steps"], 30);
+  EXPECT_EQ(run_pneuma("check one_sphere --no-scene 2>&1", no_gl).exit_code, 2);
+}
+
 TEST(Check, EndsWith5WhenTheRunDiverges) {
   const ProgramResult result = run_pneuma(
       "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin 2>/dev/null");
