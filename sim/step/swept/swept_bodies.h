@@ -30,6 +30,8 @@ inline constexpr int swept_ground = -1;  // in place of a body: nothing moves it
 /// Of the shorter of their shortest sides: boxes no further apart at the start of the step touch in
 /// the points of one contact, as boxes, and not by their features.
 inline constexpr double near_of_side = 0.02;
+/// A way's box is this many skins larger: surfaces are found before they are too near.
+inline constexpr double skins_around = 1.5;
 
 class SweptBodies {
  public:
