@@ -14,9 +14,14 @@ namespace {
 constexpr double angle_of_face = 0.1;
 /// Of half the boxes' shortest sides: a point that is no further from the depth is as deep.
 constexpr double same_depth = 1e-6;
-/// Of the same: boxes that are apart, and share a narrower strip of their faces, do not face each
-/// other. A box on the ground passes over a slab whose top is level with that.
-constexpr double narrow = 5e-4;
+/// Of the shortest half side of both: boxes that are apart, and share a narrower strip of their
+/// faces, do not face each other, as a box on the ground does not face a slab whose top is level
+/// with that.
+constexpr double narrow = 5e-5;
+
+double narrow_strip(const OrientedBox& one, const OrientedBox& other) {
+  return narrow * std::min(one.half.minCoeff(), other.half.minCoeff());
+}
 
 /// The incident face while it is being clipped: a convex polygon, in the reference face's
 /// coordinates. A square clipped by four lines has at most eight corners; what rounding might
@@ -124,8 +129,8 @@ Polygon shared_face(const FacePair& faces) {
 /// `cosine`: of the angle from the face's normal to the contact's.
 void add_shared_points(BoxContact& contact, const FacePair& faces, double cosine, double reach) {
   const Polygon polygon = shared_face(faces);
-  const double strip = narrow * (faces.reference.half.minCoeff() + faces.incident.half.minCoeff());
-  if (contact.depth < 0.0 && std::min(polygon.extent(0), polygon.extent(1)) < strip) return;
+  const double across = std::min(polygon.extent(0), polygon.extent(1));
+  if (contact.depth < 0.0 && across < narrow_strip(faces.reference, faces.incident)) return;
   for (int i = 0; i < polygon.size(); ++i) {
     const Vec3& corner = polygon[i];
     const double height = cosine * corner.z();
@@ -156,8 +161,8 @@ Vec3 support_edge(const OrientedBox& box, int axis, const Vec3& direction) {
 /// Halfway between the nearest points of the two edges p + s a and q + t b. There the line between
 /// them is at right angles to both: with r = p - q and c = a.b,
 ///   s = (c b.r - a.r) / (1 - c^2),  t = (b.r - c a.r) / (1 - c^2).
-/// The axis exists, so the edges are not parallel. Edges of boxes that are apart may not cross:
-/// these pass each other by their sides.
+/// The axis exists, so the edges are not parallel. Edges of boxes that are apart may not cross, or
+/// at their ends: these pass each other by their sides.
 void add_edge_point(BoxContact& contact, const OrientedBox& first, const OrientedBox& second,
                     const MinOverlap& overlap) {
   const Vec3 p = support_edge(first, overlap.first_axis, -overlap.normal);
@@ -173,7 +178,10 @@ void add_edge_point(BoxContact& contact, const OrientedBox& first, const Oriente
   const double t_on_line = (b.dot(r) - c * a.dot(r)) / squared_sine;
   const double s = std::clamp(s_on_line, -s_reach, s_reach);
   const double t = std::clamp(t_on_line, -t_reach, t_reach);
-  if (overlap.overlap < 0.0 && (s != s_on_line || t != t_on_line)) return;
+  const double strip = narrow_strip(first, second);
+  const bool cross =
+      std::abs(s_on_line) <= s_reach - strip && std::abs(t_on_line) <= t_reach - strip;
+  if (overlap.overlap < 0.0 && !cross) return;
   const Vec3 middle = 0.5 * (p + s * a + q + t * b);
   contact.all[at(contact.count++)] = {middle, overlap.overlap};
 }

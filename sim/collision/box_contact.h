@@ -32,8 +32,8 @@ struct BoxContact {
 std::optional<BoxContact> find_box_contact(const OrientedBox& first, const OrientedBox& second);
 
 /// Also of boxes that are up to `reach` (m) apart, and the points of theirs that are (depth < 0);
-/// none of boxes that are apart and face each other with no part of a face, or with less than a
-/// two-thousandth of both's shortest half sides across.
+/// none of boxes that are apart and face each other with no part of a face, or with a strip of it
+/// that is narrower than 5e-5 of the shortest half side of both.
 std::optional<BoxContact> find_box_contact_within(double reach, const OrientedBox& first,
                                                   const OrientedBox& second);
 

@@ -95,36 +95,43 @@ bool ContactPlaces::obstacle_is_nearest(const SweptCandidate& candidate,
          is_nearest(second, candidate.features.second, closest.first_point);
 }
 
-/// Of boxes of which no face is towards the other, and of features that are nearest in another
-/// direction than across the faces that are.
-bool ContactPlaces::boxes_are_beside(const BodyPair& boxes, const ClosestPoints& closest,
+/// Boxes are of which no face is towards the other. Of boxes that are apart so are features that
+/// are nearest in another direction than across the faces; in boxes that overlap that direction may
+/// change, where the overlap is as small along another.
+bool ContactPlaces::boxes_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,
                                      Moment moment) const {
-  const auto [first, second] = boxes;
+  const auto [first, second] = candidate.bodies;
   const auto box = [&](int i) { return moment == Moment::start ? start_box(i) : end_box(i); };
   const double near = motion_.near_distance(first, second);
   const auto contact = find_box_contact_within(near, box(first), box(second));
   if (!contact) return true;
-  if (closest.distance < rounding_distance) return false;
+  if (contact->depth >= 0.0) return vertices_are_beside(candidate, closest, moment);
   const Vec3 apart = (closest.first_point - closest.second_point) / closest.distance;
   const double across = contact->normal.dot(apart);
   return across < 0.0 || (apart - across * contact->normal).norm() > flat_of_boxes;
+}
+
+/// Of vertices that are not what of their bodies is nearest.
+bool ContactPlaces::vertices_are_beside(const SweptCandidate& candidate,
+                                        const ClosestPoints& closest, Moment moment) const {
+  const auto is_beside = [&](int body, const Feature& feature, const Vec3& point) {
+    return feature.kind == FeatureKind::vertex &&
+           !is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);
+  };
+  const auto [first, second] = candidate.bodies;
+  return is_beside(first, candidate.features.first, closest.second_point) ||
+         is_beside(second, candidate.features.second, closest.first_point);
 }
 
 bool ContactPlaces::are_beside_each_other(const SweptCandidate& candidate,
                                           const ClosestPoints& closest, Moment moment) const {
   const auto [first, second] = candidate.bodies;
   if (bodies_.is_box(first) && bodies_.is_box(second)) {
-    return boxes_are_beside(candidate.bodies, closest, moment);
+    return boxes_are_beside(candidate, closest, moment);
   }
   const bool is_beside_obstacle = (bodies_.is_box(first) && bodies_.is_obstacle(second)) ||
                                   (bodies_.is_obstacle(first) && bodies_.is_box(second));
-  if (!is_beside_obstacle) return false;
-  const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
-    return feature.kind != FeatureKind::vertex ||
-           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);
-  };
-  return !is_nearest(first, candidate.features.first, closest.second_point) ||
-         !is_nearest(second, candidate.features.second, closest.first_point);
+  return is_beside_obstacle && vertices_are_beside(candidate, closest, moment);
 }
 
 /// At the start, as points that are nearest after a fraction of the step.

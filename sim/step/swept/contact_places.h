@@ -54,7 +54,10 @@ class ContactPlaces {
  private:
   bool obstacle_is_nearest(const SweptCandidate& candidate, const ClosestPoints& closest,
                            Moment moment, double sine_of_flat) const;
-  bool boxes_are_beside(const BodyPair& boxes, const ClosestPoints& closest, Moment moment) const;
+  bool boxes_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,
+                        Moment moment) const;
+  bool vertices_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,
+                           Moment moment) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;
   std::optional<SweptContact> place_at_end(const SweptCandidate& candidate,

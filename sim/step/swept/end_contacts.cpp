@@ -99,7 +99,8 @@ class EndContacts {
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
-    const bool arrives = !acted && motion_.is_rigid(*contact);
+    const bool arrives =
+        !acted && motion_.is_rigid(*contact) && (!before.is_known || flew(*contact));
     set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
@@ -108,26 +109,29 @@ class EndContacts {
   /// lose what a bounce returns.
   bool is_left_to_next_step(const SweptContact& contact, double restitution) const {
     return motion_.is_rigid(contact) && restitution > elastic &&
-           contact.distance > contact.wanted &&
-           !(flew(contact.first.body) && flew(contact.second.body));
+           contact.distance > contact.wanted && !flew(contact);
   }
 
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
   bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
+  bool flew(const SweptContact& contact) const {
+    return flew(contact.first.body) && flew(contact.second.body);
+  }
 
   /// `alone`: no other point of the two bodies says that they are hit. What something has pushed in
   /// this step arrives with no more speed than it had at its start, as a box that slides against a
   /// wall has: what the step gave it, the next one may take again.
   Given hit_at_end(const SweptContact& contact, bool alone) const {
     double approach = -contact.normal.dot(motion_.end_velocity(contact));
-    if (alone && !(flew(contact.first.body) && flew(contact.second.body))) {
+    if (alone && !flew(contact)) {
       const Vec3 before = velocity_before(contact.first) - velocity_before(contact.second);
       approach = std::min(approach, -contact.normal.dot(before));
     }
     return {.is_known = true, .is_of_end = alone, .approach = approach};
   }
 
-  /// m/s, of a point of a box as it moved when the step began.
+  /// m/s, of a point of a box as it moved when the step began; of what is moved as its keys say, as
+  /// it moves now.
   Vec3 velocity_before(const SurfacePoint& point) const {
     if (point.body == swept_ground || is_kinematic(world_, point.body)) {
       return m_.bodies.end_velocity(world_, point);

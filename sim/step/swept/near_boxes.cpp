@@ -13,6 +13,8 @@ namespace {
 
 /// Of the distance wanted: further than this boxes do not get into each other in a step.
 constexpr double allowed_sinking = 0.1;
+/// Of the distance wanted: boxes on one plane are no further below each other's faces.
+constexpr double level = 5e-3;
 
 double reach_of(const OrientedBox& one, const OrientedBox& other) {
   return near_of_side * 2.0 * std::min(one.half.minCoeff(), other.half.minCoeff());
@@ -83,13 +85,13 @@ bool SweptSearch::offer_near_boxes(const BodyPair& bodies) {
   return true;
 }
 
-/// Boxes of which one goes along a face of the other and comes no nearer to it, nor further into it
-/// than boxes that are near: their edges pass, and meet nowhere. Over a face that does not turn,
-/// what goes along straight lines is lowest at their ends.
+/// Whether one box goes along a face of the other, comes no nearer to it, and is no further below
+/// it than boxes on one plane are: their edges pass, and meet nowhere. Over a face that does not
+/// turn, what goes along straight lines is lowest at their ends.
 bool SweptSearch::slide_past_each_other(const BodyPair& bodies) const {
   const auto [first, second] = bodies;
   if (!bodies_.is_box(first) || !bodies_.is_box(second)) return false;
-  const double allowed = allowed_sinking * motion_.distance_wanted(first, second);
+  const double allowed = level * motion_.distance_wanted(first, second);
   const auto keeps_apart = [&](int with_face, int other) {
     const OrientedBox start = places_.start_box(with_face), end = places_.end_box(with_face);
     const OrientedBox from = places_.start_box(other), to = places_.end_box(other);

@@ -37,10 +37,9 @@ class StartAims {
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
     if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
+      if (contact.is_of_near_boxes && stands_on_still(contact)) return closer;
       // Shifts do the rest. What presses boxes together must not take them back.
-      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second) ||
-                           (contact.is_of_near_boxes &&
-                            (stands_on_still(contact.first) || stands_on_still(contact.second)));
+      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
       const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
       const double room = is_held ? -missing_distance(contact) : contact.distance - least;
       return closer - std::max(0.0, room);
@@ -55,10 +54,14 @@ class StartAims {
   }
 
   /// A box that touches only what stands still would fall into the room that others leave to
-  /// shifts.
-  bool stands_on_still(const SurfacePoint& side) const {
+  /// shifts, and tilt where rounding leaves it to one side only.
+  bool stands_on_still(const SweptContact& contact) const {
+    return stands_on(contact.first, contact.second) || stands_on(contact.second, contact.first);
+  }
+  bool stands_on(const SurfacePoint& side, const SurfacePoint& still) const {
     return m_.bodies.is_box(side.body) && !is_kinematic(world_, side.body) &&
-           m_.touched_by_box[at(m_.bodies.box(side.body))] == TouchedByBox::still;
+           m_.touched_by_box[at(m_.bodies.box(side.body))] == TouchedByBox::still &&
+           m_.bodies.stands_still(world_, still.body);
   }
 
   bool on_ground_as_box(const SweptContact& contact) const {

@@ -148,7 +148,7 @@ struct SweptMemory {
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<TouchedByBox> touched_by_box;   // per box, at the start
-  std::vector<double> first_meeting;          // per box, of the step: with what stands still
+  std::vector<double> first_meeting;          // per box, fraction of the step: with what is still
   std::vector<BodyRest> rest;                 // as the step found it
   std::vector<OnGround> on_ground;            // per soft body
   std::vector<std::uint8_t> is_in_candidate;  // per node of the bodies

@@ -168,11 +168,12 @@ bool SweptSearch::find_collisions() {
   return collided;
 }
 
-/// Of each box with what stands still: held there, it may not meet what it would later. A box that
-/// falls onto tiles, and is held by their tops, comes to none of their sides.
+/// Finds when each box first meets something that stands still: held there, it may not meet what it
+/// would later. A box that falls onto tiles, and is held by their tops, comes to none of their
+/// sides.
 void SweptSearch::find_first_meetings() {
-  m_.first_meeting.assign(has_looked_ ? 0 : world_.rigid.size(), 1.0);
   if (has_looked_) return;
+  m_.first_meeting.assign(world_.rigid.size(), 1.0);
   for (const SweptCandidate& candidate : m_.candidates) {
     const int box = box_beside_still(candidate.bodies);
     if (box < 0 || candidate.is_of_near_boxes) continue;
@@ -183,7 +184,8 @@ void SweptSearch::find_first_meetings() {
   }
 }
 
-/// Than something else that its box meets: that is held first, and the next search looks again.
+/// Whether its box meets something else before: that is held first, and the next search looks
+/// again.
 bool SweptSearch::comes_later(const SweptCandidate& candidate, double fraction) const {
   const int box = has_looked_ ? -1 : box_beside_still(candidate.bodies);
   return box >= 0 && fraction > m_.first_meeting[at(box)] + at_once;
@@ -222,7 +224,7 @@ void SweptSearch::hold_where_they_meet() {
   }
 }
 
-/// Of the step, at which two features come too near each other on their ways.
+/// The fraction of the step after which two features come too near each other on their ways.
 std::optional<double> SweptSearch::fraction_of_meeting(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;
   const double distance = candidate.start.distance;

@@ -48,6 +48,21 @@ TEST(BorneImpacts, ABoxBouncesOffAWall) {
   });
 }
 
+/// Slower than four steps of free fall, in which it comes to the wall within the step.
+TEST(BorneImpacts, ASlowBoxBouncesOffAWall) {
+  for (double speed = 0.2; speed < 1.0; speed += 0.05) {
+    World world = make_swept_world();
+    world.settings.ground = ContactMaterial{0.0, 0.0};
+    world.settings.gravity = {0.0, 0.0, -g};
+    world.settings.steps_per_second = 240;
+    world.rigid = {smooth_cube(0.5, -0.6, 0.5), smooth_cube(0.5, 0.0, 0.5)};
+    world.rigid[0].velocity.x() = speed;
+    world.rigid[1].is_kinematic = true;
+    ASSERT_FALSE(run(world, 0.2 / speed));
+    EXPECT_NEAR(world.rigid[0].velocity.x(), -0.5 * speed, solved * speed) << speed;
+  }
+}
+
 TEST(BorneImpacts, ABoxHitsAnotherAsHeavy) {
   for_many([](World& world, double restitution, double part) {
     const double speed = 2.0 + 3.0 * part;

@@ -122,6 +122,25 @@ TEST(Seams, ABoxOnTheGroundPassesOverSlabsThatAreLevelWithIt) {
   }
 }
 
+/// Overlaps of a few ten-thousandths of a side bear a box that falls onto them.
+TEST(Seams, NarrowLedgesBearABox) {
+  for (const int steps_per_second : {30, 60, 240}) {
+    for (const double overlap : {0.0003, 0.001, 0.003}) {
+      for (const double height : {0.002, 0.1, 0.5}) {
+        World world = make_floor(steps_per_second, 1, Vec3::Zero(), 0.0);
+        world.rigid = {make_rigid({1.0, 2.0, 1.0}, {-1.0 + overlap, 0.0, -0.5}),
+                       make_rigid({1.0, 2.0, 1.0}, {1.0 - overlap, 0.0, -0.5}),
+                       make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5 + height})};
+        world.rigid[0].is_kinematic = world.rigid[1].is_kinematic = true;
+        for (RigidBox& box : world.rigid) box.surface = {0.0, 0.3};
+        ASSERT_FALSE(run(world, 1.0));
+        EXPECT_NEAR(world.rigid[2].position.z(), 0.5, 0.01)
+            << steps_per_second << " " << overlap << " " << height;
+      }
+    }
+  }
+}
+
 /// A slab that is higher by more than boxes keep between them does stop it.
 TEST(Seams, StopWhatRunsAgainstAStep) {
   for (const int steps_per_second : {30, 60, 240}) {
