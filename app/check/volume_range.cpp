@@ -36,7 +36,6 @@ std::string range_text(const VolumeRange& range) {
 void add_volume(const Volume& now, VolumeRange& range) {
   if (now.value < range.least.value) range.least = now;
   if (now.value > range.greatest.value) range.greatest = now;
-  range.end = now;
 }
 
 std::string volume_ranges_text(const std::vector<VolumeRange>& volumes) {

@@ -24,6 +24,7 @@ struct VolumeRange {
   bool keeps_gas = false;        // it has some, which neither comes nor goes
 };
 
+/// To the least and the greatest.
 void add_volume(const Volume& now, VolumeRange& range);
 
 /// A line for each body but obstacles.

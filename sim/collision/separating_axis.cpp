@@ -98,10 +98,6 @@ MinOverlap min_along_second(const OrientedBox& second, const RelativePose& pose,
   return {AxisKind::second_face, 0, j, pose.from_second[j] < 0.0 ? Vec3(-axis) : axis, overlaps[j]};
 }
 
-double radius_along(const OrientedBox& box, const Vec3& axis) {
-  return (box.axes.transpose() * axis).cwiseAbs().dot(box.half);
-}
-
 /// Along the cross product of two edges as the vector it is in floating point, so that even an
 /// inexact one of nearly parallel edges says nothing untrue. Seldom called, and kept out of the way
 /// of what is looked at each time.
@@ -115,6 +111,10 @@ double radius_along(const OrientedBox& box, const Vec3& axis) {
 }
 
 }  // namespace
+
+double radius_along(const OrientedBox& box, const Vec3& axis) {
+  return (box.axes.transpose() * axis).cwiseAbs().dot(box.half);
+}
 
 // Two convex bodies are apart exactly when some axis separates them, and for polyhedra the faces'
 // normals and the cross products of their edges are enough to try. The paper takes those of every

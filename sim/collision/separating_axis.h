@@ -25,4 +25,7 @@ struct MinOverlap {
 std::optional<MinOverlap> find_min_overlap(const OrientedBox& first, const OrientedBox& second,
                                            double reach = 0.0);
 
+/// m, from the centre of a box to the furthest that it reaches along a unit vector.
+double radius_along(const OrientedBox& box, const Vec3& axis);
+
 }  // namespace pneuma::sim

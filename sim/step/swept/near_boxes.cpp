@@ -23,8 +23,7 @@ double reach_of(const OrientedBox& one, const OrientedBox& other) {
 /// m, of another box's lowest corner over the face on one side of the axis.
 double height_over(const OrientedBox& box, int axis, double sign, const OrientedBox& other) {
   const Vec3 outward = sign * box.axes.col(axis);
-  const double extent = (other.axes.transpose() * outward).cwiseAbs().dot(other.half);
-  return outward.dot(other.centre - box.centre) - box.half[axis] - extent;
+  return outward.dot(other.centre - box.centre) - box.half[axis] - radius_along(other, outward);
 }
 
 }  // namespace

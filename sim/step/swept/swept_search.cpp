@@ -172,7 +172,7 @@ bool SweptSearch::find_collisions() {
 /// would later. A box that falls onto tiles, and is held by their tops, comes to none of their
 /// sides.
 void SweptSearch::find_first_meetings() {
-  if (has_looked_ || world_.rigid.empty()) return;
+  if (has_looked_ || std::ranges::none_of(world_.rigid, &RigidBox::is_kinematic)) return;
   m_.first_meeting.assign(world_.rigid.size(), 1.0);
   for (const SweptCandidate& candidate : m_.candidates) {
     const int box = box_beside_still(candidate.bodies);

@@ -10,13 +10,18 @@ namespace {
 
 constexpr double speed_after = 0.97;  // of the speed: what a landing from 1 mm may brake
 
-/// Two slabs side by side, whose faces join at x = 0, the second lower by `drop` (m); and a box
-/// without friction that slides from the first towards it, turned by so many degrees.
-World make_seam(int steps_per_second, double drop, double turn, double speed) {
+World without_ground(int steps_per_second) {
   World world = make_swept_world();
   world.settings.ground.reset();
   world.settings.gravity = {0.0, 0.0, -9.81};
   world.settings.steps_per_second = steps_per_second;
+  return world;
+}
+
+/// Two slabs side by side, whose faces join at x = 0, the second lower by `drop` (m); and a box
+/// without friction that slides from the first towards it, turned by so many degrees.
+World make_seam(int steps_per_second, double drop, double turn, double speed) {
+  World world = without_ground(steps_per_second);
   const auto add = [&](const Vec3& size, const Vec3& place) -> RigidBox& {
     world.rigid.push_back(make_rigid(size, place));
     world.rigid.back().surface = {0.1, 0.0};
@@ -50,10 +55,7 @@ TEST(Seams, DoNotBrakeWhatSlidesOverThem) {
 
 /// A floor of 10 m along x, of so many static boxes side by side, and a box at `place` above it.
 World make_floor(int steps_per_second, int tiles, const Vec3& place, double turn) {
-  World world = make_swept_world();
-  world.settings.ground.reset();
-  world.settings.gravity = {0.0, 0.0, -9.81};
-  world.settings.steps_per_second = steps_per_second;
+  World world = without_ground(steps_per_second);
   const double width = 10.0 / tiles;
   for (int i = 0; i < tiles; ++i) {
     world.rigid.push_back(make_rigid({width, 4.0, 0.5}, {(i + 0.5) * width, 0.0, -0.25}));
@@ -127,7 +129,7 @@ TEST(Seams, NarrowLedgesBearABox) {
   for (const int steps_per_second : {30, 60, 240}) {
     for (const double overlap : {0.0003, 0.001, 0.003}) {
       for (const double height : {0.002, 0.1, 0.5}) {
-        World world = make_floor(steps_per_second, 1, Vec3::Zero(), 0.0);
+        World world = without_ground(steps_per_second);
         world.rigid = {make_rigid({1.0, 2.0, 1.0}, {-1.0 + overlap, 0.0, -0.5}),
                        make_rigid({1.0, 2.0, 1.0}, {1.0 - overlap, 0.0, -0.5}),
                        make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5 + height})};
@@ -152,9 +154,7 @@ TEST(Seams, StopWhatRunsAgainstAStep) {
 
 /// Spheres all equally high, of triangles: a box slides from top to top.
 TEST(Seams, ARailOfSpheresDoesNotBrakeABox) {
-  World world = make_swept_world();
-  world.settings.ground.reset();
-  world.settings.gravity = {0.0, 0.0, -9.81};
+  World world = without_ground(60);
   for (int i = 0; i < 20; ++i) {
     const Vec3 place(0.9 * (i / 2), i % 2 == 0 ? -0.6 : 0.6, -0.5);
     SoftBody sphere = make_body(make_icosphere(0.5, 2), place);
