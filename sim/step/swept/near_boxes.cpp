@@ -142,12 +142,15 @@ bool SweptSearch::sinks_in(SweptCandidate& candidate) {
   return true;
 }
 
+/// Boxes that pass each other by single features are not shifted.
 template <class Visit>
 void SweptSearch::for_each_of_boxes(const Visit& visit) const {
   for (const SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
-    const bool on_ground = second == swept_ground && bodies_.is_rigid(first);
-    if (!candidate.is_of_near_boxes && !on_ground) continue;
+    const bool on_ground = second == swept_ground;
+    if (!bodies_.keeps_shape(first) || !(on_ground || bodies_.keeps_shape(second))) continue;
+    const bool are_boxes = !on_ground && bodies_.is_rigid(first) && bodies_.is_rigid(second);
+    if (are_boxes && !candidate.is_of_near_boxes) continue;
     const double distance = on_ground
                                 ? bodies_.surface(first).start[candidate.features.first.index].z()
                                 : candidate.start.distance;
@@ -166,9 +169,10 @@ void SweptSearch::find_contacts_of_boxes(double room) {
   m_.contacts.clear();
   for_each_of_boxes([&](const SweptCandidate& candidate, double missing) {
     if (missing < -room) return;
-    m_.contacts.push_back(candidate.is_of_near_boxes
-                              ? places_.place(candidate, candidate.start, Moment::start)
-                              : places_.place_on_ground(candidate, Moment::start));
+    const bool on_ground = candidate.bodies.second == swept_ground;
+    if (!on_ground && !places_.stands(candidate, candidate.start, Moment::start)) return;
+    m_.contacts.push_back(on_ground ? places_.place_on_ground(candidate, Moment::start)
+                                    : places_.place(candidate, candidate.start, Moment::start));
   });
 }
 
@@ -177,6 +181,7 @@ void SweptSearch::find_contacts_beside_boxes(double reach) {
   for (const SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
     if (second == swept_ground || bodies_.is_rigid(first) == bodies_.is_rigid(second)) continue;
+    if (bodies_.is_obstacle(bodies_.is_rigid(first) ? second : first)) continue;
     if (candidate.start.distance >= motion_.distance_wanted(first, second) + reach) continue;
     if (!places_.stands(candidate, candidate.start, Moment::start)) continue;
     const SweptContact contact = places_.place(candidate, candidate.start, Moment::start);

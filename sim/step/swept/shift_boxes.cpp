@@ -62,7 +62,7 @@ bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction,
     const SweptContact& contact = memory.contacts[i];
     memory.impulses[i].aim(std::min(0.0, contact.wanted - contact.distance), Vec3::Zero());
   }
-  return memory.solver.solve(memory.contacts, memory.impulses, shift_tolerance * greatest);
+  return memory.solver.solve_shifts(memory.contacts, memory.impulses, shift_tolerance * greatest);
 }
 
 /// Returns how much of the shifts, which are changes of the boxes, they are to take: 0, if none is

@@ -34,19 +34,24 @@ class StartAims {
   /// there is room.
   double may_move(const SweptContact& contact, double shift) const {
     const double closer = std::max(0.0, -shift);
+    // What shifts have used up is not given back: between two walls there is no room to.
+    if (motion_.keep_shapes(contact)) return -std::max(0.0, room(contact, shift) - closer);
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
-    if (contact.wanted < 0.0) return closer;  // boxes that turn past each other
-    if (contact.is_of_near_boxes || on_ground_as_box(contact)) {
-      if (contact.is_of_near_boxes && stands_on_still(contact)) return closer;
-      // Shifts do the rest. What presses boxes together must not take them back.
-      const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
-      const double least = contact.is_of_near_boxes ? least_of_wanted * contact.wanted : 0.0;
-      const double room = is_held ? -missing_distance(contact) : contact.distance - least;
-      return closer - std::max(0.0, room);
-    }
     // Springs take back most of what holds up a vertex that others press into the ground.
     const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
     return closer + made_up * std::max(0.0, missing_distance(contact));
+  }
+
+  /// m, by which what keeps its shape may come nearer. Shifts do the rest.
+  double room(const SweptContact& contact, double shift) const {
+    if (contact.distance > contact.wanted) return contact.distance - contact.wanted;
+    if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
+    const bool on_ground = contact.second.body == swept_ground;
+    if (!on_ground && (!contact.is_of_near_boxes || stands_on_still(contact))) return 0.0;
+    // What presses boxes together must not take shifts back.
+    const bool is_held = shift > 0.0 || is_carried(contact.first) || is_carried(contact.second);
+    const double least = on_ground ? 0.0 : least_of_wanted * contact.wanted;
+    return is_held ? -missing_distance(contact) : contact.distance - least;
   }
 
   bool is_carried(const SurfacePoint& box) const {
@@ -62,10 +67,6 @@ class StartAims {
     return m_.bodies.is_box(side.body) && !is_kinematic(world_, side.body) &&
            m_.touched_by_box[at(m_.bodies.box(side.body))] == TouchedByBox::still &&
            m_.bodies.stands_still(world_, still.body);
-  }
-
-  bool on_ground_as_box(const SweptContact& contact) const {
-    return contact.second.body == swept_ground && motion_.is_rigid(contact);
   }
 
   double step() const { return time_step(world_.settings); }

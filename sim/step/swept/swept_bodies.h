@@ -67,6 +67,8 @@ class SweptBodies {
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
   /// Whether it is a soft body that is an obstacle and keeps its shape.
   bool is_obstacle(int body) const { return obstacles_[at(body)] || is_in_own_axes(body); }
+  /// Whether it is a box or an obstacle.
+  bool keeps_shape(int body) const { return is_rigid(body) || is_obstacle(body); }
   /// The ways of a soft body beside an obstacle, in the axes of this if it is moved. `near` and
   /// `least`: m, in the world.
   BesideObstacle beside_obstacle(int soft, int obstacle, double near, double least);

@@ -31,8 +31,7 @@ void SweptSearch::start() {
 bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;
   if (second == swept_ground || candidate.is_of_near_boxes) return false;
-  const auto keeps_shape = [&](int i) { return bodies_.is_rigid(i) || bodies_.is_obstacle(i); };
-  if (!keeps_shape(first) || !keeps_shape(second)) return false;
+  if (!bodies_.keeps_shape(first) || !bodies_.keeps_shape(second)) return false;
   return candidate.start.distance >= motion_.near_distance(first, second) ||
          places_.are_beside_each_other(candidate, candidate.start, Moment::start);
 }

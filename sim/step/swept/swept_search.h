@@ -46,10 +46,11 @@ class SweptSearch {
   void follow_ends();
   /// The contacts that the free motion would use up.
   void start();
-  /// m, that near boxes, or a box and the ground, lack at most of the distance that shifts keep.
+  /// m, that near boxes, or a box and an obstacle or the ground, lack at most of the distance that
+  /// shifts keep.
   double greatest_missing_of_boxes() const;
-  /// Fills the memory's contacts with those that keep boxes from being shifted into each other or
-  /// into the ground: where there is no more than this `room` (m) between them.
+  /// Fills the memory's contacts with those that keep boxes from being shifted into each other,
+  /// into obstacles or into the ground: where there is no more than this `room` (m) between them.
   void find_contacts_of_boxes(double room);
   /// Adds to these what keeps boxes from being shifted, by `reach` (m) at most, into soft bodies.
   void find_contacts_beside_boxes(double reach);

@@ -86,7 +86,7 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
     if (begins_island || node != places_[i - 1].node) patches_.push_back({.begin = i});
     patches_.back().is_new |=
         node != nothing_moves && (at(contact) >= first_new || contacts[at(contact)].is_missed);
-    patches_.back().has_boxes |= is_of_boxes(contacts[at(contact)]);
+    patches_.back().has_boxes |= are_shifts_ || is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
     pushers_.push_back(pusher(contacts[at(contact)], impulses[at(contact)]));
     patches_.back().is_pushed |= pushers_.back() >= 0;
@@ -147,19 +147,26 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
 /// The body on the side that no impulse moves, if it may push; or -1.
 int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse) const {
   const auto pushes = [&](int body, const SweptSide& side) {
-    return body != swept_ground && !side.moves() && bodies_.pushes(body);
+    return body != swept_ground && !side.moves() && (are_shifts_ || bodies_.pushes(body));
   };
   if (pushes(contact.first.body, impulse.first())) return contact.first.body;
   return pushes(contact.second.body, impulse.second()) ? contact.second.body : -1;
 }
 
-bool SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                         double tolerance, std::size_t first_new) {
-  has_let_go_ = false;
   divide(contacts, impulses, first_new);
   for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
     if (patches_[i].is_new) solve_patch(i, tolerance);
   }
+}
+
+bool SweptSolver::solve_shifts(std::span<const SweptContact> contacts,
+                               std::span<SweptImpulse> impulses, double tolerance) {
+  has_let_go_ = false;
+  are_shifts_ = true;
+  solve(contacts, impulses, tolerance);
+  are_shifts_ = false;
   return !has_let_go_;
 }
 

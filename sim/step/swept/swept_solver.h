@@ -38,10 +38,13 @@ class SweptSolver {
   /// box or on the ground until none does by more than a hundredth of it, by Newton's method too,
   /// if that can help; beside soft bodies 20 times at most once `tolerance` is met. Patches without
   /// a contact from `first_new` on stay: what springs bring from others in a step done again is
-  /// left. Returns false if something was let go that boxes are pressed against: what is moved or,
-  /// where they are shifted, what is soft.
-  bool solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+  /// left. What is moved is let go where boxes are pressed against it without room.
+  void solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
              double tolerance, std::size_t first_new = 0);
+  /// The same for impulses that shift boxes. Returns false if there was no room: then what does not
+  /// give way to them was let go.
+  bool solve_shifts(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+                    double tolerance);
   /// The same for one of the islands that the last call has found.
   void solve_island(int island, double tolerance);
   int island_count() const { return static_cast<int>(island_begin_.size()) - 1; }
@@ -105,6 +108,7 @@ class SweptSolver {
   std::vector<int> pushers_;            // of each of these
   std::vector<ImpulseNodes> nodes_;
   std::vector<const BoxChange*> boxes_;  // of a patch
+  bool are_shifts_ = false;
   bool has_let_go_ = false;
   GaussSeidel gauss_seidel_;
   ConjugateIterations iterations_;

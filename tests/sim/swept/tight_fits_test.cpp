@@ -1,0 +1,117 @@
+// A box in a gap that leaves less room than it keeps from each of the walls (ERRATA row 67).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/inspect/crossings.h"
+#include "sim/inspect/inspect.h"
+#include "sim/soft/pins.h"
+#include "tests/sim/swept/swept_worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+const Vec3 wall_size(2.0, 3.0, 2.0);  // m
+const Vec3 box_size(0.5, 0.6, 0.7);   // m; it would keep 2.5 mm from each wall
+constexpr double start_height = 2.9;  // m, of its middle: it starts above the walls
+
+/// All of its vertices are pinned: an obstacle of 12 triangles.
+SoftBody make_wall_of_triangles(const Vec3& position) {
+  SoftBody wall = make_body(make_box(wall_size, 1), position);
+  const auto count = at(wall.positions.size());
+  GivenMotion motion;
+  motion.position = position;
+  wall.pins = make_pins(wall.positions, std::vector<std::uint8_t>(count, 1),
+                        std::vector<std::uint8_t>(count, 0), motion);
+  wall.material.n = 0.0;
+  return wall;
+}
+
+RigidBox make_wall(const Vec3& position) {
+  RigidBox wall = make_rigid(wall_size, position);
+  wall.is_kinematic = true;
+  return wall;
+}
+
+struct Fit {
+  double room = 0.0;    // m, of both sides together
+  double aside = 0.0;   // of the room: by so much the box is off the middle
+  bool is_box = false;  // the walls are boxes, not of triangles
+};
+
+class TightFits : public testing::TestWithParam<Fit> {
+ protected:
+  static World make_shaft(int steps_per_second, double friction) {
+    const auto [room, aside, is_box] = GetParam();
+    World world = make_swept_world();
+    world.settings.steps_per_second = steps_per_second;
+    world.settings.ground = ContactMaterial{0.0, friction};
+    RigidBox box = make_rigid(box_size, {aside * room, 0.0, start_height});
+    box.rho_g = 0.0;
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 place(side * 0.5 * (wall_size.x() + box_size.x() + room), 0.0, 1.0);
+      if (is_box) {
+        world.rigid.push_back(make_wall(place));
+        world.rigid.back().surface = {0.0, friction};
+      } else {
+        world.soft.push_back(make_wall_of_triangles(place));
+        world.soft.back().material.surface = {0.0, friction};
+      }
+    }
+    box.surface = {0.0, friction};
+    world.rigid.push_back(box);
+    return world;
+  }
+
+  /// Runs for 1.2 s. The greatest rise of the energy in a step, J, of 20.
+  static double greatest_rise(World& world) {
+    Stepper stepper(world);
+    double last = energy(world).total(), rise = 0.0;
+    while (time(world) < 1.2) {
+      const auto divergence = stepper.step(world);
+      EXPECT_FALSE(divergence) << divergence->what;
+      if (divergence) break;
+      const double now = energy(world).total();
+      rise = std::max(rise, now - last);
+      last = now;
+      EXPECT_EQ(crossings(world).between_bodies, 0) << time(world);
+    }
+    return rise;
+  }
+};
+
+/// Nothing holds it: it had been thrown back by impulses that grew between the walls.
+TEST_P(TightFits, LetABoxFallFreely) {
+  for (const int steps_per_second : {60, 240}) {
+    World world = make_shaft(steps_per_second, 0.0);
+    Stepper stepper(world);
+    const RigidBox& box = world.rigid.back();
+    const double inside = 0.5 * box_size.z() + 0.2;
+    while (box.position.z() > inside) {
+      const double before = box.velocity.z();
+      const auto divergence = stepper.step(world);
+      ASSERT_FALSE(divergence) << divergence->what;
+      if (box.position.z() < inside) break;
+      const double gained = world.settings.gravity.z() / steps_per_second;
+      ASSERT_NEAR(box.velocity.z() - before, gained, 1e-3) << time(world);
+      ASSERT_TRUE(time(world) < 1.0);
+    }
+    EXPECT_LT(greatest_rise(world), 1e-3);
+    EXPECT_NEAR(box.position.z(), 0.5 * box_size.z(), 0.005);
+  }
+}
+
+TEST_P(TightFits, AddNoEnergyWithFriction) {
+  for (const int steps_per_second : {60, 240, 960}) {
+    World world = make_shaft(steps_per_second, 0.4);
+    EXPECT_LT(greatest_rise(world), 1e-3) << steps_per_second;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Walls, TightFits,
+                         testing::Values(Fit{0.0005, 0.1, true}, Fit{0.001, 0.2, true},
+                                         Fit{0.001, -0.1, true}, Fit{0.002, 0.1, true},
+                                         Fit{0.001, 0.1, false}, Fit{0.002, -0.2, false}));
+
+}  // namespace
+}  // namespace pneuma::sim
