@@ -104,6 +104,7 @@ class SweptImpulse {
   }
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
+  bool only_gives_back() const { return max_normal_ == start_normal_; }
 
   const SweptSide& first() const { return first_; }
   const SweptSide& second() const { return second_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/contact_places.h"
 
 namespace pneuma::sim {
@@ -186,7 +187,15 @@ class EndContacts {
       contact.restitution = restitution;
       contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
+    } else {
+      contact.parting = -room_between_walls(contact) / step();
     }
+  }
+
+  /// m.
+  double room_between_walls(const SweptContact& contact) const {
+    if (!is_between_walls(m_, pair_of(contact))) return 0.0;
+    return std::max(0.0, contact.distance - kept_between_walls * contact.wanted);
   }
 
   double step() const { return time_step(world_.settings); }

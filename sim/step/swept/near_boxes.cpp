@@ -154,7 +154,8 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
     const double distance = on_ground
                                 ? bodies_.surface(first).start[candidate.features.first.index].z()
                                 : candidate.start.distance;
-    visit(candidate, missing_distance(motion_.distance_wanted(first, second), distance));
+    visit(candidate,
+          kept_by_shifts(m_, candidate.bodies) * motion_.distance_wanted(first, second) - distance);
   }
 }
 

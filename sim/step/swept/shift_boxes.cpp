@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/response/group_motion.h"
+#include "sim/step/swept/between_walls.h"
 
 namespace pneuma::sim {
 namespace {
@@ -45,14 +46,30 @@ double part_beside_soft(const SweptMemory& memory) {
   return part;
 }
 
-/// Solves for the shifts as changes of the boxes, which are to keep a part of the distance wanted.
-/// Returns whether there is room for it.
+bool has_no_room(const SweptMemory& memory, const SweptContact& contact) {
+  return std::ranges::find(memory.without_room, pair_of(contact)) != memory.without_room.end();
+}
+
+/// Those that were let go.
+void note_without_room(SweptMemory& memory) {
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    const SweptContact& contact = memory.contacts[i];
+    if (!memory.impulses[i].only_gives_back() || has_no_room(memory, contact)) continue;
+    memory.without_room.push_back(pair_of(contact));
+  }
+}
+
+/// Solves for the shifts as changes of the boxes, which are to keep a part of the distance wanted;
+/// those without room, or all that `only_touch`, what there is. Returns whether there is room for
+/// it.
 bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction, double greatest,
-                      double of_wanted) {
+                      bool only_touch) {
   search.find_contacts_of_boxes(room_for_shifts * greatest);
   memory.impulses.clear();
   for (const SweptContact& contact : memory.contacts) {
-    const double missing = missing_distance(of_wanted * contact.wanted, contact.distance);
+    const bool may_touch = only_touch || has_no_room(memory, contact);
+    const double kept = may_touch ? 0.0 : kept_by_shifts(memory, pair_of(contact));
+    const double missing = kept * contact.wanted - contact.distance;
     memory.impulses.push_back(search.motion().impulse(contact, 0.0));
     memory.impulses.back().aim(shift(missing, fraction), Vec3::Zero());
   }
@@ -70,9 +87,12 @@ bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction,
 double find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
   const double greatest = shift(search.greatest_missing_of_boxes(), fraction);
   if (greatest < min_shift * memory.bodies.thinnest_skin()) return 0.0;
-  if (solve_for_shifts(memory, search, fraction, greatest, 1.0)) return 1.0;
-  for (SweptImpulse& impulse : memory.impulses) impulse.replace_given(Vec4d{});
-  if (solve_for_shifts(memory, search, fraction, greatest, 0.0)) return 1.0;
+  for (const bool only_touch : {false, false, true}) {
+    if (solve_for_shifts(memory, search, fraction, greatest, only_touch)) return 1.0;
+    if (only_touch) break;
+    note_without_room(memory);
+    for (SweptImpulse& impulse : memory.impulses) impulse.replace_given(Vec4d{});
+  }
   return part_beside_soft(memory);
 }
 
@@ -109,6 +129,10 @@ double give_back_angular_momentum(World& world, SweptMemory& memory, const Vec3&
 
 }  // namespace
 
+double kept_by_shifts(const SweptMemory& memory, const BodyPair& pair) {
+  return is_between_walls(memory, pair) ? kept_between_walls : closest_allowed;
+}
+
 double keep_angular_momentum(World& world, SweptMemory& memory) {
   if (!memory.bodies.has_shifts()) return 0.0;
   NearGroups& groups = memory.near_groups;
@@ -129,6 +153,7 @@ double keep_angular_momentum(World& world, SweptMemory& memory) {
 
 bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   memory.bodies.forget_shifts();
+  memory.without_room.clear();
   if (world.rigid.empty()) return false;
   const double part = find_shifts(memory, search, fraction);
   if (part > 0.0) {

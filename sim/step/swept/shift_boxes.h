@@ -11,14 +11,13 @@ namespace pneuma::sim {
 /// in each step.
 inline constexpr double closest_allowed = 0.5;
 inline constexpr double made_up_per_step = 0.2;
-
 /// m by which a contact is nearer than that; < 0: there is room.
-inline double missing_distance(double wanted, double distance) {
-  return closest_allowed * wanted - distance;
-}
 inline double missing_distance(const SweptContact& contact) {
-  return missing_distance(contact.wanted, contact.distance);
+  return closest_allowed * contact.wanted - contact.distance;
 }
+
+/// Of the distance wanted, between two bodies.
+double kept_by_shifts(const SweptMemory& memory, const BodyPair& pair);
 
 /// Moves boxes apart besides their motion in the step (split impulses, as in Bullet), so that they
 /// gain no velocity: velocities are never solved for so well, in a tall stack, that all of what

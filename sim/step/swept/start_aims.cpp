@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/shift_boxes.h"
 
 namespace pneuma::sim {
@@ -46,6 +47,8 @@ class StartAims {
   double room(const SweptContact& contact, double shift) const {
     if (contact.distance > contact.wanted) return contact.distance - contact.wanted;
     if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
+    if (is_between_walls(m_, pair_of(contact)))
+      return contact.distance - kept_between_walls * contact.wanted;
     const bool on_ground = contact.second.body == swept_ground;
     if (!on_ground && (!contact.is_of_near_boxes || stands_on_still(contact))) return 0.0;
     // What presses boxes together must not take shifts back.

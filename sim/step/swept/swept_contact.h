@@ -29,6 +29,10 @@ struct SweptContact {
   int previous = -1;     // the contact that the same features made before this one
 };
 
+inline BodyPair pair_of(const SweptContact& contact) {
+  return {contact.first.body, contact.second.body};
+}
+
 /// Whether it bounces at the end of the step.
 inline bool is_hit(const SweptContact& contact) {
   return contact.returns_energy && contact.is_near;

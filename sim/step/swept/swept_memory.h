@@ -146,6 +146,9 @@ struct SweptMemory {
   CarriedBoxes carried_boxes;
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
+  std::vector<BodyPair> without_room;         // between which shifts found none
+  std::vector<BodyPair> between_walls;        // boxes and walls, with another wall on the far side
+  std::vector<std::uint8_t> walls_beside;     // of each box: a bit for each of its sides
   std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<TouchedByBox> touched_by_box;   // per box, at the start
   std::vector<double> first_meeting;          // per box, fraction of the step: with what is still
