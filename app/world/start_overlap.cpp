@@ -41,16 +41,14 @@ struct StartOverlap {
 
 std::string name_of(const sim::World& world, int body) { return sim::body_name(world, body); }
 
-bool is_deep(const sim::World& world, const sim::Overlap& overlap) {
-  double least = least_extent(world, overlap.first);
-  if (overlap.second != sim::ground_body) {
-    least = std::min(least, least_extent(world, overlap.second));
-  }
+/// m, beyond which two bodies, or one and the ground, are refused.
+double allowed_depth(const sim::World& world, int first, int second) {
+  double least = least_extent(world, first);
+  if (second != sim::ground_body) least = std::min(least, least_extent(world, second));
   const auto is_box = [&](int body) { return sim::at(body) >= world.soft.size(); };
-  const bool are_boxes = world.settings.contact == sim::ContactMethod::swept &&
-                         is_box(overlap.first) &&
-                         (overlap.second == sim::ground_body || is_box(overlap.second));
-  return overlap.depth > (are_boxes ? start_touch_of_boxes : start_touch) * least;
+  const bool are_boxes = world.settings.contact == sim::ContactMethod::swept && is_box(first) &&
+                         (second == sim::ground_body || is_box(second));
+  return (are_boxes ? start_touch_of_boxes : start_touch) * least;
 }
 
 std::string moved(double distance, std::string_view direction) {
@@ -87,9 +85,9 @@ class TwoBodies {
     } else {
       moved.rigid.back().position += way;
     }
-    const auto crosses = [](const sim::CrossingPair& pair) { return pair.first != pair.second; };
-    return sim::overlaps(moved).empty() &&
-           std::ranges::none_of(sim::crossings(moved).pairs, crosses);
+    // The search for points in both ends at the first, soon where there are many.
+    return !sim::overlap_deeper_than(moved, 0, 1, 0.0) &&
+           sim::crossings(sim::closed_surfaces(moved), 0).pairs.empty();
   }
 
  private:
@@ -194,7 +192,7 @@ bool is_pair(const sim::CrossingPair& pair, const sim::Overlap& overlap) {
   return std::minmax(pair.first, pair.second) == std::minmax(overlap.first, overlap.second);
 }
 
-/// `crossings`: all of the world.
+/// `crossings`: all of the world. The overlap's own depth is only known to be more than allowed.
 StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap,
                         std::span<const sim::CrossingPair> crossings) {
   const auto is_full_of_gas = [&](int body) {
@@ -206,8 +204,8 @@ StartOverlap in_another(const sim::World& world, const sim::Overlap& overlap,
   if (is_full_of_gas(outer) && std::ranges::none_of(crossings, crosses)) {
     return within_another(world, outer, outer == overlap.first ? overlap.second : overlap.first);
   }
-  return in_another(world, overlap.first, overlap.second,
-                    fmt::format("{:.3g} m deep in", overlap.depth));
+  const double depth = sim::overlap_depth(world, overlap.first, overlap.second);
+  return in_another(world, overlap.first, overlap.second, fmt::format("{:.3g} m deep in", depth));
 }
 
 StartOverlap through_another(const sim::World& world, const sim::CrossingPair& pair) {
@@ -218,8 +216,9 @@ std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
   std::vector<StartOverlap> found;
   std::vector<std::pair<int, int>> pairs;
   const std::vector<sim::CrossingPair> crossings = sim::crossings(world).pairs;
-  for (const sim::Overlap& overlap : sim::overlaps(world)) {
-    if (!is_deep(world, overlap)) continue;
+  const auto allowed = [&](int first, int second) { return allowed_depth(world, first, second); };
+  for (const sim::Overlap& overlap : sim::overlaps(world, allowed)) {
+    if (overlap.depth <= allowed(overlap.first, overlap.second)) continue;
     if (found.size() >= most_shown) {
       found.push_back({.body = overlap.first, .reason = ""});
     } else {

@@ -1,6 +1,9 @@
 #include "sim/inspect/overlap.h"
 
 #include <algorithm>
+#include <functional>
+#include <limits>
+#include <vector>
 
 #include "sim/collision/bounding_sphere.h"
 #include "sim/collision/separating_axis.h"
@@ -12,7 +15,9 @@ namespace {
 /// Searches for the point of two solids where the sum of the depths in both is greatest.
 class DepthSearch {
  public:
-  DepthSearch(const Solid& first, const Solid& second) : first_(first), second_(second) {}
+  /// The search ends at the first point that is deeper than `enough`.
+  DepthSearch(const Solid& first, const Solid& second, double enough)
+      : first_(first), second_(second), enough_(enough) {}
 
   double run() {
     const Bounds in_first = common_part(first_.axes()), in_second = common_part(second_.axes());
@@ -45,7 +50,10 @@ class DepthSearch {
     return true;
   }
 
+  bool is_enough() const { return depth_ > enough_; }
+
   bool look(const Vec3& point) {
+    if (is_enough()) return false;
     const auto in_first = first_.find_depth(point);
     if (!in_first) return false;
     const auto in_second = second_.find_depth(point);
@@ -54,6 +62,7 @@ class DepthSearch {
 
   void look_at_surface(const Solid& solid, const Solid& other) {
     solid.sample_surface(other, [&](const Vec3& point) {
+      if (is_enough()) return;
       if (const auto inside = other.find_depth(point)) take(point, inside->depth);
     });
   }
@@ -71,7 +80,7 @@ class DepthSearch {
   // (which follows a crease), and along the bodies' own axes and between them, by steps that shrink
   // when none leads up.
   void climb(double step) {
-    while (step > 1e-3 * depth_) {
+    while (step > 1e-3 * depth_ && !is_enough()) {
       const Vec3 from = place_;
       bool higher = false;
       for (const Vec3& way : ways_up(from)) higher |= look(from + step * way);
@@ -107,16 +116,20 @@ class DepthSearch {
 
   const Solid& first_;
   const Solid& second_;
+  const double enough_;
   double depth_ = 0.0;
   Vec3 place_ = Vec3::Zero();
 };
 
-double depth_of_pair(const Solid& first, const Solid& second) {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A depth beyond `enough` is any that is found first.
+double depth_of_pair(const Solid& first, const Solid& second, double enough = infinity) {
   if (first.box() != nullptr && second.box() != nullptr) {
     const auto overlap = find_min_overlap(*first.box(), *second.box());
     return overlap ? overlap->overlap : 0.0;
   }
-  return DepthSearch(first, second).run();
+  return DepthSearch(first, second, enough).run();
 }
 
 Solid solid_of(const World& world, int body) {
@@ -130,7 +143,15 @@ double overlap_depth(const World& world, int first, int second) {
   return depth_of_pair(solid_of(world, first), solid_of(world, second));
 }
 
+bool overlap_deeper_than(const World& world, int first, int second, double depth) {
+  return depth_of_pair(solid_of(world, first), solid_of(world, second), depth) > depth;
+}
+
 std::vector<Overlap> overlaps(const World& world) {
+  return overlaps(world, [](int, int) { return infinity; });
+}
+
+std::vector<Overlap> overlaps(const World& world, const std::function<double(int, int)>& enough) {
   std::vector<Solid> solids;
   for (const SoftBody& body : world.soft) solids.emplace_back(body);
   for (const RigidBox& box : world.rigid) solids.emplace_back(box);
@@ -148,7 +169,7 @@ std::vector<Overlap> overlaps(const World& world) {
     for (int j = i + 1; j < count; ++j) {
       if (kinematic && is_kinematic(world, j)) continue;
       if (!overlap(bounds[at(i)], bounds[at(j)])) continue;
-      add(i, j, depth_of_pair(solids[at(i)], solids[at(j)]));
+      add(i, j, depth_of_pair(solids[at(i)], solids[at(j)], enough(i, j)));
     }
   }
   return result;

@@ -1,6 +1,7 @@
 // How far bodies lie in each other and in the ground.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "sim/mesh/triangle_mesh.h"
@@ -40,8 +41,13 @@ struct Overlap {
 /// less than the maximum by up to a twentieth. A common part that contains none of these points is
 /// not seen: crossings() sees every one.
 std::vector<Overlap> overlaps(const World& world);
+/// The same pairs, found sooner: the search for a pair's depth ends once it is beyond
+/// `enough(first, second)`.
+std::vector<Overlap> overlaps(const World& world, const std::function<double(int, int)>& enough);
 
 /// The depth of one pair, m, as overlaps() has it; 0 where they do not overlap.
 double overlap_depth(const World& world, int first, int second);
+/// Whether that is more than `depth`, found sooner.
+bool overlap_deeper_than(const World& world, int first, int second, double depth);
 
 }  // namespace pneuma::sim

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "app/host/clock.h"
 #include "app/world/build_world.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/touch.h"
 #include "scenes/loader/load_scene.h"
+#include "sim/inspect/overlap.h"
 
 namespace pneuma::app {
 namespace {
@@ -206,6 +208,27 @@ TEST(StartOverlap, NamesAWayThatParts) {
   const std::string back = refusal_of(ring + "[1.8, 0, 4]\n");
   EXPECT_NE(back.find("move it 0.514 m along -x"), std::string::npos) << back;
   EXPECT_EQ(refusal_of(ring + "[1.285, 0, 4]\n"), "");
+}
+
+/// The search for a way looks at many places: none of them takes as long as how deep one ball is in
+/// the other.
+TEST(StartOverlap, NamesTheWayOutOfABallSoon) {
+  const std::string balls =
+      "[[body]]\nname = \"outer\"\nshape = \"icosphere\"\nsubdivisions = 3\nradius = 2\n"
+      "position = [0, 0, 4]\n"
+      "[[body]]\nshape = \"icosphere\"\nsubdivisions = 3\nradius = 1.2\nposition = ";
+  const std::string within = balls + "[0, 0, 4]\n";
+  const sim::World world = build_world(scenes::parse_scene(within, "x.toml"));
+  double before = thread_seconds();
+  EXPECT_GT(sim::overlap_depth(world, 0, 1), 1.9);
+  const double depth_time = thread_seconds() - before;
+  before = thread_seconds();
+  const std::string message = refusal_of(within);
+  const double refusal_time = thread_seconds() - before;
+  EXPECT_NE(message.find("inside of body 'outer'"), std::string::npos) << message;
+  EXPECT_NE(message.find("move it 3.21 m along +x"), std::string::npos) << message;
+  EXPECT_EQ(refusal_of(balls + "[3.21, 0, 4]\n"), "");
+  EXPECT_LT(refusal_time, 4.0 * depth_time);
 }
 
 /// A ring that hangs on a bar is lifted off it, and not pulled down until it is below.

@@ -224,6 +224,13 @@ TEST(Overlaps, OfRandomCubesAndATorusAreTheGreatestSumsOfDepths) {
     EXPECT_GE(depth, 0.95 * expected) << i;
     EXPECT_LE(depth, expected + 0.2) << i;
     overlapping += depth > 0.1;
+    // What ends sooner finds the same pairs, and which are deeper.
+    for (const double enough : {0.0, 0.1, 0.5}) {
+      EXPECT_EQ(overlap_deeper_than(world, 0, 1, enough), depth > enough) << i;
+      const auto found = overlaps(world, [&](int, int) { return enough; });
+      ASSERT_EQ(found.size(), depth > 0.0 ? 1U : 0U) << i;
+      for (const Overlap& pair : found) EXPECT_EQ(pair.depth > enough, depth > enough) << i;
+    }
   }
   EXPECT_GT(overlapping, 10);
 }
