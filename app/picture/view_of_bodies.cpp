@@ -26,18 +26,63 @@ render::Margins margins_of(const scenes::PictureScene& picture) {
   return {side, side, picture.caption ? caption : side};
 }
 
+bool draws_ground(const scenes::Scene& scene) {
+  return scene.settings.ground && scene.picture.grid;
+}
+
 template <class Visit>
-void for_each_vertex(const sim::World& world, const Visit& visit) {
-  for (const sim::SoftBody& body : world.soft) {
-    for (int v = 0; v < body.positions.size(); ++v) visit(Vec3(body.positions[v]));
+void for_each_vertex(const sim::SoftBody& body, const Visit& visit) {
+  for (int v = 0; v < body.positions.size(); ++v) visit(Vec3(body.positions[v]));
+}
+
+template <class Visit>
+void for_each_vertex(const sim::RigidBox& box, const Visit& visit) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                    (corner & 4) != 0 ? 0.5 : -0.5);
+    visit(Vec3(box.position + box.orientation * box.size.cwiseProduct(sign)));
   }
-  for (const sim::RigidBox& box : world.rigid) {
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 sign((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
-                      (corner & 4) != 0 ? 0.5 : -0.5);
-      visit(Vec3(box.position + box.orientation * box.size.cwiseProduct(sign)));
+}
+
+/// Vertices that are not below the ground, and where edges pass through it.
+template <class Visit>
+void for_each_point_above_ground(const sim::ClosedSurface& surface, const Visit& visit) {
+  const auto place = [&](int v) { return Vec3(surface.points[sim::at(v)].data()); };
+  for (const auto& point : surface.points) {
+    if (point[2] >= 0.0) visit(Vec3(point.data()));
+  }
+  for (const auto& [first, second] : surface.edges) {
+    const Vec3 a = place(first), b = place(second);
+    if ((a.z() < 0.0) == (b.z() < 0.0)) continue;
+    const Vec3 passage = a + a.z() / (a.z() - b.z()) * (b - a);
+    visit(Vec3(passage.x(), passage.y(), 0.0));
+  }
+}
+
+/// Calls visit(point) for the points of all bodies that are to be in view. Obstacles may stand in
+/// the ground, which hides that part of them where it is drawn. Other bodies are in it for a moment
+/// or by a rounding, and count as a whole; so does all where nothing is above it.
+template <class Visit>
+void for_each_point(const sim::World& world, bool draws_ground, const Visit& visit) {
+  bool has_any = false;
+  const auto show = [&](const Vec3& point) {
+    has_any = true;
+    visit(point);
+  };
+  const auto each = [&](const auto& body, bool is_obstacle) {
+    double lowest = 0.0;
+    for_each_vertex(body, [&](const Vec3& vertex) { lowest = std::min(lowest, vertex.z()); });
+    if (draws_ground && is_obstacle && lowest < 0.0) {
+      for_each_point_above_ground(sim::closed_surface(body), show);
+    } else {
+      for_each_vertex(body, show);
     }
-  }
+  };
+  for (const sim::SoftBody& body : world.soft) each(body, sim::is_kinematic(body));
+  for (const sim::RigidBox& box : world.rigid) each(box, box.is_kinematic);
+  if (has_any) return;
+  for (const sim::SoftBody& body : world.soft) for_each_vertex(body, visit);
+  for (const sim::RigidBox& box : world.rigid) for_each_vertex(box, visit);
 }
 
 double largest_body(const sim::World& world) {
@@ -98,14 +143,16 @@ Bounds worth_showing(const Bounds& start, double largest_body) {
 }
 
 ViewOfBodies::ViewOfBodies(const scenes::Scene& scene, const sim::World& start)
-    : start_(sim::bounds(start)),
+    : draws_ground_(draws_ground(scene)),
+      start_(sim::bounds(start)),
       turns_(scene.camera.orbit != 0.0),
       fit_(make_fit(scene, start, start_.centre(), turns_)) {}
 
 std::optional<std::string> ViewOfBodies::add(const sim::World& world) {
   const Bounds shown = worth_showing(start_, largest_body(world));
-  for_each_vertex(
-      world, [&](const Vec3& point) { add_point(point.cwiseMax(shown.low).cwiseMin(shown.high)); });
+  for_each_point(world, draws_ground_, [&](const Vec3& point) {
+    add_point(point.cwiseMax(shown.low).cwiseMin(shown.high));
+  });
   return body_beyond(world, shown);
 }
 
@@ -120,7 +167,8 @@ render::Camera ViewOfBodies::camera() const {
 render::Camera camera_around(const scenes::Scene& scene, const sim::World& world) {
   const Vec3 middle = sim::bounds(world).centre();
   render::ViewFit fit = make_fit(scene, world, middle, true);
-  for_each_vertex(world, [&](const Vec3& point) { add_circle(point, middle, fit); });
+  for_each_point(world, draws_ground(scene),
+                 [&](const Vec3& point) { add_circle(point, middle, fit); });
   return with_target_on_axis(fit.camera(), middle);
 }
 

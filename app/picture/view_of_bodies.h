@@ -20,8 +20,9 @@ render::ViewFit make_fit(const scenes::Scene& scene, const sim::World& world,
 /// vanish. `largest_body` is the max. diagonal of a single body, m.
 sim::Bounds worth_showing(const sim::Bounds& start, double largest_body);
 
-/// All that is to be seen of a run up to some frame. It only grows, by what each state adds alone,
-/// so that a run that is continued comes to the same.
+/// All that is to be seen of a run up to some frame; of an obstacle what is above the ground, if
+/// that is drawn. It only grows, by what each state adds alone, so that a run that is continued
+/// comes to the same.
 class ViewOfBodies {
  public:
   /// `start`: the scene's world at its start.
@@ -41,6 +42,7 @@ class ViewOfBodies {
  private:
   void add_point(const sim::Vec3& point);
 
+  bool draws_ground_;
   sim::Bounds start_;
   bool turns_;
   render::ViewFit fit_;

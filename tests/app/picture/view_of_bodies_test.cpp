@@ -1,5 +1,6 @@
 #include "app/picture/view_of_bodies.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/picture/camera_motion.h"
@@ -62,6 +63,34 @@ TEST(ViewOfBodies, NamesTheBodyThatGoesBeyond) {
   EXPECT_EQ(view.add(world), world.soft[2].name);
   EXPECT_GT((view.camera().eye - before.eye).norm(), 1.0f) << "as far as that it counts";
   EXPECT_LT((view.camera().eye - before.eye).norm(), 1e3f);
+}
+
+/// How far the camera stands from what it looks at.
+float distance_of(const std::string& bodies) {
+  const scenes::Scene scene = scenes::parse_scene("camera.elevation = 20\n" + bodies, "x.toml");
+  const sim::World world = build_world(scene);
+  ViewOfBodies view(scene, world);
+  view.add(world);
+  const render::Camera camera = view.camera();
+  return (camera.eye - camera.target).norm();
+}
+
+TEST(ViewOfBodies, LeavesOutWhatTheGroundHides) {
+  const auto block = [](double height, double turn) {
+    return fmt::format(
+        "[[body]]\nkind = \"static\"\nsize = [4, 4, {}]\nposition = [0, 0, {}]\n"
+        "rotation = [{}, 0, 0]\n",
+        height, 1.0 - 0.5 * height, turn);
+  };
+  const float seen = distance_of(block(1.0, 0.0));
+  EXPECT_NEAR(distance_of(block(100.0, 0.0)), seen, 1e-3f * seen);
+  EXPECT_GT(distance_of("ground.present = false\n" + block(100.0, 0.0)), 5.0f * seen);
+  EXPECT_GT(distance_of("picture.grid = false\n" + block(100.0, 0.0)), 5.0f * seen);
+  // A post that leans: from where it comes out of the ground.
+  EXPECT_LT(distance_of(block(20.0, 30.0)), 3.0f * seen);
+  // Nothing else is there.
+  EXPECT_GT(distance_of("[[body]]\nkind = \"static\"\nsize = [4, 4, 1]\nposition = [0, 0, -9]\n"),
+            0.5f * seen);
 }
 
 }  // namespace
