@@ -22,6 +22,7 @@
 #include "app/terminal/common_options.h"
 #include "app/world/build_world.h"
 #include "app/world/model_scene.h"
+#include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -100,6 +101,7 @@ ExitCode check(const CheckOptions& options) {
   report.scene = opened.scene;
   const sim::World world = build_world(report.scene);
   refuse_start_overlap(report.scene, world);
+  refuse_unstable_step(report.scene, world);
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
   report.steps = step_advices(world);

@@ -15,6 +15,7 @@
 #include "app/terminal/progress.h"
 #include "app/terminal/table.h"
 #include "app/world/build_world.h"
+#include "app/world/open_scene.h"
 #include "app/world/simulation.h"
 #include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
@@ -97,6 +98,7 @@ sim::World start_of(const scenes::Scene& scene) {
   const NothingToKeep nothing;
   sim::World start = build_world(scene);
   refuse_start_overlap(scene, start);
+  refuse_unstable_step(scene, start);
   return start;
 }
 

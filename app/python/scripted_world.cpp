@@ -16,6 +16,7 @@ namespace {
 sim::World checked_world(const scenes::Scene& scene) {
   sim::World world = build_world(scene);
   refuse_start_overlap(scene, world);
+  refuse_unstable_step(scene, world);
   return world;
 }
 

@@ -29,6 +29,7 @@
 #include "app/world/build_world.h"
 #include "app/world/gas_warnings.h"
 #include "app/world/may_start.h"
+#include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "assets/model_file.h"
@@ -85,6 +86,7 @@ sim::World prepare_world(const RenderRequest& request, const scenes::Scene& scen
   const NothingToKeep nothing;
   sim::World start = build_world(scene);
   refuse_start_overlap(scene, start);
+  refuse_unstable_step(scene, start);
   start.settings.particles.shown = shows_particles(request.pictures);
   warn_before_run(request.pictures, scene, start, progress);
   return start;

@@ -31,7 +31,9 @@ std::string chosen_steps(const scenes::Scene& scene) {
 
 void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::path& folder) {
   const scenes::Scene scene = open_scene(run.scene_path, run.overrides(sweep));
-  refuse_start_overlap(scene, build_world(scene));
+  const sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  refuse_unstable_step(scene, start);
   const RunStatistics statistics = run_statistics(scene, 1, OnDivergence::stop);
   const nlohmann::json json = run_statistics_json(statistics);
   for (const Measure& measure : sweep.measures) {

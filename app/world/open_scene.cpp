@@ -8,6 +8,7 @@
 
 #include "app/files/find_model.h"
 #include "app/files/find_scene.h"
+#include "app/files/refuse_body.h"
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
 #include "app/world/scene_warnings.h"
@@ -21,8 +22,7 @@
 namespace pneuma::app {
 namespace {
 
-/// So that a run still ends: stiffer bodies are for implicit methods, as the warning about them
-/// says.
+/// So that a run still ends: stiffer bodies are for implicit methods, as their refusal says.
 constexpr int most_chosen_steps = 100'000;
 
 constexpr double most_mib = 2048.0;  // of limits.model_file_mib
@@ -35,14 +35,17 @@ bool is_damped_by_the_step(const scenes::Scene& scene) {
          });
 }
 
+bool can_be_chosen(const StepAdvice& advice) {
+  return advice.steps_per_second > 0 && advice.steps_per_second <= most_chosen_steps;
+}
+
 /// Of the bodies whose steps are not safe the one that needs the shortest; null if there is none,
 /// or if that is too short.
 const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
   const StepAdvice* shortest = nullptr;
   for (const StepAdvice& advice : advices) {
     if (advice.is_safe()) continue;
-    const bool has_one = advice.steps_per_second > 0;
-    if (!has_one || advice.steps_per_second > most_chosen_steps) return nullptr;
+    if (!can_be_chosen(advice)) return nullptr;
     if (!shortest || advice.steps_per_second > shortest->steps_per_second) shortest = &advice;
   }
   return shortest;
@@ -66,6 +69,16 @@ void choose_step(scenes::Scene& scene) {
                   "simulation.steps_per_second sets others",
                   shortest->body, shortest->steps_per_second, steps, why_shorter(*shortest)))));
   steps = shortest->steps_per_second;
+}
+
+/// "--set simulation.integrator=implicit_euler, or --set simulation.steps_per_second=166200".
+std::string ways_to_start(const StepAdvice& advice) {
+  std::string ways = advice.implicit_can ? "--set simulation.integrator=implicit_euler" : "";
+  if (advice.steps_per_second > 0) {
+    ways += fmt::format("{}--set simulation.steps_per_second={}", ways.empty() ? "" : ", or ",
+                        advice.steps_per_second);
+  }
+  return ways.empty() ? remedy(advice) : ways;
 }
 
 constexpr int steps_of_paper = 60;  // per second
@@ -161,6 +174,19 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
   choose_step(scene);
   note_damping_by_the_step(scene);
   return scene;
+}
+
+void refuse_unstable_step(const scenes::Scene& scene, const sim::World& start) {
+  const int fewest = scenes::default_steps_per_second(scene.picture.frames_per_second);
+  const bool is_chosen = scene.settings.steps_per_second != fewest;
+  if (scene.names_step || is_chosen || is_damped_by_the_step(scene)) return;
+  for (const StepAdvice& advice : step_advices(start)) {
+    if (!advice.too_long() || can_be_chosen(advice)) continue;
+    refuse_body(scene, place_of(scene, advice.body), advice.body,
+                fmt::format("small motions stay stable up to steps of {:.3g} s for {}, and more "
+                            "than {} steps per second are made only where asked for; use {}",
+                            advice.limit, advice.why, most_chosen_steps, ways_to_start(advice)));
+  }
 }
 
 }  // namespace pneuma::app

@@ -6,6 +6,7 @@
 
 #include "app/world/model_scene.h"
 #include "scenes/loader/scene.h"
+#include "sim/world/world.h"
 
 namespace pneuma::app {
 
@@ -16,5 +17,10 @@ namespace pneuma::app {
 /// model.
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice = {});
+
+/// Throws scenes::SceneError where open_scene left steps in which the run would fail at once, as a
+/// body needs more than it chooses: it says by what, and what to set. `start`: what build_world
+/// made of the scene.
+void refuse_unstable_step(const scenes::Scene& scene, const sim::World& start);
 
 }  // namespace pneuma::app

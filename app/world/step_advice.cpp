@@ -67,6 +67,25 @@ std::string reason(const sim::World& world, const sim::SoftBody& body,
                      material.vertex_mass, by);
 }
 
+/// What of bending makes steps short: without it they could be twice as long. Empty if nothing.
+std::string bending_reason(const sim::World& world, const sim::SoftBody& body, double limit) {
+  if (!(body.material.bending > 0.0)) return "";
+  const sim::Integrator integrator = world.settings.integrator;
+  const auto is_cause = [&](double sim::SoftMaterial::*part) {
+    sim::SoftBody without = body;
+    without.material.*part = 0.0;
+    return sim::settled_stability_limit(integrator, without).step > 2.0 * limit;
+  };
+  const std::string name = scenes::integrator_name(integrator);
+  if (body.material.bending_damping > 0.0 && is_cause(&sim::SoftMaterial::bending_damping)) {
+    return fmt::format("bending_damping = {:g} s of bending = {:g} N m with {}",
+                       body.material.bending_damping, body.material.bending, name);
+  }
+  if (!is_cause(&sim::SoftMaterial::bending)) return "";
+  return fmt::format("bending = {:g} N m, vertex_mass = {:g} kg with {}", body.material.bending,
+                     body.material.vertex_mass, name);
+}
+
 /// s; infinite where nothing touches, and where bodies are in each other.
 double contact_limit(const sim::World& world) {
   try {
@@ -103,10 +122,16 @@ StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
   advice.step = sim::time_step(world.settings);
   advice.limit = limit.step;
   advice.of_springs = is_of_springs(world, index, limit.step);
-  advice.why = advice.of_springs ? spring_reason(world, index) : reason(world, body, limit.motion);
+  choose_steps(world, advice);
+  if (!advice.is_safe() && !advice.of_springs) {
+    advice.why = bending_reason(world, body, limit.step);
+  }
+  if (advice.why.empty()) {
+    advice.why =
+        advice.of_springs ? spring_reason(world, index) : reason(world, body, limit.motion);
+  }
   advice.implicit_can = !advice.of_springs && !sim::is_implicit(world.settings.integrator) &&
                         sim::can_integrate(sim::Integrator::implicit_euler, body.material);
-  choose_steps(world, advice);
   return advice;
 }
 

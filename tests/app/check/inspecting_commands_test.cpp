@@ -137,14 +137,16 @@ TEST(Check, LeavesOutTheSceneIfThatIsAskedFor) {
 
 TEST(Check, EndsWith5WhenTheRunDiverges) {
   const ProgramResult result = run_pneuma(
-      "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin 2>/dev/null");
+      "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin "
+      "--set simulation.steps_per_second=60 2>/dev/null");
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_NE(result.output.find("DIVERGED"), std::string::npos);
 }
 
 TEST(Check, SaysWhyItDivergedBelowTheReport) {
   const ProgramResult result = run_pneuma(
-      "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin 2>&1");
+      "check one_sphere --run --set body.k=1e12 --set simulation.integrator=martin "
+      "--set simulation.steps_per_second=60 2>&1");
   EXPECT_LT(result.output.find("state hash"), result.output.rfind("pneuma: "));
 }
 

@@ -236,6 +236,7 @@ class Module(unittest.TestCase):
 
     def test_a_divergence_leaves_the_last_valid_state(self):
         far = ["simulation.integrator=symplectic_euler", "body.1.k=1e12", "body.1.k_max=8e12"]
+        far.append("simulation.steps_per_second=60")
         said = self.command("check", self.scene, "--run", *(w for o in far for w in ("--set", o)))
         self.assertEqual(said.returncode, 5)
         world = pneuma.load(str(self.scene), set=far)

@@ -383,7 +383,52 @@ TEST_F(OpenSceneFile, KeepsTheStepWhereDampingIsByIt) {
 TEST_F(OpenSceneFile, KeepsTheStepWhereABodyNeedsTooShortAOne) {
   const scenes::Scene stiffer = open(stiff_body + "[[body]]\nposition = [9, 0, 4]\nk = 1e10\n");
   EXPECT_EQ(stiffer.settings.steps_per_second, 60);
-  EXPECT_TRUE(stiffer.warnings.empty());  // that of the step comes later
+  EXPECT_TRUE(stiffer.warnings.empty());
+}
+
+/// It would fail in its first step: what makes the step short is named, and what is advised works.
+TEST_F(OpenSceneFile, RefusesToRunWithAStepThatFailsAtOnce) {
+  const auto refusal = [](const scenes::Scene& scene) -> std::string {
+    try {
+      refuse_unstable_step(scene, build_world(scene));
+    } catch (const scenes::SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string pad =
+      "[[body]]\nname = \"pad\"\nshape = \"box\"\nsize = [2.4, 0.5, 0.3]\ndivisions = 4\n"
+      "k = 2000\nbending = 20\nbending_damping = 0.01\ngauge_pressure = 10\nmass = 0.5\n"
+      "position = [0, 0, 1]\n";
+  const std::string message = refusal(open("duration = 0.1\n" + pad));
+  EXPECT_NE(message.find("it.toml:2:1: body 'pad': small motions stay stable up to steps of "),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("for bending_damping = 0.01 s of bending = 20 N m with rk4"),
+            std::string::npos)
+      << message;
+  const std::string implicit = "simulation.integrator=implicit_euler",
+                    many = "simulation.steps_per_second=";
+  EXPECT_NE(message.find("use --set " + implicit + ", or --set " + many), std::string::npos)
+      << message;
+  const std::string steps = message.substr(message.find(many));
+  for (const std::string& advised : {implicit, steps.substr(0, steps.find_first_of("\n"))}) {
+    const std::size_t value = advised.find('=') + 1;
+    const bool is_word = advised == implicit;
+    const scenes::Scene followed =
+        open(advised.substr(0, value) +
+             (is_word ? "\"" + advised.substr(value) + "\"" : advised.substr(value)) + "\n" + pad);
+    EXPECT_EQ(refusal(followed), "") << advised;
+    sim::World world = build_world(followed);
+    EXPECT_FALSE(sim::run(world, 0.03)) << advised;
+  }
+  // A step that is named is the user's own; a smaller need is met.
+  EXPECT_EQ(refusal(open("simulation.steps_per_second = 60\n" + pad)), "");
+  EXPECT_EQ(refusal(open(pad.substr(0, pad.find("bending_damping")) + "mass = 0.5\n")), "");
+  const std::string stiff =
+      refusal(open(stiff_body + "[[body]]\nposition = [9, 0, 4]\nk = 1e10\n"));
+  EXPECT_NE(stiff.find("body 'body2'"), std::string::npos) << stiff;
+  EXPECT_NE(stiff.find("k = 1e+10 N/m"), std::string::npos) << stiff;
 }
 
 }  // namespace
