@@ -182,10 +182,25 @@ bool is_png(const fs::path& file) {
   return begin == signature;
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw base::IoError(fmt::format("{}: {}", folder.string(), error.message()));
+}
+
+/// The last part of a folder's path.
+std::string name_of(const RecordedRun& run) {
+  std::error_code unreadable;
+  return fs::weakly_canonical(run.folder.path(), unreadable).filename().string();
+}
+
 /// Where nothing is lost by it but another picture of this kind.
 fs::path checked_output(const CompareRequest& request, const RecordedRun& first,
                         const RecordedRun& second) {
-  const fs::path out = request.out.empty() ? "compare.png" : request.out;
+  const fs::path out =
+      request.out.empty()
+          ? fs::path("out") / "compare" / fmt::format("{}_{}.png", name_of(first), name_of(second))
+          : fs::path(request.out);
   std::error_code unreadable;
   if (!fs::exists(out, unreadable)) return out;
   const fs::path place = fs::weakly_canonical(out, unreadable).parent_path();
@@ -252,6 +267,7 @@ ExitCode compare_run_folders(const CompareRequest& request) {
   print_comparison(comparison, first, second);
   print_numbers(numbers_of(first, second, frame), frame);
   if (const auto pictures = pictures_of(first, second, frame)) {
+    if (request.out.empty()) make_folder(out.parent_path());
     write_pictures(*pictures, out.string());
   }
   return request.expect_equal && !comparison.equal() ? ExitCode::check_failed : ExitCode::done;

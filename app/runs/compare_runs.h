@@ -14,7 +14,7 @@ namespace pneuma::app {
 struct CompareRequest {
   std::string first;  // folders
   std::string second;
-  std::string out;                    // a PNG file; empty: compare.png in the present folder
+  std::string out;  // a PNG file; empty: out/compare/A_B.png, by the folders' names
   std::optional<std::int64_t> frame;  // to be shown; by default the first that differs
   bool expect_equal = false;
 };

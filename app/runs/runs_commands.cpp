@@ -42,7 +42,10 @@ void add_compare_command(CLI::App& app, Action& action) {
   run_option("B", request->second);
   command->add_option("--frame", request->frame, "The frame to show [the first that differs]")
       ->type_name("N");
-  command->add_option("--out", request->out, "PNG file of A, B and their difference [compare.png]")
+  command
+      ->add_option(
+          "--out", request->out,
+          "PNG file of A, B and their difference [out/compare/A_B.png, by the folders' names]")
       ->type_name("FILE");
   command->add_flag("--expect-equal", request->expect_equal,
                     "Exit with 7 when a frame's state or picture differs or is missing");

@@ -160,6 +160,24 @@ TEST_F(RunsTest, FindsTheFirstFrameThatDiffers) {
   EXPECT_GE(page.width, 3 * 64);
 }
 
+TEST_F(RunsTest, TheComparisonIsBelowOutUnlessToldOtherwise) {
+  render_as("a", "--frames 2");
+  render_as("b", "--frames 2");
+  const std::string there = fmt::format("cd '{}' && ", folder_.path().string());
+  for (const char* ends : {"", "/"}) {
+    const ProgramResult result = run_pneuma(
+        fmt::format("compare '{0}{2}' '{1}{2}' 2>&1", out("a").string(), out("b").string(), ends),
+        there);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    const std::string name = fmt::format("out/compare/{}_{}.png", out("a").filename().string(),
+                                         out("b").filename().string());
+    EXPECT_NE(result.output.find("\n" + name + "\n"), std::string::npos) << result.output;
+    EXPECT_TRUE(fs::exists(folder_ / name));
+    fs::remove(folder_ / name);
+  }
+  EXPECT_NE(run_pneuma("compare --help").output.find("[out/compare/A_B.png"), std::string::npos);
+}
+
 TEST_F(RunsTest, APictureThatIsMissingIsADifference) {
   render_as("a", "--frames 4");
   render_as("b", "--frames 4");
