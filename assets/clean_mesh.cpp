@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "assets/check_surface.h"
 #include "assets/choose_component.h"
@@ -60,6 +61,22 @@ double diagonal(const sim::TriangleMesh& mesh) {
                                  coordinates(mesh.vertices[at(mesh.triangles[0][0])])));
   }
   return box.size().norm();
+}
+
+/// Whether it is more than a layer or several across an axis, as a scale of 0 makes of any model:
+/// what that leaves of edges and fans says nothing.
+void check_not_flat(const sim::TriangleMesh& mesh, double thickness) {
+  sim::Bounds box;
+  for (const Vec3& vertex : mesh.vertices) box.include(vertex);
+  int axis = 0;
+  const double extent = box.size().minCoeff(&axis);
+  if (extent > thickness) return;
+  constexpr std::string_view names = "xyz";
+  throw ModelError(fmt::format(
+      "the model is flat: its extent along {0} is {1:.3g}, of {2:.3g} x {3:.3g} x {4:.3g}, so it "
+      "has no inside, which gas and contacts need; look at its scale along {0}, or give a sheet "
+      "a wall, such as by Blender's Solidify",
+      names[at(axis)], extent, box.size().x(), box.size().y(), box.size().z()));
 }
 
 /// Between the triangle and the first vertex of all.
@@ -264,6 +281,7 @@ class Cleaner {
 
   void make_surface() {
     const std::vector<Edge> edges = edges_of(work_.mesh.triangles);
+    check_not_flat(work_.mesh, weld_distance_);
     check_manifold(work_, edges, weld_distance_, options_.repair);
     const Orientation orientation = orient(work_.mesh.triangles, edges);
     if (!orientation.impossible.empty()) {

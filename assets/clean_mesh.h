@@ -62,7 +62,7 @@ inline constexpr double smallest_model = 1e-6;
 /// Throws ModelError for all else, with counts, up to five places and what to do: no triangles,
 /// indices out of range, coordinates that are not finite, too large or too small, too many
 /// vertices, several closed components, a surface that is open, not manifold at an edge or a
-/// vertex, one-sided, or touches itself, triangles without area (lower than the distance of
+/// vertex, flat, one-sided, or touches itself, triangles without area (lower than the distance of
 /// welding), no volume (1e-9 of the cubed diagonal or less). Places are given by the numbers and
 /// coordinates of the input.
 CleanModel clean_mesh(const Model& model, const CleanOptions& options = {});

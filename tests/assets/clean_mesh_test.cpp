@@ -241,6 +241,18 @@ TEST(CleanMesh, RefusesFlatTrianglesAndFlatBodies) {
   EXPECT_NE(cleaning_refusal(slab), "no error");
 }
 
+/// A scale of 0 welds the two sides of a body into one layer, here of a ball and of a cube.
+TEST(CleanMesh, SaysThatAModelIsFlat) {
+  for (const int axis : {0, 1, 2}) {
+    for (sim::TriangleMesh mesh : {sim::make_icosphere(1.0, 1), cube()}) {
+      for (Vec3& vertex : mesh.vertices) vertex[axis] = 0.0;
+      const std::string along = fmt::format("the model is flat: its extent along {} is 0, of ",
+                                            std::string_view("xyz")[sim::at(axis)]);
+      for (const bool repair : {false, true}) expect_refusal(mesh, {along}, {.repair = repair});
+    }
+  }
+}
+
 TEST(CleanMesh, RefusesWhatIsTooLargeOrTooSmallAndSaysAScale) {
   expect_refusal(scaled(cube(), 1e9), {"across", "1e-06 m to 1e+06 m", "model.scale"});
   expect_refusal(scaled(cube(), 1e-9), {"across", "model.scale"});
