@@ -297,6 +297,13 @@ auto reads(const Read& read) {
   };
 }
 
+std::string kind_of(const PyWorld& world, std::size_t body) {
+  return scenes::kind_name(scenes::body_of(world.scripted.scene(), static_cast<int>(body)).kind);
+}
+
+constexpr const char* kind_help =
+    "As the scene's key: \"soft\", \"rigid\", \"static\" or \"moved\"";
+
 template <class Held, class Read>
 auto reads_of(const Read& read) {
   return [read](const Held& held) {
@@ -320,9 +327,14 @@ void define_errors(py::module_& module) {
 
 void define_bodies(py::module_& module) {
   using app::ScriptedWorld;
-  py::class_<PySoftBody>(module, "SoftBody", "A soft body of a world, in its present state.")
+  py::class_<PySoftBody>(module, "SoftBody",
+                         "A body with a mesh of its own, in its present state: a soft one, or one "
+                         "that is static or moved.")
       .def("__repr__", [](const PySoftBody& soft) { return described(soft); })
       .def_property_readonly("name", [](const PySoftBody& soft) { return soft.body().name; })
+      .def_property_readonly(
+          "kind", [](const PySoftBody& soft) { return kind_of(*soft.world, soft.index); },
+          kind_help)
       .def_property_readonly("positions", reads_of<PySoftBody>([](const PySoftBody& soft) {
                                return copied(soft.body().positions);
                              }),
@@ -338,9 +350,18 @@ void define_bodies(py::module_& module) {
                                                   soft.body().positions);
                              }),
                              "m^3");
-  py::class_<PyRigidBox>(module, "RigidBox", "A rigid box of a world, in its present state.")
+  py::class_<PyRigidBox>(module, "RigidBox",
+                         "A box of a world, in its present state: a rigid one, or one that is "
+                         "static or moved.")
       .def("__repr__", [](const PyRigidBox& rigid) { return described(rigid); })
       .def_property_readonly("name", [](const PyRigidBox& rigid) { return rigid.box().name; })
+      .def_property_readonly(
+          "kind",
+          [](const PyRigidBox& rigid) {
+            const std::size_t soft = rigid.world->scripted.world().soft.size();
+            return kind_of(*rigid.world, soft + rigid.index);
+          },
+          kind_help)
       .def_property_readonly(
           "size", [](const PyRigidBox& rigid) { return copied(rigid.box().size); },
           "Full lengths along its own axes, m")
@@ -406,13 +427,15 @@ void define_world(py::module_& module) {
           [](const WorldPointer& world) {
             return held<PySoftBody>(world, world->scripted.world().soft);
           },
-          "The soft bodies, in the order of the scene")
+          "The bodies with a mesh of their own, in the order of the scene: soft ones, and those of "
+          "kind \"static\" or \"moved\" but boxes")
       .def_property_readonly(
           "rigid",
           [](const WorldPointer& world) {
             return held<PyRigidBox>(world, world->scripted.world().rigid);
           },
-          "The rigid boxes, in the order of the scene")
+          "The boxes, in the order of the scene: rigid ones, and those of kind \"static\" or "
+          "\"moved\"")
       .def_property_readonly("energies", energies, "J: kinetic, spring, gas, gravity, total")
       .def_property_readonly("contacts", contacts,
                              "Of the last step: lists kind and bodies, arrays point, normal, depth")

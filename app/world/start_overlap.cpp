@@ -238,19 +238,6 @@ std::vector<StartOverlap> find_start_overlaps(const sim::World& world) {
   return found;
 }
 
-/// Soft bodies come first in a world, each kind in the order of the scene.
-const scenes::BodyScene& in_scene(const scenes::Scene& scene, int body) {
-  std::int64_t left = body;
-  for (const bool soft : {true, false}) {
-    for (const scenes::BodyScene& each : scene.bodies) {
-      if (scenes::is_box(each) == soft) continue;
-      left -= scenes::copy_count(each);
-      if (left < 0) return each;
-    }
-  }
-  return scene.bodies.back();
-}
-
 std::string too_near(const std::string& other, const sim::NearStart& touching,
                      std::string_view direction) {
   const double missing = touching.reach - touching.distance;
@@ -315,9 +302,9 @@ void refuse_start_overlap(const scenes::Scene& scene, const sim::World& start) {
   }
   std::vector<scenes::Diagnostic> diagnostics;
   for (const StartOverlap& overlap : std::span(found).first(shown)) {
-    const scenes::BodyScene& body = in_scene(scene, overlap.body);
+    const scenes::BodyScene& body = scenes::body_of(scene, overlap.body);
     const bool are_copies =
-        overlap.other != sim::ground_body && &in_scene(scene, overlap.other) == &body;
+        overlap.other != sim::ground_body && &scenes::body_of(scene, overlap.other) == &body;
     const std::string reason =
         overlap.reason + (are_copies ? "; they are copies: " + what_parts_copies(body) : "");
     diagnostics.push_back(

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
 #include "scenes/loader/make_keys.h"
 #include "scenes/loader/palette.h"
 #include "scenes/loader/sections.h"
@@ -38,6 +41,10 @@ constexpr std::array shapes = {
 };
 
 }  // namespace
+
+std::string kind_name(BodyKind kind) {
+  return std::string(std::ranges::find(kinds, kind, &Named<BodyKind>::first)->second);
+}
 
 Section body_section(BodyScene& body) {
   const bool soft = body.kind == BodyKind::soft;

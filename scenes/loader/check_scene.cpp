@@ -158,11 +158,6 @@ class Checks {
     check_spacing(body, header);
   }
 
-  static const char* kind_word(BodyKind kind) {
-    if (kind == BodyKind::fixed) return "static";
-    return kind == BodyKind::moved ? "moved" : "rigid";
-  }
-
   void check_potential(const BodyScene& body, Origin header) {
     const sim::ContactMethod& contact = scene_.settings.contact;
     if (contact != sim::ContactMethod::potential) return;
@@ -182,7 +177,7 @@ class Checks {
     }
     if (body.kind == BodyKind::soft || body.kind == BodyKind::rigid) return;
     report_.add(reader_.origin({&body.kind, &scene_.settings.contact}, header),
-                fmt::format("kind = \"{}\" needs {}, or make the body rigid", kind_word(body.kind),
+                fmt::format("kind = \"{}\" needs {}, or make the body rigid", kind_name(body.kind),
                             other_contacts()));
   }
 

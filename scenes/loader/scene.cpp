@@ -35,6 +35,18 @@ std::int64_t copy_count(const BodyScene& body) {
   return std::int64_t{body.copies[0]} * body.copies[1] * body.copies[2];
 }
 
+const BodyScene& body_of(const Scene& scene, int body) {
+  std::int64_t left = body;
+  for (const bool boxes : {false, true}) {
+    for (const BodyScene& each : scene.bodies) {
+      if (is_box(each) != boxes) continue;
+      left -= copy_count(each);
+      if (left < 0) return each;
+    }
+  }
+  return scene.bodies.back();
+}
+
 std::int64_t frame_count(const Scene& scene) {
   return std::llround(scene.duration * scene.picture.frames_per_second);
 }

@@ -232,6 +232,13 @@ std::int64_t vertex_count(const BodyScene& body);
 /// How many bodies the copies make.
 std::int64_t copy_count(const BodyScene& body);
 
+/// The body whose copy a body of the world is: those with a mesh come first there, then the boxes,
+/// each in the order of the scene.
+const BodyScene& body_of(const Scene& scene, int body);
+
+/// As scene files have it: "soft", "rigid", "static" or "moved".
+std::string kind_name(BodyKind kind);
+
 /// Frames of the whole run, without the one at time zero.
 std::int64_t frame_count(const Scene& scene);
 

@@ -33,6 +33,31 @@ kind = "rigid"
 position = [3.0, 0.0, 1.05]
 """
 
+KINDS = """
+[[body]]
+kind = "static"
+size = [9, 9, 1]
+position = [0, 0, 0.5]
+[[body]]
+kind = "rigid"
+position = [0, 0, 3]
+[[body]]
+kind = "static"
+shape = "icosphere"
+radius = 1
+position = [20, 0, 2]
+[[body]]
+radius = 1
+position = [10, 0, 2]
+copies = [1, 2, 1]
+spacing = [0, 4, 0]
+[[body]]
+kind = "moved"
+size = [1, 1, 1]
+velocity = [0, 0, 0]
+position = [30, 0, 2]
+"""
+
 
 def decoded_png(path):
     """8-bit RGB without interlacing (the PNG specification, section 9), by other code than the program's."""
@@ -154,6 +179,16 @@ class Module(unittest.TestCase):
         counts = f"{len(ball.positions)} vertices, {len(ball.triangles)} triangles"
         self.assertEqual(repr(ball), f"<pneuma.SoftBody 'ball': {counts}>")
         self.assertEqual(repr(world.rigid[0]), "<pneuma.RigidBox 'box': 2 x 2 x 2 m>")
+
+    def test_bodies_say_their_kind_as_the_scene_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "kinds.toml"
+            scene.write_text(KINDS)
+            world = pneuma.load(scene)
+        self.assertEqual([body.kind for body in world.soft], ["static", "soft", "soft"])
+        self.assertEqual([body.kind for body in world.rigid], ["static", "rigid", "moved"])
+        with self.assertRaises(AttributeError):
+            world.soft[0].kind = "soft"
 
     def test_volume_and_energy_are_those_of_the_arrays(self):
         world = pneuma.load(str(self.scene), set={"body.1.rho_g": 0})
