@@ -89,8 +89,10 @@ Section simulation_section(Scene& scene) {
           selector({"method", word(settings.method, methods), any(), "",
                     "paper: all as printed, and no key beside it that it sets; corrected: as "
                     "ERRATA says"}),
-          of_method({"integrator", word(settings.integrator, integrators), any(), "",
-                     "how soft bodies are stepped"}),
+          of_method(
+              {"integrator", word(settings.integrator, integrators), any(), "",
+               "how soft bodies are stepped; under implicit_euler, but not sdirk2, their free "
+               "spin dies away"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
           of_method({"ambient_pressure", &scene.ambient_pressure, at_least(0), "Pa",
                      "outside of every body with gas; that of air is 101325"}),
