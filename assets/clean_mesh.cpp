@@ -343,7 +343,8 @@ class Cleaner {
       std::swap(work_.mesh.triangles[t][1], work_.mesh.triangles[t][2]);
       ++count;
     }
-    if (count > 0) say(counted(count, "triangle", "triangles") + " turned");
+    if (count > 0)
+      say(counted(count, "triangle", "triangles") + " turned, so that all face outwards");
   }
 
   void place() {

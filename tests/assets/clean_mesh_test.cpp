@@ -43,7 +43,7 @@ TEST(CleanMesh, TurnsAnInsideOutCube) {
   for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
   const CleanModel model = clean(mesh);
   EXPECT_DOUBLE_EQ(enclosed_volume(model.mesh), 8.0);
-  EXPECT_EQ(model.mended, Strings{"12 triangles turned"});
+  EXPECT_EQ(model.mended, Strings{"12 triangles turned, so that all face outwards"});
 }
 
 TEST(CleanMesh, DropsWhatIsThereTwiceOrNotAtAll) {
