@@ -124,6 +124,7 @@ TEST_F(SweepTest, AKilledSweepLosesNothing) {
 
 TEST_F(SweepTest, AFailedRunIsARowWithItsCodeAndWords) {
   write_text(file(), R"(scenes = ["fall.toml"]
+set = ["simulation.steps_per_second=60"]
 measure = ["energy", "seconds"]
 [[parameter]]
 key = "body.k"
@@ -203,6 +204,7 @@ TEST_F(SweepTest, PicturesOfTheLastFrameComeOnOnePage) {
 
 TEST_F(SweepTest, AFilmInPartsHasTheSameBytes) {
   write_text(file(), R"(scenes = ["fall.toml"]
+set = ["simulation.steps_per_second=60"]
 frames = "all"
 size = "32x24"
 [[parameter]]
@@ -313,6 +315,7 @@ TEST_F(SweepTest, LongASnakemakeRunGivesTheSameBytes) {
 
 TEST_F(SweepTest, MapsLeaveOutWhatARunHadWhenItDiverged) {
   write_text(file(), R"(scenes = ["fall.toml"]
+set = ["simulation.steps_per_second=60"]
 measure = ["energy"]
 [[parameter]]
 key = "body.k"
