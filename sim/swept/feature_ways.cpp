@@ -243,6 +243,16 @@ bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& secon
   return stands_for(of_first, pair.first.index, closest.first);
 }
 
+double sine_between_edges(const MovingSurface& first, const MovingSurface& second,
+                          const NearFeatures& edges, Moment moment) {
+  const auto direction = [moment](const MovingSurface& surface, int edge) -> Vec3 {
+    const auto& [from, to] = surface.tree->topology().edges()[at(edge)];
+    const VertexArray& x = positions(surface, moment);
+    return (x[to] - x[from]).normalized();
+  };
+  return direction(first, edges.first.index).cross(direction(second, edges.second.index)).norm();
+}
+
 bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, Moment moment,
                        double sine_of_flat) {
   const Vec3 from = positions(surface, moment)[vertex];

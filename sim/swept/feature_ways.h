@@ -18,6 +18,10 @@ std::optional<ClosestPoints> closest_points(const MovingSurface& first, const Mo
 Vec3 touching_normal(const MovingSurface& first, const MovingSurface& second,
                      const NearFeatures& pair, Moment moment);
 
+/// Of the angle between two edges.
+double sine_between_edges(const MovingSurface& first, const MovingSurface& second,
+                          const NearFeatures& edges, Moment moment);
+
 /// m. By how much the distance of a pair can change on their ways at most.
 double greatest_change(const MovingSurface& first, const MovingSurface& second,
                        const NearFeatures& pair);

@@ -9,6 +9,7 @@ namespace {
 /// Sine of the angle between faces that lie on each other: rounding; but a box with one contact for
 /// each of its faces would rock on what is soft.
 constexpr double flat = 1e-6, flat_of_boxes = 0.03;
+constexpr double cosine_of_flat = 1.0 - 0.5 * flat_of_boxes * flat_of_boxes;
 constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -131,7 +132,27 @@ bool ContactPlaces::are_beside_each_other(const SweptCandidate& candidate,
   }
   const bool is_beside_obstacle = (bodies_.is_box(first) && bodies_.is_obstacle(second)) ||
                                   (bodies_.is_obstacle(first) && bodies_.is_box(second));
-  return is_beside_obstacle && vertices_are_beside(candidate, closest, moment);
+  return is_beside_obstacle && (vertices_are_beside(candidate, closest, moment) ||
+                                passes_rim(candidate, closest, moment));
+}
+
+/// Whether a corner or an edge is nearest to an edge along it: what fits into a hole passes that
+/// so, and touches what it lies on with a corner on a face, or with edges that cross.
+bool ContactPlaces::passes_rim(const SweptCandidate& candidate, const ClosestPoints& closest,
+                               Moment moment) const {
+  if (closest.distance < rounding_distance) return false;
+  const MovingSurface& a = bodies_.surface(candidate.bodies.first);
+  const MovingSurface& b = bodies_.surface(candidate.bodies.second);
+  const auto& [of_first, of_second] = candidate.features;
+  const Vec3 apart = (closest.first_point - closest.second_point) / closest.distance;
+  if (of_first.kind == FeatureKind::edge) {
+    if (sine_between_edges(a, b, candidate.features, moment) > flat_of_boxes) return false;
+    const int box =
+        bodies_.is_box(candidate.bodies.first) ? candidate.bodies.first : candidate.bodies.second;
+    const OrientedBox placed = moment == Moment::start ? start_box(box) : end_box(box);
+    return (placed.axes.transpose() * apart).cwiseAbs().maxCoeff() < cosine_of_flat;
+  }
+  return apart.cross(touching_normal(a, b, candidate.features, moment)).norm() > flat_of_boxes;
 }
 
 /// At the start, as points that are nearest after a fraction of the step.

@@ -58,6 +58,8 @@ class ContactPlaces {
                         Moment moment) const;
   bool vertices_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,
                            Moment moment) const;
+  bool passes_rim(const SweptCandidate& candidate, const ClosestPoints& closest,
+                  Moment moment) const;
   Vec3 normal_of(const SweptCandidate& candidate, const ClosestPoints& closest,
                  Moment moment) const;
   std::optional<SweptContact> place_at_end(const SweptCandidate& candidate,
