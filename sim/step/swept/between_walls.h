@@ -1,5 +1,4 @@
-// Boxes that walls on both sides leave less room than they would keep from each. Private to
-// sim/step.
+// Boxes between walls that leave less room than they would keep from both. Private to sim/step.
 #pragma once
 
 #include "sim/step/swept/contact_motion.h"
@@ -7,17 +6,28 @@
 
 namespace pneuma::sim {
 
-/// Of the distance wanted: what these keep. Twice what features keep on their ways
+/// Of the distance wanted: what such a box keeps. Twice what features keep on their ways
 /// (SweptSearch::meets).
 inline constexpr double kept_between_walls = 0.1;
 
-/// Fills the memory's `between_walls`: a free box and a static or moved body that are nearer than
-/// the distance wanted, where another such body is as near on the far side of the box. Of the
-/// candidates.
+/// Fills the memory's `between_walls` from the candidates: the axes of free boxes along which what
+/// is static or moved, or the ground, is on both sides, and leaves less room than the distance up
+/// to which boxes are in contact. That is so or not wherever between them the box is.
 void find_boxes_between_walls(const World& world, const ContactMotion& motion, SweptMemory& memory);
 
-/// They touch no earlier than they must: with impulses at any distance, which nothing but friction
-/// asks for, the box would stick to both walls.
-bool is_between_walls(const SweptMemory& memory, const BodyPair& pair);
+/// Whether one of two bodies is such a box and the other one of the walls, along the `normal` from
+/// the second to the first. They touch no earlier than they must: with impulses at any distance,
+/// which nothing but friction asks for, the box would stick to both walls.
+bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
+                      const Vec3& normal);
+inline bool is_between_walls(const World& world, const SweptMemory& memory,
+                             const SweptContact& contact) {
+  return is_between_walls(world, memory, pair_of(contact), contact.normal);
+}
+
+/// m, by which a contact of such a box may come nearer.
+inline double room_between_walls(const SweptContact& contact) {
+  return contact.distance - kept_between_walls * contact.wanted;
+}
 
 }  // namespace pneuma::sim

@@ -10,8 +10,6 @@ namespace pneuma::sim {
 
 /// Of a skin: points of boxes that are no further from being hit than others are hit as well.
 inline constexpr double hit_together = 0.5;
-/// m. At less than this the direction between two points is rounding.
-inline constexpr double rounding_distance = 1e-9;
 
 class ContactPlaces {
  public:

@@ -188,14 +188,9 @@ class EndContacts {
       contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
     } else {
-      contact.parting = -room_between_walls(contact) / step();
+      const bool is_between = is_between_walls(world_, m_, contact);
+      contact.parting = is_between ? std::min(0.0, -room_between_walls(contact) / step()) : 0.0;
     }
-  }
-
-  /// m.
-  double room_between_walls(const SweptContact& contact) const {
-    if (!is_between_walls(m_, pair_of(contact))) return 0.0;
-    return std::max(0.0, contact.distance - kept_between_walls * contact.wanted);
   }
 
   double step() const { return time_step(world_.settings); }

@@ -5,6 +5,7 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/separating_axis.h"
+#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/shift_boxes.h"
 #include "sim/step/swept/swept_search.h"
 
@@ -154,8 +155,9 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
     const double distance = on_ground
                                 ? bodies_.surface(first).start[candidate.features.first.index].z()
                                 : candidate.start.distance;
+    const bool is_between = is_between_walls(world_, m_, candidate.bodies, normal_of(candidate));
     visit(candidate,
-          kept_by_shifts(m_, candidate.bodies) * motion_.distance_wanted(first, second) - distance);
+          kept_by_shifts(is_between) * motion_.distance_wanted(first, second) - distance);
   }
 }
 

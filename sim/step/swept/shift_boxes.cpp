@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "sim/response/group_motion.h"
-#include "sim/step/swept/between_walls.h"
 
 namespace pneuma::sim {
 namespace {
@@ -15,6 +14,8 @@ constexpr double max_shift = 0.05;
 constexpr double min_shift = 0.02;
 /// Of the greatest shift: to a hundredth of this they are solved for, as velocities of boxes are.
 constexpr double shift_tolerance = 0.5;
+/// The same: shifts that miss what is wanted by more are none.
+constexpr double far_off = 2.0;
 /// Of its distance to what is soft: so much nearer a shift may bring a box, where there is no other
 /// room.
 constexpr double most_of_distance = 0.5;
@@ -46,6 +47,14 @@ double part_beside_soft(const SweptMemory& memory) {
   return part;
 }
 
+/// Whether the shifts that came out miss what was wanted by more than they could if there were
+/// room: no impulse grows in a few iterations as it would between walls, if many boxes are there.
+bool are_far_off(const SweptMemory& memory, double greatest) {
+  return std::ranges::any_of(memory.impulses, [&](const SweptImpulse& impulse) {
+    return impulse.parting() - impulse.normal().dot(impulse.change()) > far_off * greatest;
+  });
+}
+
 bool has_no_room(const SweptMemory& memory, const SweptContact& contact) {
   return std::ranges::find(memory.without_room, pair_of(contact)) != memory.without_room.end();
 }
@@ -59,16 +68,18 @@ void note_without_room(SweptMemory& memory) {
   }
 }
 
-/// Solves for the shifts as changes of the boxes, which are to keep a part of the distance wanted;
-/// those without room, or all that `only_touch`, what there is. Returns whether there is room for
-/// it.
-bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction, double greatest,
-                      bool only_touch) {
+/// What a try to shift boxes keeps of the distance wanted: a part; of what has no room what there
+/// is; of all what there is.
+enum class Keeps { part, part_where_there_is_room, what_there_is };
+
+/// Solves for the shifts as changes of the boxes. Returns whether there is room for them.
+bool solve_for_shifts(const World& world, SweptMemory& memory, SweptSearch& search, double fraction,
+                      double greatest, Keeps keeps) {
   search.find_contacts_of_boxes(room_for_shifts * greatest);
   memory.impulses.clear();
   for (const SweptContact& contact : memory.contacts) {
-    const bool may_touch = only_touch || has_no_room(memory, contact);
-    const double kept = may_touch ? 0.0 : kept_by_shifts(memory, pair_of(contact));
+    const bool may_touch = keeps == Keeps::what_there_is || has_no_room(memory, contact);
+    const double kept = may_touch ? 0.0 : kept_by_shifts(is_between_walls(world, memory, contact));
     const double missing = kept * contact.wanted - contact.distance;
     memory.impulses.push_back(search.motion().impulse(contact, 0.0));
     memory.impulses.back().aim(shift(missing, fraction), Vec3::Zero());
@@ -83,17 +94,30 @@ bool solve_for_shifts(SweptMemory& memory, SweptSearch& search, double fraction,
 }
 
 /// Returns how much of the shifts, which are changes of the boxes, they are to take: 0, if none is
-/// worth one. Where there is no room for the distance wanted they may touch.
-double find_shifts(SweptMemory& memory, SweptSearch& search, double fraction) {
+/// worth one, if they had to go into what stands still, or if they are not found.
+double find_shifts(const World& world, SweptMemory& memory, SweptSearch& search, double fraction) {
   const double greatest = shift(search.greatest_missing_of_boxes(), fraction);
   if (greatest < min_shift * memory.bodies.thinnest_skin()) return 0.0;
-  for (const bool only_touch : {false, false, true}) {
-    if (solve_for_shifts(memory, search, fraction, greatest, only_touch)) return 1.0;
-    if (only_touch) break;
-    note_without_room(memory);
+  memory.impulses.clear();
+  for (const Keeps keeps : {Keeps::part, Keeps::part_where_there_is_room, Keeps::what_there_is}) {
     for (SweptImpulse& impulse : memory.impulses) impulse.replace_given(Vec4d{});
+    if (solve_for_shifts(world, memory, search, fraction, greatest, keeps) &&
+        !are_far_off(memory, greatest)) {
+      return 1.0;
+    }
+    note_without_room(memory);
   }
-  return part_beside_soft(memory);
+  const auto stands_still = [&](const SweptContact& contact) {
+    const auto is_still = [&](int body) { return memory.bodies.stands_still(world, body); };
+    return is_still(contact.first.body) || is_still(contact.second.body);
+  };
+  bool has_let_go = false;
+  for (std::size_t i = 0; i < memory.contacts.size(); ++i) {
+    if (!memory.impulses[i].only_gives_back()) continue;
+    if (stands_still(memory.contacts[i])) return 0.0;
+    has_let_go = true;
+  }
+  return has_let_go ? part_beside_soft(memory) : 0.0;
 }
 
 /// Finds the boxes that are near each other and nothing else.
@@ -129,10 +153,6 @@ double give_back_angular_momentum(World& world, SweptMemory& memory, const Vec3&
 
 }  // namespace
 
-double kept_by_shifts(const SweptMemory& memory, const BodyPair& pair) {
-  return is_between_walls(memory, pair) ? kept_between_walls : closest_allowed;
-}
-
 double keep_angular_momentum(World& world, SweptMemory& memory) {
   if (!memory.bodies.has_shifts()) return 0.0;
   NearGroups& groups = memory.near_groups;
@@ -155,7 +175,7 @@ bool shift_near_boxes(World& world, SweptMemory& memory, SweptSearch& search, do
   memory.bodies.forget_shifts();
   memory.without_room.clear();
   if (world.rigid.empty()) return false;
-  const double part = find_shifts(memory, search, fraction);
+  const double part = find_shifts(world, memory, search, fraction);
   if (part > 0.0) {
     group_near_boxes(memory);
     memory.bodies.take_as_shifts(part);

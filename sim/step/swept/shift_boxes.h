@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/swept_search.h"
 
 namespace pneuma::sim {
@@ -16,8 +17,10 @@ inline double missing_distance(const SweptContact& contact) {
   return closest_allowed * contact.wanted - contact.distance;
 }
 
-/// Of the distance wanted, between two bodies.
-double kept_by_shifts(const SweptMemory& memory, const BodyPair& pair);
+/// Of the distance wanted: what shifts keep, also of what is between walls.
+inline double kept_by_shifts(bool is_between_walls) {
+  return is_between_walls ? kept_between_walls : closest_allowed;
+}
 
 /// Moves boxes apart besides their motion in the step (split impulses, as in Bullet), so that they
 /// gain no velocity: velocities are never solved for so well, in a tall stack, that all of what

@@ -35,7 +35,7 @@ class StartAims {
   /// there is room.
   double may_move(const SweptContact& contact, double shift) const {
     const double closer = std::max(0.0, -shift);
-    // What shifts have used up is not given back: between two walls there is no room to.
+    // What shifts have used up is not taken back, for which there may be no room.
     if (motion_.keep_shapes(contact)) return -std::max(0.0, room(contact, shift) - closer);
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     // Springs take back most of what holds up a vertex that others press into the ground.
@@ -47,8 +47,7 @@ class StartAims {
   double room(const SweptContact& contact, double shift) const {
     if (contact.distance > contact.wanted) return contact.distance - contact.wanted;
     if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
-    if (is_between_walls(m_, pair_of(contact)))
-      return contact.distance - kept_between_walls * contact.wanted;
+    if (is_between_walls(world_, m_, contact)) return room_between_walls(contact);
     const bool on_ground = contact.second.body == swept_ground;
     if (!on_ground && (!contact.is_of_near_boxes || stands_on_still(contact))) return 0.0;
     // What presses boxes together must not take shifts back.

@@ -1,7 +1,10 @@
 // The memory of a step with swept contacts. Private to sim/step.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "sim/base/disjoint_sets.h"
@@ -91,6 +94,16 @@ struct Partner {
   double restitution = 1.0;  // the least of those in which it may be hit
 };
 
+/// What is static or moved beside a side of a box.
+struct WallBeside {
+  double distance = std::numeric_limits<double>::infinity();  // m, the least
+  double near = std::numeric_limits<double>::infinity();      // m, up to which they are in contact
+};
+/// Along each axis of the box, that on its negative side first.
+struct WallsBeside {
+  std::array<std::pair<WallBeside, WallBeside>, 3> along;
+};
+
 /// What a box touches: nothing, only what stands still, or others.
 enum class TouchedByBox : std::uint8_t { nothing, still, others };
 
@@ -147,8 +160,8 @@ struct SweptMemory {
   FallAsleep fall_asleep;
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<BodyPair> without_room;         // between which shifts found none
-  std::vector<BodyPair> between_walls;        // boxes and walls, with another wall on the far side
-  std::vector<std::uint8_t> walls_beside;     // of each box: a bit for each of its sides
+  std::vector<std::uint8_t> between_walls;    // of each box: a bit for each of its axes
+  std::vector<WallsBeside> walls_beside;      // of each box
   std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<TouchedByBox> touched_by_box;   // per box, at the start
   std::vector<double> first_meeting;          // per box, fraction of the step: with what is still

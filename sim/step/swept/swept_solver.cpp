@@ -67,7 +67,7 @@ int SweptSolver::island_of(const SweptContact& contact, const SweptImpulse& impu
 }
 
 void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-                         std::size_t first_new) {
+                         std::size_t first_new, bool are_shifts) {
   link(contacts, impulses);
   sort_by_place(contacts, impulses);
   islands_.assign(linked_bodies_.size(), -1);
@@ -86,9 +86,9 @@ void SweptSolver::divide(std::span<const SweptContact> contacts, std::span<Swept
     if (begins_island || node != places_[i - 1].node) patches_.push_back({.begin = i});
     patches_.back().is_new |=
         node != nothing_moves && (at(contact) >= first_new || contacts[at(contact)].is_missed);
-    patches_.back().has_boxes |= are_shifts_ || is_of_boxes(contacts[at(contact)]);
+    patches_.back().has_boxes |= are_shifts || is_of_boxes(contacts[at(contact)]);
     ordered_.push_back(&impulses[at(contact)]);
-    pushers_.push_back(pusher(contacts[at(contact)], impulses[at(contact)]));
+    pushers_.push_back(pusher(contacts[at(contact)], impulses[at(contact)], are_shifts));
     patches_.back().is_pushed |= pushers_.back() >= 0;
     nodes_.push_back(nodes_of_contacts_[at(contact)]);
   }
@@ -144,10 +144,11 @@ bool SweptSolver::is_of_boxes(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-/// The body on the side that no impulse moves, if it may push; or -1.
-int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse) const {
+/// The body on the side that no impulse moves, if it may push; or -1. Against shifts all do.
+int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse,
+                        bool are_shifts) const {
   const auto pushes = [&](int body, const SweptSide& side) {
-    return body != swept_ground && !side.moves() && (are_shifts_ || bodies_.pushes(body));
+    return body != swept_ground && !side.moves() && (are_shifts || bodies_.pushes(body));
   };
   if (pushes(contact.first.body, impulse.first())) return contact.first.body;
   return pushes(contact.second.body, impulse.second()) ? contact.second.body : -1;
@@ -155,19 +156,23 @@ int SweptSolver::pusher(const SweptContact& contact, const SweptImpulse& impulse
 
 void SweptSolver::solve(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
                         double tolerance, std::size_t first_new) {
-  divide(contacts, impulses, first_new);
-  for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
-    if (patches_[i].is_new) solve_patch(i, tolerance);
-  }
+  solve_patches(contacts, impulses, tolerance, first_new, false);
 }
 
 bool SweptSolver::solve_shifts(std::span<const SweptContact> contacts,
                                std::span<SweptImpulse> impulses, double tolerance) {
   has_let_go_ = false;
-  are_shifts_ = true;
-  solve(contacts, impulses, tolerance);
-  are_shifts_ = false;
+  solve_patches(contacts, impulses, tolerance, 0, true);
   return !has_let_go_;
+}
+
+void SweptSolver::solve_patches(std::span<const SweptContact> contacts,
+                                std::span<SweptImpulse> impulses, double tolerance,
+                                std::size_t first_new, bool are_shifts) {
+  divide(contacts, impulses, first_new, are_shifts);
+  for (std::size_t i = 0; i + 1 < patches_.size(); ++i) {
+    if (patches_[i].is_new) solve_patch(i, tolerance);
+  }
 }
 
 void SweptSolver::solve_island(int island, double tolerance) {
@@ -258,7 +263,8 @@ bool SweptSolver::any_pushes(std::span<SweptImpulse* const> impulses, std::span<
   return false;
 }
 
-/// Of each two bodies of which one is moved and pushes with `most` (N s) or more, all contacts.
+/// Of each two bodies of which one does not give way and pushes with `most` (N s) or more, all
+/// contacts.
 void SweptSolver::let_go(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
                          double most) {
   has_let_go_ = true;

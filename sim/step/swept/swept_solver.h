@@ -72,17 +72,19 @@ class SweptSolver {
   struct Patch {
     std::size_t begin = 0;   // of its impulses
     bool is_new = false;     // it has a contact that was not yet solved for
-    bool has_boxes = false;  // one on another, or on the ground
+    bool has_boxes = false;  // one on another, or on the ground; or it is of shifts
     bool is_pushed = false;  // it has a contact with what does not give way, but is no ground
   };
 
+  void solve_patches(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
+                     double tolerance, std::size_t first_new, bool are_shifts);
   void divide(std::span<const SweptContact> contacts, std::span<SweptImpulse> impulses,
-              std::size_t first_new);
+              std::size_t first_new, bool are_shifts);
   void link(std::span<const SweptContact> contacts, std::span<const SweptImpulse> impulses);
   void sort_by_place(std::span<const SweptContact> contacts,
                      std::span<const SweptImpulse> impulses);
   bool is_of_boxes(const SweptContact& contact) const;
-  int pusher(const SweptContact& contact, const SweptImpulse& impulse) const;
+  int pusher(const SweptContact& contact, const SweptImpulse& impulse, bool are_shifts) const;
   ImpulseNodes nodes_of(const SweptContact& contact, const SweptImpulse& impulse) const;
   void solve_patch(std::size_t patch, double tolerance);
   void solve_pushed(std::span<SweptImpulse* const> impulses, std::span<const int> pushers,
@@ -108,7 +110,6 @@ class SweptSolver {
   std::vector<int> pushers_;            // of each of these
   std::vector<ImpulseNodes> nodes_;
   std::vector<const BoxChange*> boxes_;  // of a patch
-  bool are_shifts_ = false;
   bool has_let_go_ = false;
   GaussSeidel gauss_seidel_;
   ConjugateIterations iterations_;

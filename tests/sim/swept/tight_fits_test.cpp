@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
@@ -111,6 +112,7 @@ TEST_P(TightFits, AddNoEnergyWithFriction) {
   for (const int steps_per_second : {60, 240, 960}) {
     World world = make_shaft(steps_per_second, 0.4);
     EXPECT_LT(greatest_rise(world), 1e-3) << steps_per_second;
+    EXPECT_NEAR(world.rigid.back().position.z(), 0.5 * box_size.z(), 0.005) << steps_per_second;
   }
 }
 
@@ -159,6 +161,56 @@ TEST(Piston, LandsOnTheBottomOfItsShaft) {
     world.rigid.back().position.z() = 4.0;
     ASSERT_FALSE(run(world, 1.5));
     EXPECT_NEAR(world.rigid.back().position.z(), 0.5, 0.001) << steps_per_second;
+  }
+}
+
+/// The distance that boxes keep is 2.5 mm here: whether it is there must not depend on the place of
+/// the box, or what lies on one wall falls and is lifted again for ever.
+TEST(TightFit, HoldsABoxOnASlopeUnderACeiling) {
+  constexpr double angle = 0.26;  // rad; friction holds up to 0.54
+  for (const double room : {1e-3, 2.75e-3, 3e-3, 3.5e-3, 4e-3}) {
+    for (const int steps_per_second : {60, 240, 960}) {
+      World world = make_swept_world();
+      world.settings.ground.reset();
+      world.settings.steps_per_second = steps_per_second;
+      world.settings.gravity = 9.81 * Vec3(-std::sin(angle), 0.0, -std::cos(angle));
+      for (const double middle : {-0.25, box_size.z() + room + 0.25}) {
+        world.rigid.push_back(make_rigid({20.0, 20.0, 0.5}, {0.0, 0.0, middle}));
+        world.rigid.back().is_kinematic = true;
+      }
+      world.rigid.push_back(make_rigid(box_size, {0.0, 0.0, 0.5 * box_size.z() + 0.4 * room}));
+      for (RigidBox& box : world.rigid) box.surface = {0.0, 0.6};
+      ASSERT_FALSE(run(world, 1.0));
+      const Vec3 start = world.rigid.back().position;
+      ASSERT_FALSE(run(world, 3.0));
+      EXPECT_LT((world.rigid.back().position - start).norm(), 1e-5) << room;
+      EXPECT_LT(world.rigid.back().velocity.norm(), 1e-5) << room;
+    }
+  }
+}
+
+/// Half a millimetre between all of them: shifts find no room, and do not push them into walls.
+TEST(TightFit, BoxesSideBySideInABinDoNotCross) {
+  constexpr double side = 0.5, room = 5e-4;
+  constexpr int count = 8;
+  const double width = count * side + (count + 1) * room;
+  World world = make_swept_world();
+  for (const double towards : {-1.0, 1.0}) {
+    const double place = towards * 0.5 * (width + side);
+    world.rigid.push_back(make_rigid({side, width + 1.0, 3.0}, {place, 0.0, 1.5}));
+    world.rigid.push_back(make_rigid({width, side, 3.0}, {0.0, place, 1.5}));
+  }
+  for (RigidBox& box : world.rigid) box.is_kinematic = true;
+  for (int i = 0; i < count * count; ++i) {
+    const auto place = [&](int k) { return -0.5 * width + room + (side + room) * k + 0.5 * side; };
+    world.rigid.push_back(
+        make_rigid(Vec3::Constant(side), {place(i / count), place(i % count), 0.3}));
+  }
+  const auto divergence = run(world, 1.0);
+  ASSERT_FALSE(divergence) << divergence->what;
+  EXPECT_LT(max_penetration(world), 1e-4);
+  for (std::size_t i = 4; i < world.rigid.size(); ++i) {
+    EXPECT_NEAR(world.rigid[i].position.z(), 0.5 * side, 0.005);
   }
 }
 
