@@ -44,6 +44,7 @@ class BetweenWalls {
 
   void find() {
     m_.between_walls.assign(world_.rigid.size(), 0);
+    if (world_.rigid.empty()) return;
     bool any_walls = false;
     for (const SweptCandidate& candidate : m_.candidates) {
       const bool on_ground = candidate.bodies.second == swept_ground;
