@@ -47,12 +47,6 @@ bool ContactMotion::is_rigid(const SweptContact& contact) const {
          (second == swept_ground || bodies_.is_rigid(second));
 }
 
-bool ContactMotion::keep_shapes(const SweptContact& contact) const {
-  const int second = contact.second.body;
-  return bodies_.keeps_shape(contact.first.body) &&
-         (second == swept_ground || bodies_.keeps_shape(second));
-}
-
 bool ContactMotion::is_driven(const SurfacePoint& side) const {
   return side.body != swept_ground && is_kinematic(world_, side.body);
 }

@@ -23,8 +23,6 @@ class ContactMotion {
   ContactMaterial material(const SweptContact& contact) const;
   /// Boxes, and boxes and the ground: what rests on each other stays there.
   bool is_rigid(const SweptContact& contact) const;
-  /// Boxes, and boxes and obstacles or the ground.
-  bool keep_shapes(const SweptContact& contact) const;
   /// Whether one of its sides is moved as its keys say.
   bool is_driven(const SweptContact& contact) const;
   /// Whether an impulse moves a side of it: pinned vertices do not.

@@ -149,7 +149,7 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
   for (const SweptCandidate& candidate : m_.candidates) {
     const auto [first, second] = candidate.bodies;
     const bool on_ground = second == swept_ground;
-    if (!bodies_.keeps_shape(first) || !(on_ground || bodies_.keeps_shape(second))) continue;
+    if (!bodies_.keep_shapes(candidate.bodies)) continue;
     const bool are_boxes = !on_ground && bodies_.is_rigid(first) && bodies_.is_rigid(second);
     if (are_boxes && !candidate.is_of_near_boxes) continue;
     const double distance = on_ground

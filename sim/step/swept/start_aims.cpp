@@ -36,7 +36,8 @@ class StartAims {
   double may_move(const SweptContact& contact, double shift) const {
     const double closer = std::max(0.0, -shift);
     // What shifts have used up is not taken back, for which there may be no room.
-    if (motion_.keep_shapes(contact)) return -std::max(0.0, room(contact, shift) - closer);
+    if (m_.bodies.keep_shapes(pair_of(contact)))
+      return -std::max(0.0, room(contact, shift) - closer);
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     // Springs take back most of what holds up a vertex that others press into the ground.
     const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;

@@ -82,7 +82,7 @@ void SweptBodies::know_obstacle(const SoftBody& body) {
   MovingSurface& surface = surfaces_.back();
   obstacles_.emplace_back();
   moved_.emplace_back();
-  if (!sim::keeps_shape(body)) return;
+  if (!keeps_shape(body)) return;
   if (is_still(body)) {
     obstacles_.back() = std::make_unique<ObstacleShape>(body.mesh->topology, body.pins->start);
     return;

@@ -67,8 +67,12 @@ class SweptBodies {
   const MovingSurface& surface(int body) const { return surfaces_[at(body)]; }
   /// Whether it is a soft body that is an obstacle and keeps its shape.
   bool is_obstacle(int body) const { return obstacles_[at(body)] || is_in_own_axes(body); }
-  /// Whether it is a box or an obstacle.
-  bool keeps_shape(int body) const { return is_rigid(body) || is_obstacle(body); }
+  /// Whether they are boxes, obstacles or the ground: no contact changes their shape.
+  bool keep_shapes(const BodyPair& bodies) const {
+    const auto keeps_shape = [this](int body) { return is_rigid(body) || is_obstacle(body); };
+    return keeps_shape(bodies.first) &&
+           (bodies.second == swept_ground || keeps_shape(bodies.second));
+  }
   /// The ways of a soft body beside an obstacle, in the axes of this if it is moved. `near` and
   /// `least`: m, in the world.
   BesideObstacle beside_obstacle(int soft, int obstacle, double near, double least);

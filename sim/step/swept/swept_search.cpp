@@ -31,7 +31,7 @@ void SweptSearch::start() {
 bool SweptSearch::is_seen_on_its_way(const SweptCandidate& candidate) const {
   const auto [first, second] = candidate.bodies;
   if (second == swept_ground || candidate.is_of_near_boxes) return false;
-  if (!bodies_.keeps_shape(first) || !bodies_.keeps_shape(second)) return false;
+  if (!bodies_.keep_shapes(candidate.bodies)) return false;
   return candidate.start.distance >= motion_.near_distance(first, second) ||
          places_.are_beside_each_other(candidate, candidate.start, Moment::start);
 }
