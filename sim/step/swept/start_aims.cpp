@@ -4,6 +4,7 @@
 
 #include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/shift_boxes.h"
+#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -35,13 +36,24 @@ class StartAims {
   /// there is room.
   double may_move(const SweptContact& contact, double shift) const {
     const double closer = std::max(0.0, -shift);
-    // What shifts have used up is not taken back, for which there may be no room.
-    if (m_.bodies.keep_shapes(pair_of(contact)))
-      return -std::max(0.0, room(contact, shift) - closer);
+    if (m_.bodies.keep_shapes(pair_of(contact))) {
+      const double left = std::max(0.0, room(contact, shift));
+      // What shifts have used up is not taken back, for which there may be no room between walls;
+      // but for those that bring free boxes through each other, as of boxes that start so.
+      return both_are_free(contact) && closer > contact.distance ? closer - left
+                                                                 : -std::max(0.0, left - closer);
+    }
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     // Springs take back most of what holds up a vertex that others press into the ground.
     const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
     return closer + made_up * std::max(0.0, missing_distance(contact));
+  }
+
+  bool both_are_free(const SweptContact& contact) const {
+    const auto is_free = [&](int body) {
+      return body != swept_ground && !is_kinematic(world_, body);
+    };
+    return is_free(contact.first.body) && is_free(contact.second.body);
   }
 
   /// m, by which what keeps its shape may come nearer. Shifts do the rest.
