@@ -70,9 +70,12 @@ void for_each_point(const sim::World& world, bool draws_ground, const Visit& vis
     visit(point);
   };
   const auto each = [&](const auto& body, bool is_obstacle) {
-    double lowest = 0.0;
-    for_each_vertex(body, [&](const Vec3& vertex) { lowest = std::min(lowest, vertex.z()); });
-    if (draws_ground && is_obstacle && lowest < 0.0) {
+    const auto reaches_below = [&] {
+      double lowest = 0.0;
+      for_each_vertex(body, [&](const Vec3& vertex) { lowest = std::min(lowest, vertex.z()); });
+      return lowest < 0.0;
+    };
+    if (draws_ground && is_obstacle && reaches_below()) {
       for_each_point_above_ground(sim::closed_surface(body), show);
     } else {
       for_each_vertex(body, show);

@@ -9,7 +9,6 @@
 #include "sim/step/stages/find_divergence.h"
 #include "sim/step/stages/stages.h"
 #include "sim/step/swept/alone_on_ground.h"
-#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/end_contacts.h"
 #include "sim/step/swept/free_impacts.h"
 #include "sim/step/swept/returned_energy.h"
@@ -111,7 +110,7 @@ class SweptStep {
       search_.find_candidates();
       if (!m_.touched_asleep.empty()) return;
       bodies_.begin_at_start(world_, start());
-      find_boxes_between_walls(world_, motion_, m_);
+      search_.find_boxes_between_walls();
       const bool fell = let_boxes_fall();
       const bool shifted = shift_near_boxes(world_, m_, search_, fraction_);
       if (fell || shifted) search_.follow_ends();

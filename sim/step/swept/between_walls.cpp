@@ -1,9 +1,11 @@
+// The part of SweptSearch that finds boxes between walls that leave less room than they would keep
+// from both.
 #include "sim/step/swept/between_walls.h"
 
 #include <algorithm>
 #include <optional>
 
-#include "sim/step/swept/contact_places.h"
+#include "sim/step/swept/swept_search.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
@@ -19,87 +21,80 @@ struct BoxSide {
   bool is_positive = false;
 };
 
-std::optional<BoxSide> side_towards(const SweptMemory& memory, int body, const Vec3& to_wall) {
-  if (!memory.bodies.is_box(body)) return std::nullopt;
-  const Vec3 along = memory.bodies.start_axes(body).transpose() * to_wall;
+/// Which of two bodies is a free box, and the other a wall or the ground; -1 if none is.
+int box_beside_wall(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
+  const auto is_wall = [&](int body) { return body == swept_ground || is_kinematic(world, body); };
+  const auto [first, second] = bodies;
+  if (is_wall(first) == is_wall(second)) return -1;
+  const int body = is_wall(first) ? second : first;
+  return memory.bodies.is_box(body) ? body : -1;
+}
+
+/// On which side of the box the other is. `normal`: from the second to the first.
+std::optional<BoxSide> side_of_wall(const SweptMemory& memory, const BodyPair& bodies, int box,
+                                    const Vec3& normal) {
+  const Vec3 to_wall = box == bodies.first ? Vec3(-normal) : normal;
+  const Vec3 along = memory.bodies.start_axes(box).transpose() * to_wall;
   int axis = 0;
   if (along.cwiseAbs().maxCoeff(&axis) < cosine_of_side) return std::nullopt;
-  return BoxSide{memory.bodies.box(body), axis, along[axis] > 0.0};
+  return BoxSide{memory.bodies.box(box), axis, along[axis] > 0.0};
 }
 
-/// On which side of a box the wall is, if one is a free box and the other a wall.
-std::optional<BoxSide> side_of_wall(const World& world, const SweptMemory& memory,
-                                    const BodyPair& bodies, const Vec3& normal) {
-  const auto [first, second] = bodies;
-  const bool first_is_wall = is_kinematic(world, first);
-  if (second == swept_ground || first_is_wall == is_kinematic(world, second)) return std::nullopt;
-  return first_is_wall ? side_towards(memory, second, normal)
-                       : side_towards(memory, first, -normal);
+/// A bit for each.
+std::uint8_t axes_between(const WallsBeside& walls) {
+  std::uint8_t axes = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& [below, above] = walls.along[axis];
+    const bool is_between = below.distance + above.distance < std::min(below.near, above.near);
+    if (is_between) axes |= static_cast<std::uint8_t>(1 << axis);
+  }
+  return axes;
 }
-
-class BetweenWalls {
- public:
-  BetweenWalls(const World& world, const ContactMotion& motion, SweptMemory& memory)
-      : world_(world), motion_(motion), m_(memory) {}
-
-  void find() {
-    m_.between_walls.assign(world_.rigid.size(), 0);
-    if (world_.rigid.empty()) return;
-    bool any_walls = false;
-    for (const SweptCandidate& candidate : m_.candidates) {
-      const bool on_ground = candidate.bodies.second == swept_ground;
-      if (on_ground && !any_walls) return;  // the ground comes last
-      const auto side = on_ground
-                            ? side_towards(m_, candidate.bodies.first, -Vec3::UnitZ())
-                            : side_of_wall(world_, m_, candidate.bodies, normal_of(candidate));
-      if (!side) continue;
-      if (!any_walls) m_.walls_beside.assign(world_.rigid.size(), WallsBeside{});
-      any_walls = true;
-      note(*side, candidate);
-    }
-    if (!any_walls) return;
-    for (std::size_t box = 0; box < m_.walls_beside.size(); ++box) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto& [below, above] = m_.walls_beside[box].along[axis];
-        const bool is_between = below.distance + above.distance < std::min(below.near, above.near);
-        if (is_between) m_.between_walls[box] |= static_cast<std::uint8_t>(1 << axis);
-      }
-    }
-  }
-
- private:
-  void note(const BoxSide& side, const SweptCandidate& candidate) {
-    const auto [first, second] = candidate.bodies;
-    auto& [below, above] = m_.walls_beside[at(side.box)].along[at(side.axis)];
-    WallBeside& wall = side.is_positive ? above : below;
-    const bool on_ground = second == swept_ground;
-    const double distance = on_ground
-                                ? m_.bodies.surface(first).start[candidate.features.first.index].z()
-                                : candidate.start.distance;
-    wall.distance = std::min(wall.distance, distance);
-    if (!on_ground) wall.near = std::min(wall.near, motion_.near_distance(first, second));
-  }
-
-  const World& world_;
-  const ContactMotion& motion_;
-  SweptMemory& m_;
-};
 
 }  // namespace
 
-void find_boxes_between_walls(const World& world, const ContactMotion& motion,
-                              SweptMemory& memory) {
-  BetweenWalls(world, motion, memory).find();
+void SweptSearch::find_boxes_between_walls() {
+  m_.between_walls.assign(world_.rigid.size(), 0);
+  if (world_.rigid.empty()) return;
+  bool any_walls = false;
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const bool on_ground = candidate.bodies.second == swept_ground;
+    if (on_ground && !any_walls) return;  // the ground comes last
+    const int box = box_beside_wall(world_, m_, candidate.bodies);
+    if (box < 0) continue;
+    const auto side = side_of_wall(m_, candidate.bodies, box, places_.start_normal(candidate));
+    if (!side) continue;
+    if (!any_walls) m_.walls_beside.assign(world_.rigid.size(), WallsBeside{});
+    any_walls = true;
+    auto& [below, above] = m_.walls_beside[at(side->box)].along[at(side->axis)];
+    WallBeside& wall = side->is_positive ? above : below;
+    wall.distance = std::min(wall.distance, places_.start_distance(candidate));
+    if (on_ground) continue;
+    wall.near =
+        std::min(wall.near, motion_.near_distance(candidate.bodies.first, candidate.bodies.second));
+  }
+  if (any_walls) std::ranges::transform(m_.walls_beside, m_.between_walls.begin(), axes_between);
 }
 
-bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
-                      const Vec3& normal) {
+bool SweptSearch::is_between_walls(const SweptCandidate& candidate) const {
+  return may_be_between_walls(m_, candidate.bodies) &&
+         sim::is_between_walls(world_, m_, candidate.bodies, places_.start_normal(candidate));
+}
+
+bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies) {
   const auto is_between = [&](int body) {
     return body != swept_ground && memory.bodies.is_rigid(body) &&
            memory.between_walls[at(memory.bodies.box(body))] != 0;
   };
-  if (!is_between(bodies.first) && !is_between(bodies.second)) return false;
-  const auto side = side_of_wall(world, memory, bodies, normal);
+  return bodies.second != swept_ground && (is_between(bodies.first) || is_between(bodies.second));
+}
+
+bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
+                      const Vec3& normal) {
+  if (!may_be_between_walls(memory, bodies)) return false;
+  const int box = box_beside_wall(world, memory, bodies);
+  if (box < 0) return false;
+  const auto side = side_of_wall(memory, bodies, box, normal);
   return side && (memory.between_walls[at(side->box)] >> side->axis & 1) != 0;
 }
 

@@ -1,7 +1,7 @@
-// Boxes between walls that leave less room than they would keep from both. Private to sim/step.
+// What boxes keep from walls that leave less room than they would keep from both, as SweptSearch
+// finds them. Private to sim/step.
 #pragma once
 
-#include "sim/step/swept/contact_motion.h"
 #include "sim/step/swept/swept_memory.h"
 
 namespace pneuma::sim {
@@ -10,14 +10,12 @@ namespace pneuma::sim {
 /// (SweptSearch::meets).
 inline constexpr double kept_between_walls = 0.1;
 
-/// Fills the memory's `between_walls` from the candidates: the axes of free boxes along which what
-/// is static or moved, or the ground, is on both sides, and leaves less room than the distance up
-/// to which boxes are in contact. That is so or not wherever between them the box is.
-void find_boxes_between_walls(const World& world, const ContactMotion& motion, SweptMemory& memory);
+/// Whether one of two bodies is such a box, and the other not the ground, whose contacts stay.
+bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies);
 
-/// Whether one of two bodies is such a box and the other one of the walls, along the `normal` from
-/// the second to the first. They touch no earlier than they must: with impulses at any distance,
-/// which nothing but friction asks for, the box would stick to both walls.
+/// Whether the other is one of the walls, along the `normal` from the second to the first. They
+/// touch no earlier than they must: with impulses at any distance, which nothing but friction asks
+/// for, the box would stick to both walls.
 bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                       const Vec3& normal);
 inline bool is_between_walls(const World& world, const SweptMemory& memory,

@@ -71,6 +71,18 @@ Vec3 ContactPlaces::normal_of(const SweptCandidate& candidate, const ClosestPoin
                    : touching_normal(a, b, candidate.features, moment);
 }
 
+Vec3 ContactPlaces::start_normal(const SweptCandidate& candidate) const {
+  return candidate.bodies.second == swept_ground
+             ? Vec3::UnitZ()
+             : normal_of(candidate, candidate.start, Moment::start);
+}
+
+double ContactPlaces::start_distance(const SweptCandidate& candidate) const {
+  const auto [first, second] = candidate.bodies;
+  return second == swept_ground ? bodies_.surface(first).start[candidate.features.first.index].z()
+                                : candidate.start.distance;
+}
+
 bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
                            Moment moment) const {
   if (candidate.is_of_near_boxes) return true;

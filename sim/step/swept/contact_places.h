@@ -10,6 +10,8 @@ namespace pneuma::sim {
 
 /// Of a skin: points of boxes that are no further from being hit than others are hit as well.
 inline constexpr double hit_together = 0.5;
+/// m. At less than this the direction between two points is rounding.
+inline constexpr double rounding_distance = 1e-9;
 
 class ContactPlaces {
  public:
@@ -20,6 +22,9 @@ class ContactPlaces {
   OrientedBox start_box(int body) const;
   OrientedBox end_box(int body) const;
 
+  /// At the start: unit, from the second to the first; and m.
+  Vec3 start_normal(const SweptCandidate& candidate) const;
+  double start_distance(const SweptCandidate& candidate) const;
   /// Of features that are nearest to each other in these points at the moment.
   SweptContact place(const SweptCandidate& candidate, const ClosestPoints& closest,
                      Moment moment) const;

@@ -5,7 +5,6 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/separating_axis.h"
-#include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/shift_boxes.h"
 #include "sim/step/swept/swept_search.h"
 
@@ -152,12 +151,9 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
     if (!bodies_.keep_shapes(candidate.bodies)) continue;
     const bool are_boxes = !on_ground && bodies_.is_rigid(first) && bodies_.is_rigid(second);
     if (are_boxes && !candidate.is_of_near_boxes) continue;
-    const double distance = on_ground
-                                ? bodies_.surface(first).start[candidate.features.first.index].z()
-                                : candidate.start.distance;
-    const bool is_between = is_between_walls(world_, m_, candidate.bodies, normal_of(candidate));
+    const double kept = kept_by_shifts(is_between_walls(candidate));
     visit(candidate,
-          kept_by_shifts(is_between) * motion_.distance_wanted(first, second) - distance);
+          kept * motion_.distance_wanted(first, second) - places_.start_distance(candidate));
   }
 }
 

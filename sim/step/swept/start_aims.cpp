@@ -4,7 +4,6 @@
 
 #include "sim/step/swept/between_walls.h"
 #include "sim/step/swept/shift_boxes.h"
-#include "sim/world/sleep.h"
 
 namespace pneuma::sim {
 namespace {
@@ -40,20 +39,14 @@ class StartAims {
       const double left = std::max(0.0, room(contact, shift));
       // What shifts have used up is not taken back, for which there may be no room between walls;
       // but for those that bring free boxes through each other, as of boxes that start so.
-      return both_are_free(contact) && closer > contact.distance ? closer - left
-                                                                 : -std::max(0.0, left - closer);
+      const bool both_are_free = contact.second.body != swept_ground && !motion_.is_driven(contact);
+      return both_are_free && closer > contact.distance ? closer - left
+                                                        : -std::max(0.0, left - closer);
     }
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     // Springs take back most of what holds up a vertex that others press into the ground.
     const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
     return closer + made_up * std::max(0.0, missing_distance(contact));
-  }
-
-  bool both_are_free(const SweptContact& contact) const {
-    const auto is_free = [&](int body) {
-      return body != swept_ground && !is_kinematic(world_, body);
-    };
-    return is_free(contact.first.body) && is_free(contact.second.body);
   }
 
   /// m, by which what keeps its shape may come nearer. Shifts do the rest.

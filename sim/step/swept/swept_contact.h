@@ -9,9 +9,6 @@
 
 namespace pneuma::sim {
 
-/// m. At less than this the direction between two points is rounding.
-inline constexpr double rounding_distance = 1e-9;
-
 /// A contact of the step, between two features or a vertex and the ground.
 struct SweptContact {
   SurfacePoint first;
@@ -51,14 +48,6 @@ struct SweptCandidate {
   bool is_of_near_boxes = false;  // then the start's distance is < 0 where they overlap
   Vec3 normal = Vec3::Zero();     // of near boxes: unit, from the second to the first
 };
-
-/// Unit, from the second to the first; zero where features touch, whose points say none.
-inline Vec3 normal_of(const SweptCandidate& candidate) {
-  if (candidate.is_of_near_boxes) return candidate.normal;
-  const Vec3 apart = candidate.start.first_point - candidate.start.second_point;
-  const bool touch = candidate.start.distance < rounding_distance;
-  return touch ? Vec3::Zero() : Vec3(apart / candidate.start.distance);
-}
 
 /// Candidates and contacts are in this order of their bodies, the ground last.
 inline std::tuple<bool, int, int> in_order(int first, int second) {

@@ -42,6 +42,10 @@ class SweptSearch {
   /// what stands still or is moved, directly or through other boxes; but those that touch nothing
   /// but the ground and what stands still are not among them (ERRATA row 36).
   void find_borne_boxes();
+  /// Fills the memory's `between_walls`: the axes of free boxes along which what is static or
+  /// moved, or the ground, is on both sides, and leaves less room than the distance up to which
+  /// boxes are in contact. That is so or not wherever between them the box is.
+  void find_boxes_between_walls();
   /// The bodies now end elsewhere: what may meet, if that is too far from what was searched for.
   void follow_ends();
   /// The contacts that the free motion would use up.
@@ -83,6 +87,7 @@ class SweptSearch {
   void for_each_of_boxes(const Visit& visit) const;
   bool slide_past_each_other(const BodyPair& bodies) const;
   bool turn_into_each_other(SweptCandidate& first_point);
+  bool is_between_walls(const SweptCandidate& candidate) const;
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
   /// Gives the contacts that there are to the candidates of another search.
