@@ -20,11 +20,9 @@
 #include "app/picture/place_camera.h"
 #include "app/terminal/command.h"
 #include "app/terminal/common_options.h"
-#include "app/world/build_world.h"
 #include "app/world/model_scene.h"
 #include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
-#include "app/world/start_overlap.h"
 #include "assets/model_file.h"
 #include "scenes/loader/load_scene.h"
 #include "scenes/loader/print_scene.h"
@@ -99,9 +97,7 @@ ExitCode check(const CheckOptions& options) {
       open_scene(options.scene, options.overrides, options.model, options.accuracy);
   if (!opened.choice.empty()) print_message("{}\n", opened.choice);
   report.scene = opened.scene;
-  const sim::World world = build_world(report.scene);
-  refuse_start_overlap(report.scene, world);
-  refuse_unstable_step(report.scene, world);
+  const sim::World world = build_checked_world(report.scene);
   report.plan = sim::make_plan(world);
   report.size = world_size(world);
   report.steps = step_advices(world);

@@ -14,10 +14,8 @@
 #include "app/render/log/run_folder.h"
 #include "app/terminal/progress.h"
 #include "app/terminal/table.h"
-#include "app/world/build_world.h"
 #include "app/world/open_scene.h"
 #include "app/world/simulation.h"
-#include "app/world/start_overlap.h"
 #include "scenes/loader/load_scene.h"
 #include "sim/base/file.h"
 
@@ -96,10 +94,7 @@ void print_path(const fs::path& path) { fmt::print("{}\n", path.string()); }
 
 sim::World start_of(const scenes::Scene& scene) {
   const NothingToKeep nothing;
-  sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
-  refuse_unstable_step(scene, start);
-  return start;
+  return build_checked_world(scene);
 }
 
 void write_frames(const scenes::Scene& scene, const Frames& frames, const fs::path& folder,

@@ -8,17 +8,9 @@
 #include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/simulation.h"
-#include "app/world/start_overlap.h"
 
 namespace pneuma::app {
 namespace {
-
-sim::World checked_world(const scenes::Scene& scene) {
-  sim::World world = build_world(scene);
-  refuse_start_overlap(scene, world);
-  refuse_unstable_step(scene, world);
-  return world;
-}
 
 int picture_side(const char* name, const std::optional<int>& given, int of_scene) {
   const int side = given.value_or(of_scene);
@@ -42,7 +34,7 @@ scenes::Scene opened(const std::string& scene, const std::vector<std::string>& o
 ScriptedWorld::ScriptedWorld(const std::string& scene, const std::vector<std::string>& overrides,
                              int threads)
     : scene_(opened(scene, overrides, threads)),
-      simulation_(scene_, checked_world(scene_), threads),
+      simulation_(scene_, build_checked_world(scene_), threads),
       camera_(scene_, world(), threads) {}
 
 void ScriptedWorld::step() {

@@ -26,12 +26,10 @@
 #include "app/render/redraw.h"
 #include "app/render/turntable.h"
 #include "app/render/video.h"
-#include "app/world/build_world.h"
 #include "app/world/gas_warnings.h"
 #include "app/world/may_start.h"
 #include "app/world/open_scene.h"
 #include "app/world/scene_warnings.h"
-#include "app/world/start_overlap.h"
 #include "assets/model_file.h"
 #include "scenes/loader/print_scene.h"
 #include "sim/base/file.h"
@@ -84,9 +82,7 @@ void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const
 sim::World prepare_world(const RenderRequest& request, const scenes::Scene& scene,
                          Progress& progress) {
   const NothingToKeep nothing;
-  sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
-  refuse_unstable_step(scene, start);
+  sim::World start = build_checked_world(scene);
   start.settings.particles.shown = shows_particles(request.pictures);
   warn_before_run(request.pictures, scene, start, progress);
   return start;

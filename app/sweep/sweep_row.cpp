@@ -10,9 +10,7 @@
 #include "app/host/errors.h"
 #include "app/host/failure.h"
 #include "app/sweep/render_run.h"
-#include "app/world/build_world.h"
 #include "app/world/open_scene.h"
-#include "app/world/start_overlap.h"
 
 namespace pneuma::app {
 namespace {
@@ -31,9 +29,7 @@ std::string chosen_steps(const scenes::Scene& scene) {
 
 void run_into(SweepRow& row, const Sweep& sweep, const SweepRun& run, const fs::path& folder) {
   const scenes::Scene scene = open_scene(run.scene_path, run.overrides(sweep));
-  const sim::World start = build_world(scene);
-  refuse_start_overlap(scene, start);
-  refuse_unstable_step(scene, start);
+  build_checked_world(scene);
   const RunStatistics statistics = run_statistics(scene, 1, OnDivergence::stop);
   const nlohmann::json json = run_statistics_json(statistics);
   for (const Measure& measure : sweep.measures) {

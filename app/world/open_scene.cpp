@@ -12,6 +12,7 @@
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
 #include "app/world/scene_warnings.h"
+#include "app/world/start_overlap.h"
 #include "app/world/step_advice.h"
 #include "assets/model.h"
 #include "assets/model_file.h"
@@ -174,6 +175,13 @@ scenes::Scene open_scene(const std::string& name, std::span<const std::string> o
   choose_step(scene);
   note_damping_by_the_step(scene);
   return scene;
+}
+
+sim::World build_checked_world(const scenes::Scene& scene) {
+  sim::World start = build_world(scene);
+  refuse_start_overlap(scene, start);
+  refuse_unstable_step(scene, start);
+  return start;
 }
 
 void refuse_unstable_step(const scenes::Scene& scene, const sim::World& start) {

@@ -18,6 +18,10 @@ namespace pneuma::app {
 scenes::Scene open_scene(const std::string& name, std::span<const std::string> overrides,
                          const ModelChoice& choice = {});
 
+/// The world at the start of a scene that is to be run. Throws scenes::SceneError where bodies are
+/// in each other, and as refuse_unstable_step does.
+sim::World build_checked_world(const scenes::Scene& scene);
+
 /// Throws scenes::SceneError where open_scene left steps in which the run would fail at once, as a
 /// body needs more than it chooses: it says by what, and what to set. `start`: what build_world
 /// made of the scene.
