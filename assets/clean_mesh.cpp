@@ -112,7 +112,7 @@ class Cleaner {
   }
 
  private:
-  void say(std::string mended) { result_.mended.push_back(std::move(mended)); }
+  void say(std::string cleaned) { result_.cleaned.push_back(std::move(cleaned)); }
 
   /// Vertices without triangles go at once: they may lie anywhere, and welding counts from the
   /// first vertex in steps that the triangles' extent gives.

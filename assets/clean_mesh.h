@@ -40,7 +40,7 @@ struct Component {
 
 struct CleanModel {
   sim::TriangleMesh mesh;             // m; closed, manifold, outwards: fit for sim::make_soft_mesh
-  std::vector<std::string> mended;    // in plain words: "24 vertices welded to 8"
+  std::vector<std::string> cleaned;   // in plain words: "24 vertices welded to 8"
   std::vector<std::string> repaired;  // likewise, what CleanOptions::repair did, and where
   std::string simplified;             // likewise, what CleanOptions::simplify_to did; may be empty
   std::vector<Component> components;

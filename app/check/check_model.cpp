@@ -82,8 +82,8 @@ std::string model_check_text(const ModelCheck& check) {
     text += named_line(i == 0 ? "components" : "", component_text(check.model.components[i], i + 1,
                                                                   sim::at(check.model.kept) == i));
   }
-  for (const std::string& mended : check.model.mended) {
-    text += named_line(&mended == &check.model.mended.front() ? "mended" : "", mended);
+  for (const std::string& cleaned : check.model.cleaned) {
+    text += named_line(&cleaned == &check.model.cleaned.front() ? "cleaned" : "", cleaned);
   }
   for (const std::string& done : check.model.repaired) {
     text += named_line(&done == &check.model.repaired.front() ? "repaired" : "", done);
@@ -136,7 +136,7 @@ json model_check_json(const ModelCheck& check) {
             {"greatest", report.most_springs}}},
           {"components", std::move(components)},
           {"component_kept", check.model.kept + 1},
-          {"mended", check.model.mended},
+          {"cleaned", check.model.cleaned},
           {"repaired", check.model.repaired},
           {"simplified", check.model.simplified}};
 }

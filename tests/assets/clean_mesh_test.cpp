@@ -28,13 +28,13 @@ TEST(CleanMesh, LeavesAGoodMeshAsItIs) {
   const CleanModel model = clean(mesh, {.centre = false});
   EXPECT_EQ(model.mesh.vertices, mesh.vertices);
   EXPECT_EQ(model.mesh.triangles, mesh.triangles);
-  EXPECT_EQ(model.mended, Strings());
+  EXPECT_EQ(model.cleaned, Strings());
 }
 
 TEST(CleanMesh, WeldsACube) {
   const CleanModel model = clean(cube_of_24());
   EXPECT_EQ(model.mesh.vertices.size(), 8u);
-  EXPECT_EQ(model.mended, Strings{"24 vertices welded to 8"});
+  EXPECT_EQ(model.cleaned, Strings{"24 vertices welded to 8"});
   EXPECT_EQ(model.vertices_before, 24);
 }
 
@@ -43,7 +43,7 @@ TEST(CleanMesh, TurnsAnInsideOutCube) {
   for (Triangle& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
   const CleanModel model = clean(mesh);
   EXPECT_DOUBLE_EQ(enclosed_volume(model.mesh), 8.0);
-  EXPECT_EQ(model.mended, Strings{"12 triangles turned, so that all face outwards"});
+  EXPECT_EQ(model.cleaned, Strings{"12 triangles turned, so that all face outwards"});
 }
 
 TEST(CleanMesh, DropsWhatIsThereTwiceOrNotAtAll) {
@@ -55,8 +55,8 @@ TEST(CleanMesh, DropsWhatIsThereTwiceOrNotAtAll) {
   const CleanModel model = clean(mesh, {.centre = false});
   EXPECT_EQ(model.mesh.vertices, cube().vertices);
   EXPECT_EQ(model.mesh.triangles, cube().triangles);
-  EXPECT_EQ(model.mended, (Strings{"1 degenerate triangle dropped", "1 duplicate triangle dropped",
-                                   "1 vertex without triangles dropped"}));
+  EXPECT_EQ(model.cleaned, (Strings{"1 degenerate triangle dropped", "1 duplicate triangle dropped",
+                                    "1 vertex without triangles dropped"}));
 }
 
 TEST(CleanMesh, AVertexWithoutTrianglesMayLieAnywhere) {
@@ -71,7 +71,7 @@ TEST(CleanMesh, AVertexWithoutTrianglesMayLieAnywhere) {
     const CleanModel model = clean(mesh, {.centre = false});
     EXPECT_EQ(model.mesh.vertices, cube().vertices);
     EXPECT_EQ(model.mesh.triangles, cube().triangles);
-    EXPECT_EQ(model.mended, Strings{"1 vertex without triangles dropped"});
+    EXPECT_EQ(model.cleaned, Strings{"1 vertex without triangles dropped"});
   }
 }
 
@@ -83,7 +83,7 @@ TEST(CleanMesh, KeepsTheOnlyClosedComponent) {
   EXPECT_EQ(model.kept, 1);
   EXPECT_EQ(model.components.size(), 2u);
   EXPECT_EQ(model.components[0].boundary_edges, 4);  // two triangles that share a side
-  EXPECT_EQ(model.mended.back(), "1 other component left out");
+  EXPECT_EQ(model.cleaned.back(), "1 other component left out");
 }
 
 TEST(CleanMesh, KeepsTheComponentThatIsNamed) {

@@ -102,7 +102,7 @@ TEST_F(ModelScene, AnObjKeepsItsOwnNumbers) {
   const ProgramResult closed = run_pneuma("check " + (folder_ / "closed.obj").string());
   EXPECT_EQ(closed.exit_code, 0);
   EXPECT_NE(closed.output.find("vertices           6\n"), std::string::npos) << closed.output;
-  EXPECT_EQ(closed.output.find("mended"), std::string::npos) << closed.output;
+  EXPECT_EQ(closed.output.find("cleaned"), std::string::npos) << closed.output;
   EXPECT_EQ(closed.output.find("defaultobject"), std::string::npos) << closed.output;
   const ProgramResult open = run_pneuma("check " + (folder_ / "open.obj").string() + " 2>&1");
   EXPECT_EQ(open.exit_code, 3);
