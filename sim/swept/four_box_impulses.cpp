@@ -117,6 +117,7 @@ void FourBoxImpulses::begin() {
     if (!impulse) continue;
     parting_[lane] = impulse->parting_;
     max_normal_[lane] = impulse->max_normal_;
+    squeeze_[lane] = impulse->squeeze_;
     impulse_[0][lane] = impulse->normal_impulse_;
   }
   const Vec3x4 sliding =
@@ -162,7 +163,7 @@ void FourBoxImpulses::correct(double ratio, FourMotions& first, FourMotions& sec
     return impulse_[axis] - min_tangent_mass_ * slid;
   };
   ByAxis after{normal, rub(1), rub(2)};
-  const Vec4d limit = friction_ * normal, squared_limit = limit * limit;
+  const Vec4d limit = friction_ * (normal + squeeze_), squared_limit = limit * limit;
   const Vec4d squared = fma(after[1], after[1], after[2] * after[2]);
   if (!all_of_lanes(squared <= squared_limit)) {
     const Vec4d one_of_each = {1.0, 1.0, 1.0, 1.0};

@@ -63,6 +63,7 @@ class FourBoxImpulses {
   ByAxis by_normal_{};   // m/s along each axis, by one N s along the normal
   Vec4d parting_{};      // m/s
   Vec4d max_normal_{};   // N s
+  Vec4d squeeze_{};      // N s
   ByAxis sliding_{};     // m/s
   ByAxis impulse_{};     // N s
   ByAxis correction_{};  // of the last iteration

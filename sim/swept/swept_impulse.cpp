@@ -103,7 +103,7 @@ void SweptImpulse::warm_start(const Vec3& impulse) {
   const Vec4d whole = to_vec4d(impulse);
   const double along = dot(whole, normal_), pressing = std::max(0.0, along);
   // The normal may have turned since.
-  const Vec4d across = within(friction_ * pressing, whole - along * normal_);
+  const Vec4d across = within(friction_ * (pressing + squeeze_), whole - along * normal_);
   normal_impulse_ += pressing;
   friction_impulse_ += across;
   apply(pressing * normal_ + across);
@@ -123,7 +123,7 @@ void SweptImpulse::respond_along_normal(Vec4d change, double penalty, Response& 
 
 /// Likewise across the normal, within the disc that the normal impulse allows as it is.
 void SweptImpulse::respond_with_friction(Vec4d change, double penalty, Response& response) const {
-  const double limit = friction_ * normal_impulse_;
+  const double limit = friction_ * pressing();
   if (limit == 0.0) return;
   const double stiffness = penalty * min_tangent_mass_;
   Vec4d slides = change + sliding_;
@@ -177,7 +177,7 @@ double SweptImpulse::raise_normal(double change) {
 }
 
 bool SweptImpulse::may_rub() const {
-  return friction_ * normal_impulse_ != 0.0 || dot(friction_impulse_, friction_impulse_) != 0.0;
+  return friction_ * pressing() != 0.0 || dot(friction_impulse_, friction_impulse_) != 0.0;
 }
 
 // A step against the sliding, then the nearest point in the cone: from within the cone it never
@@ -191,7 +191,7 @@ double SweptImpulse::correct() {
   Vec4d slides = relative_change() + sliding_;
   slides -= dot(slides, normal_) * normal_;
   const Vec4d after =
-      within(friction_ * normal_impulse_, friction_impulse_ - min_tangent_mass_ * slides);
+      within(friction_ * pressing(), friction_impulse_ - min_tangent_mass_ * slides);
   const Vec4d given = after - friction_impulse_;
   friction_impulse_ = after;
   apply(given);

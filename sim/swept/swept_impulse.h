@@ -102,6 +102,8 @@ class SweptImpulse {
   void limit(double normal) {
     if (max_normal_ > start_normal_) max_normal_ = start_normal_ + normal;
   }
+  /// What presses the sides together besides (N s), so that they rub without a normal impulse.
+  void squeeze(double impulse) { squeeze_ = impulse; }
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
   bool only_gives_back() const { return max_normal_ == start_normal_; }
@@ -141,6 +143,8 @@ class SweptImpulse {
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
   Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }
+  /// N s, by which the sides are pressed together: friction gives no more than mu times that.
+  double pressing() const { return normal_impulse_ + squeeze_; }
   /// N s on the first side, without what was started from.
   Vec3 given() const {
     return to_vec3((normal_impulse_ - start_normal_) * normal_ +
@@ -180,6 +184,7 @@ class SweptImpulse {
   double start_normal_ = 0.0;
   Vec4d start_friction_{};
   double max_normal_ = std::numeric_limits<double>::infinity();
+  double squeeze_ = 0.0;  // N s
 };
 
 }  // namespace pneuma::sim

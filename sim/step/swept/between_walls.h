@@ -23,6 +23,16 @@ inline bool is_between_walls(const World& world, const SweptMemory& memory,
   return is_between_walls(world, memory, pair_of(contact), contact.normal);
 }
 
+/// Whether the other is one of two walls of which one is moved and that leave the box no more room
+/// than it fills. Nothing moves it out of them.
+bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
+                 const Vec3& normal);
+
+/// N, by which such walls press the box in each of its contacts with them: what is moved has any
+/// force, and a rigid box does not say which. 0 of all other contacts.
+double squeeze_between_walls(const World& world, const SweptMemory& memory,
+                             const SweptContact& contact);
+
 /// m, by which a contact of such a box may come nearer.
 inline double room_between_walls(const SweptContact& contact) {
   return contact.distance - kept_between_walls * contact.wanted;

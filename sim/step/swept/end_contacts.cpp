@@ -22,6 +22,7 @@ struct Given {
   double approach = 0.0;   // m/s, of that
   double drift = 0.0;      // m/s, of that
   double normal = 0.0;     // N s, of all
+  bool acted = false;
   Vec3 friction = Vec3::Zero();
   Vec3 impulse = Vec3::Zero();  // N s, of all, along the normals that they had
   const SweptContact* strongest = nullptr;
@@ -61,6 +62,7 @@ class EndContacts {
       given.approach = m_.first_contacts[at(i)].approach;
       given.drift = m_.first_contacts[at(i)].drift;
       given.normal += m_.first_impulses[at(i)].normal_impulse();
+      given.acted |= m_.first_impulses[at(i)].pressing() > 0.0;
       given.friction += m_.first_impulses[at(i)].friction_impulse();
       given.impulse += m_.first_impulses[at(i)].given();
       if (m_.first_impulses[at(i)].normal_impulse() > greatest) {
@@ -90,13 +92,14 @@ class EndContacts {
   /// did not meet is given back.
   void touch(const SweptCandidate& candidate) {
     const Given before = given_at_start(candidate);
-    const bool acted = before.normal > 0.0;
+    const bool acted = before.acted;
     auto contact = places_.place_at_end(candidate, before.strongest);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
     if (!acted && is_left_to_next_step(*contact, both.restitution)) return;
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
+    impulse.squeeze(step() * squeeze_between_walls(world_, m_, *contact));
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;

@@ -142,7 +142,8 @@ bool SweptSearch::sinks_in(SweptCandidate& candidate) {
   return true;
 }
 
-/// Boxes that pass each other by single features are not shifted.
+/// Boxes that pass each other by single features are not shifted, and what is squeezed has nowhere
+/// to go.
 template <class Visit>
 void SweptSearch::for_each_of_boxes(const Visit& visit) const {
   for (const SweptCandidate& candidate : m_.candidates) {
@@ -150,7 +151,7 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
     const bool on_ground = second == swept_ground;
     if (!bodies_.keep_shapes(candidate.bodies)) continue;
     const bool are_boxes = !on_ground && bodies_.is_rigid(first) && bodies_.is_rigid(second);
-    if (are_boxes && !candidate.is_of_near_boxes) continue;
+    if ((are_boxes && !candidate.is_of_near_boxes) || is_squeezed(candidate)) continue;
     const double kept = kept_by_shifts(is_between_walls(candidate));
     visit(candidate,
           kept * motion_.distance_wanted(first, second) - places_.start_distance(candidate));

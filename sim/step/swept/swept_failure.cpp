@@ -82,9 +82,12 @@ std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodie
 }
 
 Divergence of_blocked_bodies(const World& world, const SweptBodies& bodies, const BodyPair& pair) {
-  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, pair.first),
-          "it cannot be kept from passing through " + bodies.name(world, pair.second) +
-              " in parts of the step either"};
+  const auto [first, second] = pair;
+  const bool any_moved = bodies.pushes(first) || (second != swept_ground && bodies.pushes(second));
+  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, first),
+          "it cannot be kept from passing through " + bodies.name(world, second) +
+              " in parts of the step either" +
+              (any_moved ? ". Let what is moved leave more room, or press more slowly" : "")};
 }
 
 Divergence of_added_energy(const World& world, const SweptBodies& bodies,

@@ -98,6 +98,7 @@ struct Partner {
 struct WallBeside {
   double distance = std::numeric_limits<double>::infinity();  // m, the least
   double near = std::numeric_limits<double>::infinity();      // m, up to which they are in contact
+  bool is_moved = false;                                      // what is nearest
 };
 /// Along each axis of the box, that on its negative side first.
 struct WallsBeside {
@@ -161,6 +162,7 @@ struct SweptMemory {
   std::vector<BodyPair> paired;               // bodies with candidates
   std::vector<BodyPair> without_room;         // between which shifts found none
   std::vector<std::uint8_t> between_walls;    // of each box: a bit for each of its axes
+  std::vector<std::uint8_t> squeezed;         // likewise, of those along which there is no room
   std::vector<WallsBeside> walls_beside;      // of each box
   std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<TouchedByBox> touched_by_box;   // per box, at the start

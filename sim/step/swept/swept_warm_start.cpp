@@ -136,7 +136,7 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
                               std::span<const SweptImpulse> impulses, Moment moment,
                               double fraction) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (impulses[i].normal_impulse() == 0.0) continue;
+    if (impulses[i].pressing() == 0.0) continue;
     // What stopped a body on its way is not needed again.
     if (moment == Moment::start && !contacts[i].is_near) continue;
     const Vec3 impulse = impulses[i].given() / fraction;
@@ -211,7 +211,7 @@ Vec3 SweptWarmStart::turned(const SweptContact& contact, const Vec3& slip) const
 }
 
 bool SweptWarmStart::slides(const SweptContact& contact, const SweptImpulse& impulse) const {
-  const double most = motion_.material(contact).friction * impulse.normal_impulse();
+  const double most = motion_.material(contact).friction * impulse.pressing();
   return impulse.friction_impulse().norm() >= friction_of_sticking * most;
 }
 

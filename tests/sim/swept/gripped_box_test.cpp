@@ -1,0 +1,101 @@
+// A box between moved boxes that leave it less room than it fills (ERRATA row 67).
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "tests/sim/swept/swept_worlds.h"
+
+namespace pneuma::sim {
+namespace {
+
+constexpr double jaw_width = 0.2;  // m
+constexpr double open = 0.1;       // m, on each side of the cube of 1 m
+
+/// Jaws beside a cube on the ground.
+World make_gripper(int steps_per_second, double friction) {
+  World world = make_swept_world();
+  world.settings.steps_per_second = steps_per_second;
+  world.settings.ground = ContactMaterial{0.0, friction};
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 place(side * (0.5 * (1.0 + jaw_width) + open), 0.0, 0.5);
+    world.rigid.push_back(make_rigid({jaw_width, 1.0, 0.6}, place));
+    world.rigid.back().is_kinematic = true;
+  }
+  world.rigid.push_back(make_rigid(Vec3::Ones(), {0.0, 0.0, 0.5}));
+  for (RigidBox& box : world.rigid) {
+    box.surface = {0.0, friction};
+    box.rho_g = 0.0;
+  }
+  return world;
+}
+
+const RigidBox& cube(const World& world) { return world.rigid.back(); }
+
+void move_jaws(World& world, double together, const Vec3& velocity, double seconds) {
+  world.rigid[0].velocity = velocity + together * Vec3::UnitX();
+  world.rigid[1].velocity = velocity - together * Vec3::UnitX();
+  ASSERT_FALSE(run(world, seconds));
+}
+
+/// `overlap`: m, of each jaw.
+void grip(World& world, double overlap) {
+  move_jaws(world, open + overlap, Vec3::Zero(), 1.0);
+  move_jaws(world, 0.0, Vec3::Zero(), 0.25);
+}
+
+TEST(GrippedBox, GoesWithTheJaws) {
+  for (const int steps_per_second : {60, 240}) {
+    for (const double overlap : {0.0, 5e-3}) {
+      World world = make_gripper(steps_per_second, 0.3);
+      grip(world, overlap);
+      const Vec3 start = cube(world).position;
+      move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 2.0);
+      move_jaws(world, 0.0, {0.0, 1.0, 0.0}, 1.0);
+      move_jaws(world, 0.0, {1.0, 0.0, 0.0}, 0.5);
+      move_jaws(world, 0.0, Vec3::Zero(), 1.0);
+      const Vec3 way = cube(world).position - start;
+      // The free motion of the step in which the jaws turn off, and what friction then takes back.
+      EXPECT_LT((way - Vec3(0.5, 1.0, 1.0)).norm(), 0.01) << steps_per_second << ' ' << overlap;
+      EXPECT_LT(cube(world).velocity.norm(), 1e-3) << steps_per_second << ' ' << overlap;
+    }
+  }
+}
+
+TEST(GrippedBox, FallsOnceItIsReleased) {
+  World world = make_gripper(240, 0.3);
+  grip(world, 1e-3);
+  move_jaws(world, 0.0, {0.0, 0.0, 1.0}, 2.0);
+  move_jaws(world, -0.5, Vec3::Zero(), 0.3);
+  EXPECT_NEAR(cube(world).velocity.z(), -9.81 * 0.3, 9.81 * 2.0 / 240.0);  // its first steps
+}
+
+TEST(GrippedBox, SlipsWithoutFriction) {
+  World world = make_gripper(60, 0.0);
+  grip(world, 1e-3);
+  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
+  EXPECT_NEAR(cube(world).position.z(), 0.5, 1e-3);
+}
+
+/// As does a box that only lies between them.
+TEST(GrippedBox, IsNotHeldByJawsThatLeaveItRoom) {
+  World world = make_gripper(60, 0.8);
+  grip(world, -1e-3);
+  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
+  EXPECT_NEAR(cube(world).position.z(), 0.5, 1e-3);
+}
+
+/// A load on it of fifty times its mass, and not of two hundred times.
+TEST(GrippedBox, HoldsEightyTimesItsWeight) {
+  for (const auto& [load, holds] : {std::pair(50.0, true), std::pair(200.0, false)}) {
+    World world = make_gripper(240, 0.5);
+    RigidBox heavy = make_rigid({0.5, 0.5, 0.5}, {0.0, 0.0, 1.25});
+    heavy.mass = load * cube(world).mass;
+    world.rigid.insert(world.rigid.begin() + 2, heavy);
+    grip(world, 1e-3);
+    move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
+    EXPECT_EQ(cube(world).position.z() > 0.95, holds) << load;
+  }
+}
+
+}  // namespace
+}  // namespace pneuma::sim
