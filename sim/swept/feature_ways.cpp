@@ -111,10 +111,27 @@ const VertexArray& positions(const MovingSurface& surface, Moment moment) {
   return moment == Moment::start ? surface.start : surface.end;
 }
 
+/// Where the vertices of a surface are after a fraction of the step.
+class PositionsAt {
+ public:
+  PositionsAt(const MovingSurface& surface, double fraction)
+      : surface_(surface), fraction_(fraction) {}
+
+  Vec3 operator[](int vertex) const {
+    if (fraction_ == 0.0) return surface_.start[vertex];
+    if (fraction_ == 1.0) return surface_.end[vertex];
+    return (1.0 - fraction_) * surface_.start[vertex] + fraction_ * surface_.end[vertex];
+  }
+
+ private:
+  const MovingSurface& surface_;
+  double fraction_;
+};
+
 /// A part of a surface that a point beside the surface may be nearest to, and the way to it.
 struct SurfacePart {
   const MovingSurface& surface;
-  Moment moment;
+  PositionsAt positions;
   Vec3 point;           // on the part, m
   Vec3 away;            // from there to what is nearest to it, m
   double sine_of_flat;  // of the angle up to which faces are one
@@ -128,7 +145,7 @@ struct SurfacePart {
 /// Whether no other point next to an edge is nearer: the edge's Voronoi region.
 bool is_nearest_edge(const SurfacePart& part, int edge) {
   const MeshTopology& topology = part.surface.tree->topology();
-  const VertexArray& x = positions(part.surface, part.moment);
+  const PositionsAt& x = part.positions;
   const int from = topology.edges()[at(edge)][0], to = topology.edges()[at(edge)][1];
   const Vec3 along = (x[to] - x[from]).normalized();
   return std::ranges::none_of(topology.edge_triangles()[at(edge)], [&](int triangle) {
@@ -140,10 +157,9 @@ bool is_nearest_edge(const SurfacePart& part, int edge) {
 }
 
 bool is_nearest_vertex(const SurfacePart& part, int vertex) {
-  const VertexArray& x = positions(part.surface, part.moment);
   return std::ranges::none_of(part.surface.tree->topology().ring(vertex),
                               [&](const MeshTopology::Spoke& spoke) {
-                                return part.is_nearer(x[spoke.vertex] - part.point);
+                                return part.is_nearer(part.positions[spoke.vertex] - part.point);
                               });
 }
 
@@ -220,11 +236,14 @@ bool are_apart(const MovingSurface& first, const MovingSurface& second, const Ne
 }
 
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
-                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment,
+                          const NearFeatures& pair, const ClosestPoints& closest, double fraction,
                           double sine_of_flat) {
   const Vec3 away = closest.first_point - closest.second_point;
-  const SurfacePart of_first{first, moment, closest.first_point, -away, sine_of_flat};
-  const SurfacePart of_second{second, moment, closest.second_point, away, sine_of_flat};
+  const auto part = [&](const MovingSurface& surface, const Vec3& point, const Vec3& to_other) {
+    return SurfacePart{surface, {surface, fraction}, point, to_other, sine_of_flat};
+  };
+  const SurfacePart of_first = part(first, closest.first_point, -away);
+  const SurfacePart of_second = part(second, closest.second_point, away);
   switch (pair.first.kind) {
     case FeatureKind::edge:
       return closest.first.kind == FeatureKind::edge && closest.second.kind == FeatureKind::edge &&
@@ -253,10 +272,11 @@ double sine_between_edges(const MovingSurface& first, const MovingSurface& secon
   return direction(first, edges.first.index).cross(direction(second, edges.second.index)).norm();
 }
 
-bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, Moment moment,
+bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, double fraction,
                        double sine_of_flat) {
-  const Vec3 from = positions(surface, moment)[vertex];
-  return is_nearest_vertex({surface, moment, from, point - from, sine_of_flat}, vertex);
+  const PositionsAt positions(surface, fraction);
+  const Vec3 from = positions[vertex];
+  return is_nearest_vertex({surface, positions, from, point - from, sine_of_flat}, vertex);
 }
 
 // Conservative advancement along the line between the nearest points: what slides past is far from

@@ -32,16 +32,17 @@ double greatest_change(const MovingSurface& first, const MovingSurface& second,
 bool are_apart(const MovingSurface& first, const MovingSurface& second, const NearFeatures& pair,
                double distance);
 
-/// Of the pairs of features whose nearest points are on common edges and vertices one stands for
-/// them all, and none where other features next to these are nearer. Faces that lie on each other
-/// touch at all their corners, though one of these is always a trifle nearer: up to an angle with
-/// `sine_of_flat` they all stand.
+/// Of the pairs of features whose nearest points, after a fraction of the step, are on common edges
+/// and vertices one stands for them all, and none where other features next to these are nearer.
+/// Faces that lie on each other touch at all their corners, though one of these is always a trifle
+/// nearer: up to an angle with `sine_of_flat` they all stand.
 bool stands_for_its_parts(const MovingSurface& first, const MovingSurface& second,
-                          const NearFeatures& pair, const ClosestPoints& closest, Moment moment,
+                          const NearFeatures& pair, const ClosestPoints& closest, double fraction,
                           double sine_of_flat);
 
-/// Whether no edge at a vertex of a surface leads nearer to a point beside the surface.
-bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, Moment moment,
+/// Whether no edge at a vertex of a surface leads nearer to a point beside the surface, after a
+/// fraction of the step.
+bool is_nearest_vertex(const MovingSurface& surface, int vertex, const Vec3& point, double fraction,
                        double sine_of_flat);
 
 /// After which fraction of their ways the features have come to within 1.2 times `least` (m, above

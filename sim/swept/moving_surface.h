@@ -53,6 +53,8 @@ inline WayBox edge_box(const SurfaceTree& tree, const WayBoxes& boxes, int edge)
 }
 
 enum class Moment { start, end };
+/// Of the step.
+inline double fraction_at(Moment moment) { return moment == Moment::start ? 0.0 : 1.0; }
 
 /// Computes the boxes again, each larger by `margin` (m) on all sides.
 void refit(MovingSurface& surface, double margin);

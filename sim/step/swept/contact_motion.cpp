@@ -71,10 +71,12 @@ Vec3 ContactMotion::shift(const SweptContact& contact) const {
 }
 
 /// At one point of both, so that they turn each other by the same. The points of a contact that is
-/// placed as boxes will meet lie apart until then; a soft body's is on its surface.
+/// placed as boxes will meet lie apart until then; a soft body's is on its surface. Beside an
+/// obstacle, which no impulse turns, a box has its own.
 std::pair<SurfacePoint, SurfacePoint> ContactMotion::where_impulses_act(
     const SweptContact& contact) const {
   std::pair<SurfacePoint, SurfacePoint> points(contact.first, contact.second);
+  if (!is_rigid(contact) && bodies_.keep_shapes(pair_of(contact))) return points;
   if (is_rigid(contact)) {
     meet_halfway(points.first, points.second);
   } else if (bodies_.is_rigid(contact.first.body)) {

@@ -85,23 +85,36 @@ double ContactPlaces::start_distance(const SweptCandidate& candidate) const {
 
 bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
                            Moment moment) const {
-  if (candidate.is_of_near_boxes) return true;
+  return candidate.is_of_near_boxes || stands(candidate, closest, fraction_at(moment));
+}
+
+bool ContactPlaces::stands_where_it_meets(const SweptCandidate& candidate, double fraction) const {
+  const auto [first, second] = candidate.bodies;
+  if (bodies_.is_box(first) && bodies_.is_box(second)) return true;
+  return stands(candidate,
+                closest_points_at(bodies_.surface(first), bodies_.surface(second),
+                                  candidate.features, fraction),
+                fraction);
+}
+
+bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
+                           double fraction) const {
   const auto [first, second] = candidate.bodies;
   const bool has_box = bodies_.is_rigid(first) || bodies_.is_rigid(second);
   const double sine_of_flat = has_box ? flat_of_boxes : flat;
   return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
-                              closest, moment, sine_of_flat) &&
-         obstacle_is_nearest(candidate, closest, moment, sine_of_flat);
+                              closest, fraction, sine_of_flat) &&
+         obstacle_is_nearest(candidate, closest, fraction, sine_of_flat);
 }
 
 /// A vertex in the flat of an obstacle has faces beside it that a tilted triangle is nearer to: the
 /// triangle's normal there would brake what slides.
 bool ContactPlaces::obstacle_is_nearest(const SweptCandidate& candidate,
-                                        const ClosestPoints& closest, Moment moment,
+                                        const ClosestPoints& closest, double fraction,
                                         double sine_of_flat) const {
   const auto is_nearest = [&](int body, const Feature& feature, const Vec3& point) {
     return !bodies_.is_obstacle(body) || feature.kind != FeatureKind::vertex ||
-           is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, sine_of_flat);
+           is_nearest_vertex(bodies_.surface(body), feature.index, point, fraction, sine_of_flat);
   };
   const auto [first, second] = candidate.bodies;
   return is_nearest(first, candidate.features.first, closest.second_point) &&
@@ -129,7 +142,8 @@ bool ContactPlaces::vertices_are_beside(const SweptCandidate& candidate,
                                         const ClosestPoints& closest, Moment moment) const {
   const auto is_beside = [&](int body, const Feature& feature, const Vec3& point) {
     return feature.kind == FeatureKind::vertex &&
-           !is_nearest_vertex(bodies_.surface(body), feature.index, point, moment, flat_of_boxes);
+           !is_nearest_vertex(bodies_.surface(body), feature.index, point, fraction_at(moment),
+                              flat_of_boxes);
   };
   const auto [first, second] = candidate.bodies;
   return is_beside(first, candidate.features.first, closest.second_point) ||

@@ -31,6 +31,8 @@ class ContactPlaces {
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   /// Whether no other features that these are parts of stand for them.
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
+  /// The same of what keeps its shape and meets after a fraction of the step. Two boxes always do.
+  bool stands_where_it_meets(const SweptCandidate& candidate, double fraction) const;
   /// Whether the sides keep their shapes and these features are beside each other, not on each
   /// other: what slides from one face onto the next meets the edge between them nowhere.
   bool are_beside_each_other(const SweptCandidate& candidate, const ClosestPoints& closest,
@@ -55,8 +57,9 @@ class ContactPlaces {
   std::optional<SweptContact> place_beside_hit(const SweptCandidate& candidate) const;
 
  private:
+  bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, double fraction) const;
   bool obstacle_is_nearest(const SweptCandidate& candidate, const ClosestPoints& closest,
-                           Moment moment, double sine_of_flat) const;
+                           double fraction, double sine_of_flat) const;
   bool boxes_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,
                         Moment moment) const;
   bool vertices_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,

@@ -95,7 +95,7 @@ bool SweptSearch::obstacle_is_nearest(const BodyPair& bodies, const NearFeatures
   const Feature& feature = is_first ? features.first : features.second;
   return feature.kind != FeatureKind::vertex ||
          is_nearest_vertex(bodies_.surface(is_first ? bodies.first : bodies.second), feature.index,
-                           is_first ? closest.second_point : closest.first_point, Moment::start,
+                           is_first ? closest.second_point : closest.first_point, 0.0,
                            sine_of_nearest);
 }
 

@@ -237,10 +237,10 @@ std::optional<double> SweptSearch::fraction_of_meeting(const SweptCandidate& can
   return fraction && slide_past_each_other(candidate.bodies) ? std::nullopt : fraction;
 }
 
-/// Whether two features come too near each other on their ways. It becomes a contact: of boxes as
-/// they meet, since they may turn until then; of others as they are at the start.
+/// Whether two features come too near each other on their ways. It becomes a contact: of what keeps
+/// its shape as it meets, since it may come far or turn until then, and from beside a face onto it;
+/// of others as they are at the start.
 bool SweptSearch::meets(SweptCandidate& candidate) {
-  const auto [first, second] = candidate.bodies;
   if (candidate.is_of_near_boxes) return sinks_in(candidate);
   const auto fraction = fraction_of_meeting(candidate);
   if (!fraction || !motion_.is_moved(places_.place(candidate, candidate.start, Moment::start)))
@@ -248,8 +248,9 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
   blocked_ = candidate.bodies;
   if (comes_later(candidate, *fraction)) return true;
   m_.meetings.push_back({static_cast<int>(&candidate - m_.candidates.data()), *fraction});
-  if (bodies_.is_rigid(first) && bodies_.is_rigid(second)) {
-    add(candidate, places_.place_at(candidate, *fraction));
+  if (bodies_.keep_shapes(candidate.bodies)) {
+    if (places_.stands_where_it_meets(candidate, *fraction))
+      add(candidate, places_.place_at(candidate, *fraction));
   } else if (candidate.contact < 0 && places_.stands(candidate, candidate.start, Moment::start)) {
     add(candidate, places_.place(candidate, candidate.start, Moment::start));
   }

@@ -164,7 +164,7 @@ TEST(MovingSurface, OnePairStandsForEachPairOfParts) {
     double nearest = 1.0;
     for (const NearFeatures& pair : pairs) {
       const ClosestPoints closest = *closest_points(a, b, pair, Moment::start, unlimited);
-      if (!stands_for_its_parts(a, b, pair, closest, Moment::start, 1e-6)) continue;
+      if (!stands_for_its_parts(a, b, pair, closest, 0.0, 1e-6)) continue;
       nearest = std::min(nearest, closest.distance);
       points.push_back(0.5 * (closest.first_point + closest.second_point));
     }
@@ -195,8 +195,7 @@ TEST(MovingSurface, FacesThatLieOnEachOtherTouchAtAllTheirCorners) {
   const auto standing = [&](double sine_of_flat) {
     return std::ranges::count_if(pairs, [&](const NearFeatures& pair) {
       const auto closest = closest_points(above, below, pair, Moment::start, 0.1);
-      return closest &&
-             stands_for_its_parts(above, below, pair, *closest, Moment::start, sine_of_flat);
+      return closest && stands_for_its_parts(above, below, pair, *closest, 0.0, sine_of_flat);
     });
   };
   EXPECT_EQ(standing(1e-6), 1);
