@@ -23,6 +23,9 @@ Bounds bounds(const OrientedBox& box);
 /// All eight, by their numbers.
 std::array<Vec3, 8> corners(const OrientedBox& box);
 
+/// The point of the box, its inside as well, that is nearest to another.
+Vec3 nearest_point(const OrientedBox& box, const Vec3& point);
+
 /// How far inside a box a point is, and through which face it gets out soonest.
 struct BoxExit {
   int face = 0;                // 2 k for the positive side of axis k, 2 k + 1 for the negative

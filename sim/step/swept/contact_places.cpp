@@ -91,10 +91,9 @@ bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints&
 bool ContactPlaces::stands_where_it_meets(const SweptCandidate& candidate, double fraction) const {
   const auto [first, second] = candidate.bodies;
   if (bodies_.is_box(first) && bodies_.is_box(second)) return true;
-  return stands(candidate,
-                closest_points_at(bodies_.surface(first), bodies_.surface(second),
-                                  candidate.features, fraction),
-                fraction);
+  const ClosestPoints closest = closest_points_at(bodies_.surface(first), bodies_.surface(second),
+                                                  candidate.features, fraction);
+  return stands(candidate, closest, fraction) && !is_in_still_box(candidate, closest);
 }
 
 bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints& closest,
@@ -104,7 +103,8 @@ bool ContactPlaces::stands(const SweptCandidate& candidate, const ClosestPoints&
   const double sine_of_flat = has_box ? flat_of_boxes : flat;
   return stands_for_its_parts(bodies_.surface(first), bodies_.surface(second), candidate.features,
                               closest, fraction, sine_of_flat) &&
-         obstacle_is_nearest(candidate, closest, fraction, sine_of_flat);
+         obstacle_is_nearest(candidate, closest, fraction, sine_of_flat) &&
+         !is_over_flush_box(candidate, closest);
 }
 
 /// A vertex in the flat of an obstacle has faces beside it that a tilted triangle is nearer to: the

@@ -33,6 +33,13 @@ class ContactPlaces {
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
   /// The same of what keeps its shape and meets after a fraction of the step. Two boxes always do.
   bool stands_where_it_meets(const SweptCandidate& candidate, double fraction) const;
+  /// A soft body that gives way, and a box that stands still.
+  bool are_soft_and_still_box(const BodyPair& bodies) const;
+  /// Whether the soft side of a contact lies over what joins the box at the edge or corner that
+  /// takes part: another box that stands still, or the ground.
+  bool is_over_flush_box(const SweptCandidate& candidate, const ClosestPoints& closest) const;
+  /// m, of a soft feature at the start over the box that stands still, and over others beside it.
+  double height_over_still_boxes(const SweptCandidate& candidate) const;
   /// Whether the sides keep their shapes and these features are beside each other, not on each
   /// other: what slides from one face onto the next meets the edge between them nowhere.
   bool are_beside_each_other(const SweptCandidate& candidate, const ClosestPoints& closest,
@@ -58,6 +65,7 @@ class ContactPlaces {
 
  private:
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, double fraction) const;
+  bool is_in_still_box(const SweptCandidate& candidate, const ClosestPoints& closest) const;
   bool obstacle_is_nearest(const SweptCandidate& candidate, const ClosestPoints& closest,
                            double fraction, double sine_of_flat) const;
   bool boxes_are_beside(const SweptCandidate& candidate, const ClosestPoints& closest,

@@ -104,6 +104,9 @@ class SweptBodies {
   /// Fills `pairs` with the bodies whose ways come near each other, in ascending order. Their ways
   /// may then end elsewhere by the allowance of each body without another search.
   void find_near_bodies(const World& world, const MotionStart& start, std::vector<BodyPair>& pairs);
+  /// As the last search found them: boxes that stand still and that a soft body is near, in pairs
+  /// with it.
+  std::span<const BodyPair> still_boxes_near(int soft) const;
   /// Whether the last search was for these ways of two boxes, though it was not the first.
   bool is_as_searched(const BodyPair& bodies) const {
     return is_rigid(bodies.first) && is_refitted_[at(bodies.first)] == 0 &&
@@ -260,6 +263,7 @@ class SweptBodies {
   std::vector<Bounds> ways_;               // per body, with what it keeps around it
   std::vector<Bounds> reached_;            // the same, with what a box reaches for others
   SweepAndPrune sweep_and_prune_;
+  std::vector<BodyPair> beside_still_boxes_;  // soft bodies, in the order of their numbers
 };
 
 template <class Visit>

@@ -213,13 +213,21 @@ bool SweptSearch::find_collisions_of_pair(std::span<SweptCandidate> candidates) 
 }
 
 /// What was placed at the start does not keep these apart: other features were nearest then, or
-/// the direction turns on the way. Without another contact the next round would do nothing.
+/// the direction turns on the way. Without another contact the next round would do nothing. Of a
+/// box that stands still, what meets first is held: edges that a soft body would meet below its
+/// faces it then passes.
 void SweptSearch::hold_where_they_meet() {
+  double last = 1.0;
   for (const auto& [candidate, fraction] : m_.meetings) {
+    if (places_.are_soft_and_still_box(m_.candidates[at(candidate)].bodies))
+      last = std::min(last, fraction);
+  }
+  for (const auto& [candidate, fraction] : m_.meetings) {
+    if (fraction > last + at_once) continue;
     SweptCandidate& meeting = m_.candidates[at(candidate)];
-    const SweptContact contact = meeting.contact < 0
-                                     ? places_.place(meeting, meeting.start, Moment::start)
-                                     : places_.place_along_line(meeting, fraction);
+    const bool was_held = meeting.contact >= 0 || places_.are_soft_and_still_box(meeting.bodies);
+    const SweptContact contact = was_held ? places_.place_along_line(meeting, fraction)
+                                          : places_.place(meeting, meeting.start, Moment::start);
     if (motion_.is_moved(contact)) add(meeting, contact);
   }
 }
@@ -232,8 +240,17 @@ std::optional<double> SweptSearch::fraction_of_meeting(const SweptCandidate& can
   if (distance < rounding_distance) return std::nullopt;
   const double least =
       std::min(kept_of_start * distance, kept_of_wanted * motion_.distance_wanted(first, second));
-  const auto fraction = time_of_meeting(bodies_.surface(first), bodies_.surface(second),
-                                        candidate.features, distance, least);
+  const auto meeting = [&](double kept) {
+    return time_of_meeting(bodies_.surface(candidate.bodies.first),
+                           bodies_.surface(candidate.bodies.second), candidate.features, distance,
+                           kept);
+  };
+  auto fraction = meeting(least);
+  if (fraction && places_.are_soft_and_still_box(candidate.bodies)) {
+    // What slides over a face keeps no more from the next one than from that.
+    const double kept = kept_of_start * places_.height_over_still_boxes(candidate);
+    if (kept > 0.0 && kept < least) fraction = meeting(kept);
+  }
   return fraction && slide_past_each_other(candidate.bodies) ? std::nullopt : fraction;
 }
 
@@ -247,8 +264,10 @@ bool SweptSearch::meets(SweptCandidate& candidate) {
     return false;
   blocked_ = candidate.bodies;
   if (comes_later(candidate, *fraction)) return true;
+  // What it is over holds it first.
+  if (!has_looked_ && places_.is_over_flush_box(candidate, candidate.start)) return true;
   m_.meetings.push_back({static_cast<int>(&candidate - m_.candidates.data()), *fraction});
-  if (bodies_.keep_shapes(candidate.bodies)) {
+  if (bodies_.keep_shapes(candidate.bodies) || places_.are_soft_and_still_box(candidate.bodies)) {
     if (places_.stands_where_it_meets(candidate, *fraction))
       add(candidate, places_.place_at(candidate, *fraction));
   } else if (candidate.contact < 0 && places_.stands(candidate, candidate.start, Moment::start)) {

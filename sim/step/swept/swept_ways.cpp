@@ -100,12 +100,23 @@ void SweptBodies::find_near_bodies(const World& world, const MotionStart& start,
   }
   sweep_and_prune_.find(reached_, pairs);
   std::erase_if(pairs, [&](const BodyPair& pair) { return !may_be_near(pair); });
+  beside_still_boxes_.clear();
+  for (const BodyPair& pair : pairs) {
+    if (is_rigid(pair.first) || !is_box(pair.second) || !stands_still(world, pair.second)) continue;
+    beside_still_boxes_.push_back(pair);
+  }
   for (const BodyPair& pair : pairs) {
     for (const int body : {pair.first, pair.second}) {
       if (is_followed_[at(body)] != 0 || is_still_[at(body)] != 0 || is_in_own_axes(body)) continue;
       follow(world, start, body);
     }
   }
+}
+
+std::span<const BodyPair> SweptBodies::still_boxes_near(int soft) const {
+  const auto begin = std::ranges::lower_bound(beside_still_boxes_, soft, {}, &BodyPair::first);
+  const auto end = std::ranges::upper_bound(beside_still_boxes_, soft, {}, &BodyPair::first);
+  return {begin, end};
 }
 
 /// Boxes are looked at as boxes, over a distance of their own.
