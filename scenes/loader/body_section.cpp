@@ -222,8 +222,7 @@ Section body_section(BodyScene& body) {
 
           {"position", &body.position, place(), "m",
            "of the shape's centre; with copies, of the first one's"},
-          {"rotation", &body.rotation, between(-360, 360), "degrees",
-           "about world x, then y, then z"},
+          {"rotation", &body.rotation, place(), "degrees", "about world x, then y, then z"},
           only(of_own_velocity, {"velocity", &body.velocity, place(), "m/s",
                                  "at the start; of a moved body always, unless motion has keys"}),
           only(of_own_velocity, {"angular_velocity", &body.angular_velocity, place(), "rad/s",

@@ -113,6 +113,15 @@ position = [1.0, 2.0, 3.0]
   EXPECT_EQ(world.rigid[0].position, Vec3(1.0, 2.0, 3.0));
 }
 
+TEST(BuildWorld, CountsAnglesOnBeyondAWholeTurn) {
+  const auto box = [](const std::string& rotation) {
+    return build_world(scene_of("[[body]]\nkind = \"rigid\"\nrotation = " + rotation)).rigid.at(0);
+  };
+  const Eigen::Quaterniond once = box("[10, -20, 30]").orientation;
+  EXPECT_LT(box("[370, -380, 750]").orientation.angularDistance(once), 1e-9);
+  EXPECT_LT(box("[-710, 340, -330]").orientation.angularDistance(once), 1e-9);
+}
+
 TEST(BuildWorld, GivesSoftBodiesTheVelocityOfARigidRotation) {
   const sim::World world = build_world(scene_of(
       block_of_spheres, {"body.copies=[1,1,1]", "body.radius=2.0", "body.velocity=[1.0, 0.0, 0.0]",
