@@ -78,6 +78,20 @@ class TwoBodies {
     return vertices > most_vertices;
   }
   bool are_apart(const sim::Vec3& way) const {
+    const sim::World moved = moved_by(way);
+    // The search for points in both ends at the first, soon where there are many.
+    return !sim::overlap_deeper_than(moved, 0, 1, 0.0) &&
+           sim::crossings(sim::closed_surfaces(moved), 0).pairs.empty();
+  }
+  /// Whether they would not be refused.
+  bool may_start(const sim::Vec3& way) const {
+    const sim::World moved = moved_by(way);
+    if (sim::overlap_deeper_than(moved, 0, 1, allowed_depth(moved, 0, 1))) return false;
+    return moved.soft.empty() || sim::crossings(sim::closed_surfaces(moved), 0).pairs.empty();
+  }
+
+ private:
+  sim::World moved_by(const sim::Vec3& way) const {
     sim::World moved = pair_;
     if (!moves_box_) {
       sim::VertexArray& positions = moved.soft.back().positions;
@@ -85,12 +99,9 @@ class TwoBodies {
     } else {
       moved.rigid.back().position += way;
     }
-    // The search for points in both ends at the first, soon where there are many.
-    return !sim::overlap_deeper_than(moved, 0, 1, 0.0) &&
-           sim::crossings(sim::closed_surfaces(moved), 0).pairs.empty();
+    return moved;
   }
 
- private:
   sim::World pair_;
   bool moves_box_;
 };
@@ -135,24 +146,50 @@ std::string_view direction_between(const sim::World& world, int first, int secon
   return gap >= gap_below ? directions[2 * sim::at(axis)] : directions[2 * sim::at(axis_below) + 1];
 }
 
-/// The shortest way along an axis, and not into the ground, by which bodies come apart.
+/// Whether a body may start there as far as bodies but one, `beside`, are concerned.
+bool has_room(const sim::World& world, int body, const sim::Vec3& way, int beside) {
+  const sim::Bounds own = body_bounds(world, body);
+  for (int other = 0; other < sim::body_count(world); ++other) {
+    if (other == body || other == beside) continue;
+    const sim::Bounds bounds = body_bounds(world, other);
+    const bool is_apart = ((own.low + way).array() >= bounds.high.array()).any() ||
+                          ((own.high + way).array() <= bounds.low.array()).any();
+    if (is_apart) continue;
+    const TwoBodies both(world, other, body);
+    if (both.are_fine() || !both.may_start(way)) return false;
+  }
+  return true;
+}
+
+struct WayApart {
+  double distance = std::numeric_limits<double>::infinity();  // m
+  std::string_view direction = {};
+};
+
+/// The shortest way along an axis, and not into the ground, by which bodies come apart; one that
+/// leads into a third body only if all do.
 std::string way_apart(const sim::World& world, int first, int second) {
   const sim::Bounds other = body_bounds(world, first), own = body_bounds(world, second);
   const TwoBodies both(world, first, second);
-  double shortest = std::numeric_limits<double>::infinity();
-  std::string_view direction;
+  WayApart best, crowded;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool down : {false, true}) {
       const double all = down ? own.high[axis] - other.low[axis] : other.high[axis] - own.low[axis];
       const sim::Vec3 unit = (down ? -1.0 : 1.0) * sim::Vec3::Unit(axis);
-      const auto way = way_along(both, unit, all, shortest);
+      const auto way = way_along(both, unit, all, best.distance);
       if (!way) continue;
-      if (down && axis == 2 && world.settings.ground && own.low.z() - *way < 0.0) continue;
-      shortest = *way;
-      direction = directions[2 * sim::at(axis) + (down ? 1 : 0)];
+      const double told = std::stod(base::text_above(*way));  // what moved() says, a little more
+      if (down && axis == 2 && world.settings.ground && own.low.z() - told < 0.0) continue;
+      const WayApart found{*way, directions[2 * sim::at(axis) + (down ? 1 : 0)]};
+      if (has_room(world, second, told * unit, first)) {
+        best = found;
+      } else if (*way < crowded.distance) {
+        crowded = found;
+      }
     }
   }
-  return moved(shortest, direction);
+  if (best.direction.empty()) best = crowded;
+  return moved(best.distance, best.direction);
 }
 
 /// Bodies that stand still or are moved want swept contacts.

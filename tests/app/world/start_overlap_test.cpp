@@ -210,6 +210,36 @@ TEST(StartOverlap, NamesAWayThatParts) {
   EXPECT_EQ(refusal_of(ring + "[1.285, 0, 4]\n"), "");
 }
 
+/// What is said is a little more than the way: not even that leads into the ground.
+TEST(StartOverlap, NamesAWayToAPlaceAboveTheGround) {
+  const auto boxes = [](const char* position, const char* height) {
+    return fmt::format(
+        "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = {}\n"
+        "[[body]]\nkind = \"static\"\nsize = [1, 1, 1]\nposition = [0.2, 0, {}]\n",
+        position, height);
+  };
+  const std::string message = refusal_of(boxes("[0, 0, 1]", "1.5"));
+  EXPECT_NE(message.find("move it 0.801 m along -x"), std::string::npos) << message;
+  EXPECT_EQ(refusal_of(boxes("[-0.801, 0, 1]", "1.5")), "");
+  // Under a higher one it may go down.
+  const std::string higher = refusal_of(boxes("[0, 0, 1]", "1.6"));
+  EXPECT_NE(higher.find("move it 0.401 m along -z"), std::string::npos) << higher;
+}
+
+TEST(StartOverlap, NamesAWayToAPlaceWhereNothingElseIs) {
+  const std::string box = "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = ";
+  const std::string held = "[[body]]\nkind = \"static\"\nsize = [1, 4, 4]\nposition = ";
+  const std::string pair = held + "[0, 0, 4]\n" + box + "[0.8, 0, 4]\n";
+  const std::string alone = refusal_of(pair);
+  EXPECT_NE(alone.find("move it 0.201 m along +x"), std::string::npos) << alone;
+  // It would be in this wall by 1 cm; the other side is further, but free.
+  const std::string walled = refusal_of(pair + held + "[1.991, 0, 4]\n");
+  EXPECT_NE(walled.find("move it 1.81 m along -x"), std::string::npos) << walled;
+  // What it comes to touch does not matter.
+  const std::string touched = refusal_of(pair + held + "[2.001, 0, 4]\n");
+  EXPECT_NE(touched.find("move it 0.201 m along +x"), std::string::npos) << touched;
+}
+
 /// The search for a way looks at many places: none of them takes as long as how deep one ball is in
 /// the other.
 TEST(StartOverlap, NamesTheWayOutOfABallSoon) {
