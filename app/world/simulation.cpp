@@ -53,11 +53,12 @@ std::string cause_and_remedy(const StepAdvice& advice) {
   return fmt::format(". Likely {}. Use {}", cause, remedy(advice));
 }
 
-/// "; near it are left, right and the ground"; empty for a body that is near nothing, or not named.
-std::string what_is_near(const sim::World& world, const std::string& name) {
+/// "; near it are left, right and the ground", but for what the divergence names already; empty for
+/// a body that is near nothing else, or not named.
+std::string what_is_near(const sim::World& world, const sim::Divergence& divergence) {
   const int count = static_cast<int>(world.soft.size() + world.rigid.size());
   int body = 0;
-  while (body < count && sim::body_name(world, body) != name) ++body;
+  while (body < count && sim::body_name(world, body) != divergence.body) ++body;
   if (body == count) return "";
   const sim::Bounds own = body_bounds(world, body);
   const double reach = 0.02 * own.size().norm();
@@ -69,6 +70,7 @@ std::string what_is_near(const sim::World& world, const std::string& name) {
     if (other != body && !is_apart) near.push_back(sim::body_name(world, other));
   }
   if (world.settings.ground && own.low.z() < reach) near.emplace_back("the ground");
+  std::erase(near, divergence.other);
   constexpr std::size_t most_named = 4;
   if (near.empty() || near.size() > most_named) return "";
   const std::string last = near.back();
@@ -111,7 +113,7 @@ DivergenceError divergence_error(const std::string& scene_name, const sim::Diver
   DivergenceError error(fmt::format("{}: step {} (t = {:.4f} s), {}: body {}: {}{}{}", scene_name,
                                     divergence.step, time, sim::to_string(divergence.stage),
                                     divergence.body, divergence.what,
-                                    what_is_near(world, divergence.body),
+                                    what_is_near(world, divergence),
                                     what_to_do(world, divergence, advice, crushed, tried_parts)));
   error.is_crushed = !crushed.empty();
   error.is_of_contact = divergence.stage == sim::Stage::resolve_contacts;

@@ -276,6 +276,7 @@ class PotentialStep {
         failure(body_name(world_, surface),
                 "it comes so near to " + other + ", at " + features(limit, pair) +
                     ", that it would pass through it, even in a " + parts + "th of the step");
+    near.other = other;
     near.remedy = "a step of 1/" + std::to_string(2 * world_.settings.steps_per_second) + " s" +
                   (m_.implicit_step ? "" : " or an implicit integrator") + " may do";
     return near;

@@ -19,6 +19,7 @@ struct Divergence {
   int vertex = -1;          // of a soft body: in which it shows, or its fastest; -1: none
   bool inverted = false;    // the body became flat or turned inside out
   std::string remedy = {};  // what may do instead of the step, if that is known
+  std::string other = {};   // body, or "the ground", that `what` names beside the body
 };
 
 }  // namespace pneuma::sim

@@ -29,9 +29,11 @@ class SqueezedBoxes {
       const double depth = -contact.distance;
       const double least = std::max(squeezed_depth * box.size.minCoeff(), contact.wanted);
       if (depth <= least || !is_pressed(body) || !is_held(body, contact)) continue;
-      return Divergence{Stage::find_contacts, world_.steps + 1, box.name,
-                        "it has no room left: it is pressed " + base::text(depth) + " m into " +
-                            name(other) + ". Let what is moved leave more room"};
+      Divergence squeezed{Stage::find_contacts, world_.steps + 1, box.name,
+                          "it has no room left: it is pressed " + base::text(depth) + " m into " +
+                              name(other) + ". Let what is moved leave more room"};
+      squeezed.other = name(other);
+      return squeezed;
     }
     return std::nullopt;
   }
@@ -84,18 +86,23 @@ std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodie
 Divergence of_blocked_bodies(const World& world, const SweptBodies& bodies, const BodyPair& pair) {
   const auto [first, second] = pair;
   const bool any_moved = bodies.pushes(first) || (second != swept_ground && bodies.pushes(second));
-  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, first),
-          "it cannot be kept from passing through " + bodies.name(world, second) +
-              " in parts of the step either" +
-              (any_moved ? ". Let what is moved leave more room, or press more slowly" : "")};
+  Divergence blocked{
+      Stage::resolve_contacts, world.steps + 1, bodies.name(world, first),
+      "it cannot be kept from passing through " + bodies.name(world, second) +
+          " in parts of the step either" +
+          (any_moved ? ". Let what is moved leave more room, or press more slowly" : "")};
+  blocked.other = bodies.name(world, second);
+  return blocked;
 }
 
 Divergence of_added_energy(const World& world, const SweptBodies& bodies,
                            const SweptContact& contact, double energy) {
-  return {Stage::resolve_contacts, world.steps + 1, bodies.name(world, contact.first.body),
-          "its contacts with " + bodies.name(world, contact.second.body) + " add " +
-              base::text(energy) +
-              " J, which is more than their motion against each other can give back"};
+  Divergence added{Stage::resolve_contacts, world.steps + 1, bodies.name(world, contact.first.body),
+                   "its contacts with " + bodies.name(world, contact.second.body) + " add " +
+                       base::text(energy) +
+                       " J, which is more than their motion against each other can give back"};
+  added.other = bodies.name(world, contact.second.body);
+  return added;
 }
 
 }  // namespace pneuma::sim

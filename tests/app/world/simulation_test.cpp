@@ -49,6 +49,16 @@ TEST(DivergenceError, NamesWhatIsNear) {
       << said("ball");
   EXPECT_NE(said("right").find("; near it is ball"), std::string::npos) << said("right");
   EXPECT_EQ(said("far").find("near"), std::string::npos) << said("far");
+  const auto said_of_two = [&](const char* body, const char* other) -> std::string {
+    sim::Divergence divergence{Stage::resolve_contacts, 7, body, "it met another"};
+    divergence.other = other;
+    return divergence_error("scene", divergence, world).what();
+  };
+  EXPECT_NE(said_of_two("ball", "left").find("; near it are right and the ground"),
+            std::string::npos)
+      << said_of_two("ball", "left");
+  EXPECT_EQ(said_of_two("right", "ball").find("near"), std::string::npos)
+      << said_of_two("right", "ball");
 }
 
 /// A flat ball between two boxes, of which the left one comes nearer.

@@ -49,6 +49,7 @@ std::optional<Divergence> press_cube(double room, double* work = nullptr) {
   world.rigid = {make_rigid({1.0, 1.0, 1.0}, {0.0, 0.0, 0.5}),
                  make_kinematic({3.0, 3.0, 1.0}, {0.0, 0.0, 1.5 + 1.2}, {0.0, 0.0, -1.0})};
   world.rigid[0].name = "victim";
+  world.rigid[1].name = "press";
   Stepper stepper(world);
   while (world.rigid[1].position.z() - 0.5 > room) {
     if (auto divergence = stepper.step(world)) return divergence;
@@ -74,6 +75,8 @@ TEST(Kinematic, ABoxWithoutRoomEndsTheRunByName) {
   ASSERT_TRUE(divergence);
   EXPECT_EQ(divergence->body, "victim");
   EXPECT_NE(divergence->what.find("no room left"), std::string::npos) << divergence->what;
+  EXPECT_NE(divergence->what.find(" into press."), std::string::npos) << divergence->what;
+  EXPECT_EQ(divergence->other, "press");
 }
 
 /// The plate lies 3 cm in the ground for a moment.
