@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 
@@ -11,6 +12,7 @@
 #include "app/files/refuse_body.h"
 #include "app/host/errors.h"
 #include "app/world/build_world.h"
+#include "app/world/fastest_motion.h"
 #include "app/world/scene_warnings.h"
 #include "app/world/start_overlap.h"
 #include "app/world/step_advice.h"
@@ -40,36 +42,58 @@ bool can_be_chosen(const StepAdvice& advice) {
   return advice.steps_per_second > 0 && advice.steps_per_second <= most_chosen_steps;
 }
 
-/// Of the bodies whose steps are not safe the one that needs the shortest; null if there is none,
-/// or if that is too short.
-const StepAdvice* shortest_step(const std::vector<StepAdvice>& advices) {
-  const StepAdvice* shortest = nullptr;
-  for (const StepAdvice& advice : advices) {
-    if (advice.is_safe()) continue;
-    if (!can_be_chosen(advice)) return nullptr;
-    if (!shortest || advice.steps_per_second > shortest->steps_per_second) shortest = &advice;
-  }
-  return shortest;
-}
-
 std::string why_shorter(const StepAdvice& advice) {
   const std::string stable = fmt::format("small motions are stable up to {:.3g} s", advice.limit);
   if (advice.too_long()) return stable;
   return fmt::format("{}, and steps beyond {:.3g} s come too near that", stable, advice.safe);
 }
 
+std::string why_shorter(const FastestMotion& motion) {
+  return fmt::format("it is moved at up to {:.3g} m/s, and body '{}' is {:.3g} m wide",
+                     motion.speed, motion.soft, motion.extent);
+}
+
+struct ChosenStep {
+  int steps_per_second = 0;
+  std::string body = {}, why = {};  // empty: the scene's
+};
+
+/// Of the bodies whose steps are not safe the one that needs the shortest; the scene's if there is
+/// none.
+ChosenStep shortest_step(int of_scene, const std::vector<StepAdvice>& advices) {
+  ChosenStep chosen{of_scene};
+  for (const StepAdvice& advice : advices) {
+    if (advice.is_safe() || advice.steps_per_second <= chosen.steps_per_second) continue;
+    chosen = {advice.steps_per_second, advice.body, why_shorter(advice)};
+  }
+  return chosen;
+}
+
+/// A multiple of what is chosen: that fits frames, and is as stable.
+void shorten(ChosenStep& chosen, const FastestMotion& motion) {
+  const double factor = std::ceil(motion.steps_per_second() / chosen.steps_per_second);
+  if (factor <= 1.0) return;
+  chosen = {static_cast<int>(factor) * chosen.steps_per_second, motion.body, why_shorter(motion)};
+}
+
 void choose_step(scenes::Scene& scene) {
   if (scene.names_step || is_damped_by_the_step(scene)) return;
-  const std::vector<StepAdvice> advices = step_advices(build_world(scene));
+  const sim::World world = build_world(scene);
+  const std::vector<StepAdvice> advices = step_advices(world);
+  const bool is_refused = std::ranges::any_of(advices, [](const StepAdvice& advice) {
+    return !advice.is_safe() && !can_be_chosen(advice);
+  });
+  if (is_refused) return;
   int& steps = scene.settings.steps_per_second;
-  const StepAdvice* shortest = shortest_step(advices);
-  if (!shortest) return;
+  ChosenStep chosen = shortest_step(steps, advices);
+  if (const auto motion = fastest_motion(world, scene.duration)) shorten(chosen, *motion);
+  if (chosen.why.empty()) return;
   scene.warnings.push_back(to_string(scenes::diagnostic_at(
-      place_of(scene, shortest->body),
+      place_of(scene, chosen.body),
       fmt::format("note: body '{}': {} steps per second in place of {}, because {}; "
                   "simulation.steps_per_second sets others",
-                  shortest->body, shortest->steps_per_second, steps, why_shorter(*shortest)))));
-  steps = shortest->steps_per_second;
+                  chosen.body, chosen.steps_per_second, steps, chosen.why))));
+  steps = chosen.steps_per_second;
 }
 
 /// "--set simulation.integrator=implicit_euler, or --set simulation.steps_per_second=166200".

@@ -322,6 +322,62 @@ TEST_F(OpenSceneFile, TakesTheShortestStepOfItsBodies) {
   EXPECT_GT(two.settings.steps_per_second, one.settings.steps_per_second);
 }
 
+/// A ball that stands, and a bat that hits it at even speed and then stops.
+std::string hit_ball(double speed) {
+  return fmt::format(
+      "duration = 0.3\n[[body]]\nname = \"ball\"\nshape = \"icosphere\"\nsubdivisions = 2\n"
+      "radius = 0.6\nrest = \"equilibrium\"\ngauge_pressure = 50\nmass = 0.36\n"
+      "position = [0, 0, 1.01]\n"
+      "[[body]]\nname = \"bat\"\nkind = \"moved\"\nsize = [0.3, 2, 2]\nposition = [-2, 0, 1.2]\n"
+      "motion.smooth = false\nmotion.path = [[0, 0, 0, 0], [{}, 2, 0, 0], [10, 2, 0, 0]]\n",
+      2.0 / speed);
+}
+
+TEST_F(OpenSceneFile, TakesShorterStepsWhereWhatIsMovedIsFastBesideASoftBody) {
+  const int slow = open(hit_ball(5.0)).settings.steps_per_second;
+  const scenes::Scene fast = open(hit_ball(30.0));
+  // 30 m/s over a tenth of 1.2 m; also a multiple of what small motions need.
+  EXPECT_GE(fast.settings.steps_per_second, 250);
+  EXPECT_LT(fast.settings.steps_per_second, 250 + slow);
+  EXPECT_EQ(fast.settings.steps_per_second % slow, 0);
+  ASSERT_EQ(fast.warnings.size(), 1u);
+  EXPECT_NE(fast.warnings[0].find(fmt::format(
+                "it.toml:11:1: note: body 'bat': {} steps per second in place of 60, because it is "
+                "moved at up to 30 m/s, and body 'ball' is 1.2 m wide; ",
+                fast.settings.steps_per_second)),
+            std::string::npos)
+      << fast.warnings[0];
+  EXPECT_LT(open(hit_ball(1e5)).settings.steps_per_second, 2'000 + slow);
+  // What is turned is as fast as its far end. After the run, nothing moves.
+  const std::string ball = hit_ball(5.0).substr(0, hit_ball(5.0).rfind("motion.path"));
+  const auto steps = [&](const std::string& keys) {
+    return open(ball + keys).settings.steps_per_second;
+  };
+  EXPECT_GE(steps("motion.rotation = [[0, 0, 0, 0], [1, 0, 0, 3600]]\n"), 62.8 / 0.12);
+  EXPECT_EQ(steps("motion.path = [[0, 0, 0, 0], [0.4, 0, 0, 0], [0.41, 5, 0, 0]]\n"), slow);
+}
+
+TEST_F(OpenSceneFile, ABallThatIsHitFastFliesOffAsInMuchShorterSteps) {
+  const auto speed = [&](const std::string& text) {
+    sim::World world = build_world(open(text));
+    const auto divergence = sim::run(world, 3.5 / 40.0);
+    EXPECT_FALSE(divergence) << divergence->what;
+    return sim::mean(world.soft.at(0).velocities).x();
+  };
+  const auto by_steps = [&](int steps) {
+    return speed(fmt::format("simulation.steps_per_second = {}\n{}", steps, hit_ball(40.0)));
+  };
+  const double fine = by_steps(2'880);
+  EXPECT_NEAR(speed(hit_ball(40.0)), fine, 0.03 * fine);
+  EXPECT_LT(by_steps(180), 0.93 * fine);  // those that small motions need
+}
+
+TEST_F(OpenSceneFile, KeepsTheStepWhereWhatIsMovedMeetsBoxesOnly) {
+  const std::string bat = hit_ball(30.0).substr(hit_ball(30.0).rfind("[[body]]"));
+  const scenes::Scene scene = open(bat + "[[body]]\nkind = \"rigid\"\nposition = [0, 0, 1]\n");
+  EXPECT_EQ(scene.settings.steps_per_second, 60);
+}
+
 TEST_F(OpenSceneFile, SaysAllErrorsAtOnceAlsoThoseOfModels) {
   const auto errors = [&](const std::string& text) -> std::vector<int> {
     try {
