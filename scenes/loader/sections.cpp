@@ -85,8 +85,7 @@ Section simulation_section(Scene& scene) {
       .keys = {
           {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
            "simulation steps; the time step is the inverse; where left out, up to 100,000 "
-           "if the small motions of bodies need it, and no run if they need more; up to about "
-           "2,000 "
+           "if the small motions of bodies need it, and no run if they need more; up to some 2,000 "
            "if what is moved would go further in one than a tenth of a soft body"},
           selector({"method", word(settings.method, methods), any(), "",
                     "paper: all as printed, and no key beside it that it sets; corrected: as "
