@@ -115,17 +115,21 @@ const VertexArray& positions(const MovingSurface& surface, Moment moment) {
 class PositionsAt {
  public:
   PositionsAt(const MovingSurface& surface, double fraction)
-      : surface_(surface), fraction_(fraction) {}
+      : surface_(surface),
+        fraction_(fraction),
+        as_they_are_(fraction == 0.0   ? &surface.start
+                     : fraction == 1.0 ? &surface.end
+                                       : nullptr) {}
 
   Vec3 operator[](int vertex) const {
-    if (fraction_ == 0.0) return surface_.start[vertex];
-    if (fraction_ == 1.0) return surface_.end[vertex];
+    if (as_they_are_) return (*as_they_are_)[vertex];
     return (1.0 - fraction_) * surface_.start[vertex] + fraction_ * surface_.end[vertex];
   }
 
  private:
   const MovingSurface& surface_;
   double fraction_;
+  const VertexArray* as_they_are_;  // at the start or the end
 };
 
 /// A part of a surface that a point beside the surface may be nearest to, and the way to it.

@@ -133,6 +133,7 @@ bool is_between_walls(const World& world, const SweptMemory& memory, const BodyP
 
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal) {
+  if (memory.squeezed.empty()) return false;
   const int box = box_beside_wall(world, memory, bodies);
   if (box < 0 || memory.squeezed[at(memory.bodies.box(box))] == 0) return false;
   const auto side = side_of_wall(memory, bodies, box, normal);

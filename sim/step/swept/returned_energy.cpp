@@ -342,7 +342,6 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   const Holder holder = due.holder;
   if (holder == Holder::moved) return {};
   GroupMotion motion = motion_of_island(world, memory, island);
-  const double whole = motion.energy();  // also of what all have in common
   const bool is_held = holder != Holder::none, is_soft = motion.has_soft_bodies();
   if (is_held && is_soft) due.forgive(energy_of_fall(world.settings, motion.mass()));
   if (!is_held || is_soft) motion.leave_out_common();
@@ -353,7 +352,8 @@ Excess take_from_relative_motion(World& world, SweptMemory& memory, int island, 
   const double bodies = static_cast<double>(memory.members.size());
   const double of_solution = 0.5 * motion.mass() * bodies * tolerance * tolerance +
                              tolerance_of_boxes * tolerance * size_of_impulses(memory, island);
-  const double all = whole + spring_energy_of_island(world, memory, island);
+  const double of_motion = taken + GroupMotion(world, memory.members).energy();  // also in common
+  const double all = of_motion + spring_energy_of_island(world, memory, island);
   const double allowed = max_added_work * all + of_solution;
   return {.taken = taken, .left = left > allowed ? left : 0.0};
 }
