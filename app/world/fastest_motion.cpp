@@ -49,14 +49,15 @@ MovedPiece piece_of(const sim::Pins& pins) {
 std::vector<double> times_of(const sim::KeyFrames& keys, double duration) {
   std::vector<double> times = {0.0};
   for (const std::vector<sim::KeyFrame>* track : {&keys.path, &keys.rotation}) {
-    for (std::size_t i = 0; i < track->size(); ++i) {
-      const double end = (*track)[i][0], start = i > 0 ? (*track)[i - 1][0] : end;
+    double start = 0.0;
+    for (const sim::KeyFrame& key : *track) {
+      const double end = std::min(key[0], duration);
       for (int part = 1; part <= parts_between_keys; ++part) {
         times.push_back(start + (end - start) * part / parts_between_keys);
       }
+      start = end;
     }
   }
-  std::erase_if(times, [&](double time) { return time > duration; });
   return times;
 }
 

@@ -178,7 +178,7 @@ std::string way_apart(const sim::World& world, int first, int second) {
       const sim::Vec3 unit = (down ? -1.0 : 1.0) * sim::Vec3::Unit(axis);
       const auto way = way_along(both, unit, all, best.distance);
       if (!way) continue;
-      const double told = std::stod(base::text_above(*way));  // what moved() says, a little more
+      const double told = base::rounded_up(*way);  // what moved() says
       if (down && axis == 2 && world.settings.ground && own.low.z() - told < 0.0) continue;
       const WayApart found{*way, directions[2 * sim::at(axis) + (down ? 1 : 0)]};
       if (has_room(world, second, told * unit, first)) {

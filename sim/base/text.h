@@ -22,10 +22,11 @@ inline std::string text_below(double value) {
   return text(unit * std::floor(value / unit * (1.0 - 1e-12)));
 }
 
-/// Likewise not below the value.
-inline std::string text_above(double value) {
+/// With so many digits, and not below the value (> 0).
+inline double rounded_up(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  return text(unit * std::ceil(value / unit * (1.0 + 1e-12)));
+  return unit * std::ceil(value / unit * (1.0 + 1e-12));
 }
+inline std::string text_above(double value) { return text(rounded_up(value)); }
 
 }  // namespace pneuma::base

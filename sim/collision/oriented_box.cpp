@@ -27,12 +27,12 @@ std::array<Vec3, 8> corners(const OrientedBox& box) {
   return result;
 }
 
-// Section 5.2.2: inside when (p - t_i).n_i < 0 for every face, the depth being the largest of
-// these. The two faces of one axis are |p_k| - half_k in the box's own coordinates.
 Vec3 nearest_point(const OrientedBox& box, const Vec3& point) {
   return box.to_world(box.to_local(point).cwiseMax(-box.half).cwiseMin(box.half));
 }
 
+// Section 5.2.2: inside when (p - t_i).n_i < 0 for every face, the depth being the largest of
+// these. The two faces of one axis are |p_k| - half_k in the box's own coordinates.
 std::optional<BoxExit> find_box_exit(const OrientedBox& box, const Vec3& point) {
   const Vec3 local = box.to_local(point);
   const Vec3 depths = box.half - local.cwiseAbs();

@@ -14,8 +14,13 @@ namespace {
 /// Cosine of the angle up to which a wall is beside a side of the box.
 constexpr double cosine_of_side = 0.9;
 /// m/s^2, of the mass of a box: so much presses each of its contacts with walls that squeeze it. By
-/// the usual friction that holds some hundred times its weight.
+/// the usual friction that holds some eighty times its weight.
 constexpr double squeeze_of_mass = 200.0;
+/// Of the distance up to which they are in contact: walls that leave less squeeze the box.
+constexpr double least_room = 0.01;
+/// Of the speed of the faster one, and m/s: walls that slide across each other by more cannot both
+/// hold the box, which would tilt into them.
+constexpr double allowed_slide = 0.05, least_slide = 1e-3;
 
 /// A side of a free box.
 struct BoxSide {
@@ -47,21 +52,26 @@ std::optional<BoxSide> side_of_wall(const SweptMemory& memory, const BodyPair& b
   return BoxSide{memory.bodies.box(box), axis, along[axis] > 0.0};
 }
 
-bool leave_little_room(const WallBeside& below, const WallBeside& above) {
-  return below.distance + above.distance < std::min(below.near, above.near);
+/// They leave less than this part of the distance up to which they are in contact with the box.
+bool leave_less(const WallBeside& below, const WallBeside& above, double part) {
+  return below.distance + above.distance < part * std::min(below.near, above.near);
 }
 
-bool squeeze(const WallBeside& below, const WallBeside& above) {
-  return below.distance + above.distance < rounding_distance && (below.is_moved || above.is_moved);
+/// `along`: the axis of the box on which they are.
+bool squeeze(const WallBeside& below, const WallBeside& above, const Vec3& along) {
+  if (!leave_less(below, above, least_room) || !(below.is_moved || above.is_moved)) return false;
+  const Vec3 apart = below.velocity - above.velocity;
+  const double speed = std::max(below.velocity.norm(), above.velocity.norm());
+  return (apart - along.dot(apart) * along).norm() <= allowed_slide * speed + least_slide;
 }
 
-/// A bit for each.
+/// A bit for each. `is(below, above, axis)`.
 template <class Is>
 std::uint8_t axes_where(const WallsBeside& walls, const Is& is) {
   std::uint8_t axes = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto& [below, above] = walls.along[axis];
-    if (is(below, above)) axes |= static_cast<std::uint8_t>(1 << axis);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& [below, above] = walls.along[at(axis)];
+    if (is(below, above, axis)) axes |= static_cast<std::uint8_t>(1 << axis);
   }
   return axes;
 }
@@ -92,7 +102,7 @@ void SweptSearch::find_boxes_between_walls() {
     const double distance = places_.start_distance(candidate);
     if (distance < wall.distance) {
       wall.distance = distance;
-      wall.is_moved = !on_ground && bodies_.pushes(other_of(candidate.bodies, box));
+      look_at(other_of(candidate.bodies, box), box, wall);
     }
     if (on_ground) continue;
     wall.near =
@@ -100,9 +110,26 @@ void SweptSearch::find_boxes_between_walls() {
   }
   if (!any_walls) return;
   for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
-    m_.between_walls[i] = axes_where(m_.walls_beside[i], leave_little_room);
-    m_.squeezed[i] = axes_where(m_.walls_beside[i], squeeze);
+    m_.between_walls[i] = axes_where(
+        m_.walls_beside[i],
+        [](const auto& below, const auto& above, int) { return leave_less(below, above, 1.0); });
+    if (m_.between_walls[i] == 0) continue;
+    const Mat3& axes = bodies_.start_axes(bodies_.of_box(static_cast<int>(i)));
+    m_.squeezed[i] =
+        axes_where(m_.walls_beside[i], [&](const auto& below, const auto& above, int axis) {
+          return squeeze(below, above, axes.col(axis));
+        });
   }
+}
+
+/// Of models that are moved no box is squeezed: they meet it from outside, or stop the run.
+void SweptSearch::look_at(int body, int box, WallBeside& wall) const {
+  wall.is_moved = body != swept_ground && bodies_.is_box(body) && bodies_.pushes(body);
+  wall.velocity.setZero();
+  if (!wall.is_moved) return;
+  const RigidBox& moved = world_.rigid[at(bodies_.box(body))];
+  const Vec3 arm = world_.rigid[at(bodies_.box(box))].position - moved.position;
+  wall.velocity = moved.velocity + moved.angular_velocity.cross(arm);
 }
 
 bool SweptSearch::is_between_walls(const SweptCandidate& candidate) const {
@@ -111,7 +138,8 @@ bool SweptSearch::is_between_walls(const SweptCandidate& candidate) const {
 }
 
 bool SweptSearch::is_squeezed(const SweptCandidate& candidate) const {
-  return sim::is_squeezed(world_, m_, candidate.bodies, places_.start_normal(candidate));
+  return squeezed_box(world_, m_, candidate.bodies) >= 0 &&
+         sim::is_squeezed(world_, m_, candidate.bodies, places_.start_normal(candidate));
 }
 
 bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies) {
@@ -131,19 +159,24 @@ bool is_between_walls(const World& world, const SweptMemory& memory, const BodyP
   return side && is_along(memory.between_walls, *side);
 }
 
+int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
+  if (memory.squeezed.empty()) return -1;
+  const int box = box_beside_wall(world, memory, bodies);
+  return box >= 0 && memory.squeezed[at(memory.bodies.box(box))] != 0 ? box : -1;
+}
+
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal) {
-  if (memory.squeezed.empty()) return false;
-  const int box = box_beside_wall(world, memory, bodies);
-  if (box < 0 || memory.squeezed[at(memory.bodies.box(box))] == 0) return false;
+  const int box = squeezed_box(world, memory, bodies);
+  if (box < 0) return false;
   const auto side = side_of_wall(memory, bodies, box, normal);
   return side && is_along(memory.squeezed, *side);
 }
 
 double squeeze_between_walls(const World& world, const SweptMemory& memory,
                              const SweptContact& contact) {
-  if (!is_squeezed(world, memory, pair_of(contact), contact.normal)) return 0.0;
-  const int box = box_beside_wall(world, memory, pair_of(contact));
+  const int box = squeezed_box(world, memory, pair_of(contact));
+  if (box < 0 || !is_squeezed(world, memory, pair_of(contact), contact.normal)) return 0.0;
   return squeeze_of_mass * world.rigid[at(memory.bodies.box(box))].mass;
 }
 

@@ -23,8 +23,11 @@ inline bool is_between_walls(const World& world, const SweptMemory& memory,
   return is_between_walls(world, memory, pair_of(contact), contact.normal);
 }
 
-/// Whether the other is one of two walls of which one is moved and that leave the box no more room
-/// than it fills. Nothing moves it out of them.
+/// The free one of two bodies, if walls squeeze it: boxes of which one is moved, or such a box and
+/// the ground, that leave it no more room than it fills and do not slide across each other; or -1.
+int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies);
+
+/// Whether the other is beside it on the axis along which they do. Nothing moves it out of them.
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal);
 

@@ -89,6 +89,7 @@ class SweptSearch {
   bool turn_into_each_other(SweptCandidate& first_point);
   bool is_between_walls(const SweptCandidate& candidate) const;
   bool is_squeezed(const SweptCandidate& candidate) const;
+  void look_at(int body, int box, WallBeside& wall) const;
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
   /// Gives the contacts that there are to the candidates of another search.

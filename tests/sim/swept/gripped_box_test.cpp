@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "sim/inspect/inspect.h"
 #include "tests/sim/swept/swept_worlds.h"
 
 namespace pneuma::sim {
@@ -67,6 +68,25 @@ TEST(GrippedBox, FallsOnceItIsReleased) {
   move_jaws(world, 0.0, {0.0, 0.0, 1.0}, 2.0);
   move_jaws(world, -0.5, Vec3::Zero(), 0.3);
   EXPECT_NEAR(cube(world).velocity.z(), -9.81 * 0.3, 9.81 * 2.0 / 240.0);  // its first steps
+}
+
+/// Held by both, it would tilt into them.
+TEST(GrippedBox, IsNotHeldByAPlateThatSlidesAndTheGround) {
+  for (const int steps_per_second : {60, 240}) {
+    for (const double overlap : {0.0, 1e-3}) {
+      World world = make_gripper(steps_per_second, 0.5);
+      world.rigid.erase(world.rigid.begin());
+      world.rigid[0] = make_rigid({12.0, 12.0, 1.0}, {0.0, 0.0, 1.5 + 0.1});
+      world.rigid[0].is_kinematic = true;
+      world.rigid[0].surface = {0.0, 0.5};
+      world.rigid[0].velocity = {0.0, 0.0, -0.1 - overlap};
+      ASSERT_FALSE(run(world, 1.0));
+      world.rigid[0].velocity = {0.1, 0.0, 0.0};
+      ASSERT_FALSE(run(world, 3.0)) << steps_per_second << ' ' << overlap;
+      EXPECT_LT(cube(world).velocity.norm(), 0.11) << steps_per_second << ' ' << overlap;
+      EXPECT_LT(max_penetration(world), overlap + 1e-3) << steps_per_second << ' ' << overlap;
+    }
+  }
 }
 
 TEST(GrippedBox, SlipsWithoutFriction) {

@@ -40,7 +40,7 @@ World make_tiles(int tiles, double gap, double step, int subdivisions, int steps
   return world;
 }
 
-/// A seam took 1 to 5 % of the speed, of which ten are passed.
+/// They pass ten seams, of which each took 1 to 5 % of the speed.
 TEST(SoftSeams, DoNotBrakeABall) {
   for (const int subdivisions : {1, 2}) {
     for (const int steps_per_second : {480, 960}) {
