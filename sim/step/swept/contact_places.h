@@ -31,7 +31,7 @@ class ContactPlaces {
   SweptContact place_on_ground(const SweptCandidate& candidate, Moment moment) const;
   /// Whether no other features that these are parts of stand for them.
   bool stands(const SweptCandidate& candidate, const ClosestPoints& closest, Moment moment) const;
-  /// The same of what keeps its shape and meets after a fraction of the step. Two boxes always do.
+  /// The same where they meet, after a fraction of the step; and of a box from outside of it.
   bool stands_where_it_meets(const SweptCandidate& candidate, double fraction) const;
   /// A soft body that gives way, and a box that stands still.
   bool are_soft_and_still_box(const BodyPair& bodies) const;
