@@ -76,9 +76,14 @@ std::uint8_t axes_where(const WallsBeside& walls, const Is& is) {
   return axes;
 }
 
-/// Whether the axis along which the other is beside the box is one of those.
-bool is_along(std::span<const std::uint8_t> axes, const BoxSide& side) {
-  return (axes[at(side.box)] >> side.axis & 1) != 0;
+/// Whether one of two bodies is a free box, and the other a wall or the ground on one of the `axes`
+/// of each box.
+bool is_wall_along(const World& world, const SweptMemory& memory,
+                   std::span<const std::uint8_t> axes, const BodyPair& bodies, const Vec3& normal) {
+  const int box = box_beside_wall(world, memory, bodies);
+  if (box < 0) return false;
+  const auto side = side_of_wall(memory, bodies, box, normal);
+  return side && (axes[at(side->box)] >> side->axis & 1) != 0;
 }
 
 }  // namespace
@@ -152,11 +157,8 @@ bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies) {
 
 bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                       const Vec3& normal) {
-  if (!may_be_between_walls(memory, bodies)) return false;
-  const int box = box_beside_wall(world, memory, bodies);
-  if (box < 0) return false;
-  const auto side = side_of_wall(memory, bodies, box, normal);
-  return side && is_along(memory.between_walls, *side);
+  return may_be_between_walls(memory, bodies) &&
+         is_wall_along(world, memory, memory.between_walls, bodies, normal);
 }
 
 int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
@@ -167,10 +169,8 @@ int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& 
 
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal) {
-  const int box = squeezed_box(world, memory, bodies);
-  if (box < 0) return false;
-  const auto side = side_of_wall(memory, bodies, box, normal);
-  return side && is_along(memory.squeezed, *side);
+  return squeezed_box(world, memory, bodies) >= 0 &&
+         is_wall_along(world, memory, memory.squeezed, bodies, normal);
 }
 
 double squeeze_between_walls(const World& world, const SweptMemory& memory,

@@ -98,7 +98,7 @@ struct Partner {
 struct WallBeside {
   double distance = std::numeric_limits<double>::infinity();  // m, the least
   double near = std::numeric_limits<double>::infinity();      // m, up to which they are in contact
-  bool is_moved = false;                                      // a box that is nearest
+  bool is_moved = false;         // what is nearest is a box that is moved
   Vec3 velocity = Vec3::Zero();  // m/s, of that box, where the middle of the free one is
 };
 /// Along each axis of the box, that on its negative side first.

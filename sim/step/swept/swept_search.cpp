@@ -217,17 +217,18 @@ bool SweptSearch::find_collisions_of_pair(std::span<SweptCandidate> candidates) 
 /// box that stands still, what meets first is held: edges that a soft body would meet below its
 /// faces it then passes.
 void SweptSearch::hold_where_they_meet() {
-  double last = 1.0;
+  if (m_.meetings.empty()) return;
+  const BodyPair& bodies = m_.candidates[at(m_.meetings.front().candidate)].bodies;  // of all
+  const bool is_at_still_box = places_.are_soft_and_still_box(bodies);
+  const double last = is_at_still_box
+                          ? std::ranges::min(m_.meetings, {}, &Meeting::fraction).fraction + at_once
+                          : 1.0;
   for (const auto& [candidate, fraction] : m_.meetings) {
-    if (places_.are_soft_and_still_box(m_.candidates[at(candidate)].bodies))
-      last = std::min(last, fraction);
-  }
-  for (const auto& [candidate, fraction] : m_.meetings) {
-    if (fraction > last + at_once) continue;
+    if (fraction > last) continue;
     SweptCandidate& meeting = m_.candidates[at(candidate)];
-    const bool was_held = meeting.contact >= 0 || places_.are_soft_and_still_box(meeting.bodies);
-    const SweptContact contact = was_held ? places_.place_along_line(meeting, fraction)
-                                          : places_.place(meeting, meeting.start, Moment::start);
+    const SweptContact contact = is_at_still_box || meeting.contact >= 0
+                                     ? places_.place_along_line(meeting, fraction)
+                                     : places_.place(meeting, meeting.start, Moment::start);
     if (motion_.is_moved(contact)) add(meeting, contact);
   }
 }
