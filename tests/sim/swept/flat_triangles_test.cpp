@@ -3,10 +3,7 @@
 
 #include <cmath>
 
-#include "sim/equilibrium/held_shape.h"
-#include "sim/inspect/inspect.h"
 #include "sim/mesh/rotation.h"
-#include "sim/soft/pins.h"
 #include "tests/sim/swept/swept_worlds.h"
 
 namespace pneuma::sim {
@@ -25,15 +22,7 @@ SoftBody make_fine_slab() {
     x.x() += 0.2 * std::sin(3.0 * x.x() + 7.0 * x.y()) * (1.0 - std::abs(x.x()) / 15.0);
     x.y() += 0.1 * std::sin(9.0 * x.x() + 2.0 * x.y()) * (1.0 - std::abs(x.y()) / 3.0);
   }
-  SoftBody body = make_body(mesh, {0.0, 0.0, -0.5});
-  const auto count = at(body.positions.size());
-  GivenMotion motion;
-  motion.position = {0.0, 0.0, -0.5};
-  body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
-                        std::vector<std::uint8_t>(count, 0), motion);
-  body.material.n = 0.0;
-  body.material.surface = {0.0, 0.0};
-  return body;
+  return make_smooth_obstacle(mesh, {0.0, 0.0, -0.5});
 }
 
 RigidBox make_slab() {
@@ -63,15 +52,7 @@ TEST_P(FlatTriangles, DoNotBrakeABall) {
   for (const double aside : {-1.07, 0.03, 0.71}) {
     World world = make_world();
     world.settings.steps_per_second = 480;
-    SoftBody ball = make_body(make_icosphere(1.0, 2), {-7.03, aside, 1.01});
-    ball.material.n = 300.0 * volume_of(ball) / (gas_constant * ball.material.temperature);
-    ball.material.k = 900.0;
-    ball.material.vertex_mass = 10.0 / ball.positions.size();
-    ball.material.rho_g = 0.0;
-    ball.material.surface = {0.0, 0.0};
-    ball.mesh = held_mesh(*ball.mesh, ball.positions, ball.material);
-    for (int v = 0; v < ball.velocities.size(); ++v) ball.velocities[v].x() = speed;
-    world.soft.push_back(ball);
+    world.soft.push_back(make_sliding_ball(2, {-7.03, aside, 1.01}, {speed, 0.0, 0.0}));
     ASSERT_FALSE(run(world, 3.0));
     const Vec3 velocity = mean(world.soft.back().velocities);
     EXPECT_NEAR(velocity.x(), speed, least_seen) << aside;

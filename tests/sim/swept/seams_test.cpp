@@ -7,7 +7,6 @@
 
 #include "sim/inspect/inspect.h"
 #include "sim/mesh/rotation.h"
-#include "sim/soft/pins.h"
 #include "tests/sim/swept/swept_worlds.h"
 
 namespace pneuma::sim {
@@ -157,17 +156,6 @@ TEST(Seams, StopWhatRunsAgainstAStep) {
   }
 }
 
-/// All of its vertices are pinned.
-SoftBody make_obstacle(const TriangleMesh& mesh, const Vec3& position) {
-  SoftBody body = make_body(mesh, position);
-  const auto count = static_cast<std::size_t>(body.positions.size());
-  body.pins = make_pins(body.positions, std::vector<std::uint8_t>(count, 1),
-                        std::vector<std::uint8_t>(count), {});
-  body.material.n = 0.0;
-  body.material.surface = {0.0, 0.0};
-  return body;
-}
-
 /// Without friction, restitution, gravity or drag, above an obstacle whose top is at z = 0.
 World make_box_over(const SoftBody& obstacle, double side, const Vec3& place,
                     const Vec3& velocity) {
@@ -188,7 +176,7 @@ TEST(Seams, ABoxLandsOnTrianglesAsOnAPlane) {
   // m/s: a corner a little beside a triangle still counts as over it (contact_places.cpp), which
   // tilts its normal for a step.
   constexpr double least_seen = 2e-3;
-  const SoftBody floor = make_obstacle(make_box({6.0, 2.0, 0.5}, 12), {0.0, 0.0, -0.25});
+  const SoftBody floor = make_smooth_obstacle(make_box({6.0, 2.0, 0.5}, 12), {0.0, 0.0, -0.25});
   for (const double falls : {0.35, 0.5, 1.0, 3.0}) {
     for (int i = 0; i < 12; ++i) {
       const Vec3 start(-2.4 - 0.03 * i, 0.1, 0.004 + 0.1 * falls);
@@ -206,7 +194,7 @@ TEST(Seams, AFoldBrakesABoxByNoMoreThanItRises) {
     const double slope = std::tan(degrees * std::numbers::pi / 180.0);
     TriangleMesh mesh = make_box({12.0, 4.0, 0.5}, 2);
     for (Vec3& x : mesh.vertices) x.z() += slope * std::max(0.0, x.x());
-    const SoftBody fold = make_obstacle(mesh, {0.0, 0.0, -0.25});
+    const SoftBody fold = make_smooth_obstacle(mesh, {0.0, 0.0, -0.25});
     for (const double speed : {2.0, 7.0, 20.0}) {
       for (const double side : {0.15, 0.3, 1.2}) {
         World world = make_box_over(fold, side, {-2.0, 0.1, 0.004}, {speed, 0.0, 0.0});
@@ -225,7 +213,7 @@ TEST(Seams, ARailOfSpheresDoesNotBrakeABox) {
   World world = without_ground(60);
   for (int i = 0; i < 20; ++i) {
     const Vec3 place(0.9 * (i / 2), i % 2 == 0 ? -0.6 : 0.6, -0.5);
-    world.soft.push_back(make_obstacle(make_icosphere(0.5, 2), place));
+    world.soft.push_back(make_smooth_obstacle(make_icosphere(0.5, 2), place));
   }
   RigidBox box = make_rigid({2.0, 2.0, 0.5}, {1.3, 0.0, 0.26});
   box.surface = {0.0, 0.0};

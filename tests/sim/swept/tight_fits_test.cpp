@@ -6,7 +6,6 @@
 
 #include "sim/inspect/crossings.h"
 #include "sim/inspect/inspect.h"
-#include "sim/soft/pins.h"
 #include "tests/sim/swept/swept_worlds.h"
 
 namespace pneuma::sim {
@@ -15,18 +14,6 @@ namespace {
 const Vec3 wall_size(2.0, 3.0, 2.0);  // m
 const Vec3 box_size(0.5, 0.6, 0.7);   // m; it would keep 2.5 mm from each wall
 constexpr double start_height = 2.9;  // m, of its middle: it starts above the walls
-
-/// All of its vertices are pinned: an obstacle of 12 triangles.
-SoftBody make_wall_of_triangles(const Vec3& position) {
-  SoftBody wall = make_body(make_box(wall_size, 1), position);
-  const auto count = at(wall.positions.size());
-  GivenMotion motion;
-  motion.position = position;
-  wall.pins = make_pins(wall.positions, std::vector<std::uint8_t>(count, 1),
-                        std::vector<std::uint8_t>(count, 0), motion);
-  wall.material.n = 0.0;
-  return wall;
-}
 
 RigidBox make_wall(const Vec3& position) {
   RigidBox wall = make_rigid(wall_size, position);
@@ -55,7 +42,7 @@ class TightFits : public testing::TestWithParam<Fit> {
         world.rigid.push_back(make_wall(place));
         world.rigid.back().surface = {0.0, friction};
       } else {
-        world.soft.push_back(make_wall_of_triangles(place));
+        world.soft.push_back(make_smooth_obstacle(make_box(wall_size, 1), place));
         world.soft.back().material.surface = {0.0, friction};
       }
     }
