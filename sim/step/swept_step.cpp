@@ -10,6 +10,7 @@
 #include "sim/step/stages/stages.h"
 #include "sim/step/swept/alone_on_ground.h"
 #include "sim/step/swept/end_contacts.h"
+#include "sim/step/swept/excess_work.h"
 #include "sim/step/swept/free_impacts.h"
 #include "sim/step/swept/returned_energy.h"
 #include "sim/step/swept/shift_boxes.h"
@@ -259,7 +260,7 @@ class SweptStep {
     const auto impulses = m_.solver.impulses_of(excess.island);
     const SweptImpulse* most = std::ranges::max(
         impulses, {}, [](const SweptImpulse* impulse) { return impulse->normal_impulse(); });
-    const SweptContact& contact = m_.contacts[at(static_cast<int>(most - m_.impulses.data()))];
+    const SweptContact& contact = m_.contacts[m_.contact_of(most)];
     return of_added_energy(world_, bodies_, contact, excess.left);
   }
 

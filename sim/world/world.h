@@ -83,7 +83,7 @@ struct World {
   std::vector<FrictionSlip> friction_slips;
   std::vector<DepenetratingPair> depenetrating;  // ordered by (first, second)
   // J, per soft body, of the last steps: what bodies in contact may gain
-  // (sim/step/swept/returned_energy.h).
+  // (sim/step/swept/excess_work.h).
   std::vector<double> lost_energy;
   std::vector<BodyRest> rest;  // per body, soft ones first; empty before the first step
   // m, of all vertices of soft bodies, body by body: where they were when the body last was not at

@@ -123,6 +123,11 @@ struct SweptMemory {
     parts_done.reserve(1u << max_halvings);
   }
 
+  /// `impulse` is one of `impulses`.
+  std::size_t contact_of(const SweptImpulse* impulse) const {
+    return static_cast<std::size_t>(impulse - impulses.data());
+  }
+
   SweptBodies bodies;
   SweptSolver solver;
   std::vector<SweptStart> starts;  // by how often the step has been halved

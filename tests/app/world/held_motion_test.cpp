@@ -179,7 +179,7 @@ TEST(HeldMotion, ContactsGiveBackNoMoreThanTheyTook) {
   sim::World world = build_world(scenes::parse_scene(ball_between_plates, "plates"));
   const sim::Energy start = sim::energy(world);
   // Of the energy that its motion has at first, what may come back of earlier losses
-  // (sim/step/swept/returned_energy.h), at a step near the longest that the ball bears.
+  // (sim/step/swept/excess_work.h), at a step near the longest that the ball bears.
   const double most = 0.05 * start.kinetic, rounding = 1e-12 * std::abs(start.total());
   double least = start.total(), rise = 0.0;
   sim::Stepper stepper(world);
