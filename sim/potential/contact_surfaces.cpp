@@ -5,6 +5,7 @@
 
 #include "sim/mesh/measure.h"
 #include "sim/mesh/primitives.h"
+#include "sim/potential/box_frame.h"
 #include "sim/potential/near_pairs.h"
 #include "sim/potential/pair_distance.h"
 #include "sim/soft/gas_law.h"
@@ -48,6 +49,12 @@ ContactSurfaces::ContactSurfaces(const World& world)
   find_self_reaches();
   const std::optional<double>& given = world.settings.potential.stiffness;
   stiffness_ = given ? *given : default_stiffness(world, surfaces_);
+}
+
+int ContactSurfaces::surface_of(int vertex) const {
+  int s = 0;
+  while (s + 1 < count() && surfaces_[at(s + 1)].first_vertex <= vertex) ++s;
+  return s;
 }
 
 void ContactSurfaces::add(const MeshTopology& topology, const VertexArray& rest, bool is_rigid,

@@ -42,6 +42,7 @@ class ContactSurfaces {
   /// Of a box of the world.
   const ContactSurface& of_box(int i) const { return surfaces_[at(soft_count_ + i)]; }
   int count() const { return static_cast<int>(surfaces_.size()); }
+  int surface_of(int vertex) const;
   int vertex_count() const { return static_cast<int>(is_mobile_.size()); }
   bool is_mobile(int vertex) const { return is_mobile_[at(vertex)] != 0; }
   const std::vector<std::uint8_t>& mobile() const { return is_mobile_; }

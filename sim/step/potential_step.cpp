@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <string_view>
 
 #include "sim/base/text.h"
 #include "sim/inspect/closed_surface.h"
-#include "sim/response/group_motion.h"
+#include "sim/step/potential_excess.h"
+#include "sim/step/potential_failure.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages/find_divergence.h"
 #include "sim/step/stages/stages.h"
@@ -31,7 +30,7 @@ class PotentialStep {
       return std::nullopt;
     }
     take_back(m_.starts[at(halvings)]);
-    if (!may_be_halved || halvings == max_halvings()) return failure;
+    if (!may_be_halved || !can_be_halved(halvings)) return failure;
     world_.settings.steps_per_second *= 2;
     auto half = advance(halvings + 1);
     if (!half) half = advance(halvings + 1);
@@ -43,14 +42,12 @@ class PotentialStep {
   /// For whoever looks at them.
   void report_contacts() {
     w_.contacts.clear();
-    find_contacts_at(m_.end);
+    m_.find_contacts_at(m_.end);
     for (const ActiveContact& contact : m_.active) w_.contacts.push_back(seen(contact));
   }
 
  private:
-  int max_halvings() const {
-    return m_.implicit_step ? max_implicit_halvings : max_potential_halvings;
-  }
+  bool can_be_halved(int halvings) const { return halvings < m_.max_halvings(); }
 
   void keep(PotentialMemory::Start& start) {
     if (start.state.positions.size() == 0) start.state = m_.start;
@@ -116,7 +113,7 @@ class PotentialStep {
         return divergence;
       }
     }
-    if (excess_ > 0.0) take_excess();
+    if (excess_ > 0.0) take_excess(world_, m_, excess_);
     for (const SoftBody& body : world_.soft) {
       if (auto divergence = find_divergence(world_, body)) {
         divergence->stage = Stage::integrate_soft;
@@ -126,79 +123,13 @@ class PotentialStep {
     return std::nullopt;
   }
 
-  /// From what soft bodies do besides moving as rigid ones, and only if that is not enough, from
-  /// all motion: of bodies that touch only each other, from what they do besides moving as one.
-  /// Bodies that touch nothing give theirs only if that does not do.
-  void take_excess() {
-    join_bodies_in_contact();
-    double of_vibrations = 0.0, of_groups = 0.0;
-    for_each_vibration([&](const GroupMotion& motion) { of_vibrations += motion.energy(); });
-    if (excess_ <= of_vibrations) {
-      const double share = excess_ / of_vibrations;
-      for_each_vibration([&](GroupMotion& motion) { motion.take(share * motion.energy()); });
-      return;
-    }
-    for_each_group([&](const GroupMotion& motion) { of_groups += motion.energy(); });
-    const double share = of_groups > excess_ ? excess_ / of_groups : 1.0;
-    for_each_group([&](GroupMotion& motion) { excess_ -= motion.take(share * motion.energy()); });
-    if (share == 1.0) GroupMotion(world_, m_.movable).take(excess_);
-  }
-
-  /// Not through what is moved or stands still, which holds them as the ground does, and pins.
-  void join_bodies_in_contact() {
-    find_contacts_at(m_.end);
-    m_.joined.reset();
-    std::ranges::fill(m_.touches, std::uint8_t{0});
-    std::ranges::fill(m_.is_held, std::uint8_t{0});
-    for (const ActiveContact& contact : m_.active) {
-      const bool on_ground = contact.second < 0;
-      const bool first_moves = !is_kinematic(world_, contact.first);
-      const bool second_moves = !on_ground && !is_kinematic(world_, contact.second);
-      if (first_moves) m_.touches[at(contact.first)] = 1;
-      if (second_moves) m_.touches[at(contact.second)] = 1;
-      if (first_moves && second_moves) m_.joined.unite(contact.first, contact.second);
-      if (first_moves && !second_moves) m_.is_held[at(contact.first)] = 1;
-      if (second_moves && !first_moves) m_.is_held[at(contact.second)] = 1;
-    }
-    for (const int body : m_.movable) {
-      const bool has_pins = body < soft_count(world_) && world_.soft[at(body)].pins;
-      if (has_pins || m_.is_held[at(body)] != 0) m_.is_held[at(m_.joined.find(body))] = 1;
-    }
-  }
-
-  /// `visit(motion)` of each group in contact: what is held has no common motion.
-  template <class Visit>
-  void for_each_group(const Visit& visit) {
-    for (const int& first : m_.movable) {
-      if (m_.touches[at(first)] == 0 || m_.joined.find(first) != first) continue;
-      m_.group.clear();
-      for (const int body : m_.movable) {
-        if (m_.joined.find(body) == first) m_.group.push_back(body);
-      }
-      GroupMotion motion(world_, m_.group);
-      if (m_.is_held[at(first)] == 0) motion.leave_out_common();
-      visit(motion);
-    }
-  }
-
-  /// Of what is pinned, all motion is.
-  template <class Visit>
-  void for_each_vibration(const Visit& visit) {
-    for (const int& body : m_.movable) {
-      if (body >= soft_count(world_)) return;
-      GroupMotion motion(world_, {&body, 1});
-      if (!world_.soft[at(body)].pins) motion.leave_out_common();
-      visit(motion);
-    }
-  }
-
   /// J, of the vertices that no force moves, in a part of the step: the mean of what they push with
   /// at its ends, along their way.
   double driven_work() {
     double work = 0.0;
     if (!moves_something()) return work;
     for (const WorldState* state : {&m_.start, &m_.end}) {
-      find_contacts_at(*state);
+      m_.find_contacts_at(*state);
       m_.forces.rows().setZero();
       add_forces(m_.active, state->positions, state->velocities, m_.surfaces.regularisation_speed(),
                  m_.forces);
@@ -217,96 +148,46 @@ class PotentialStep {
     return false;
   }
 
-  void find_contacts_at(const WorldState& state) {
-    m_.finder.find(state.positions, state.positions, 0.0, m_.pairs);
-    find_active(m_.surfaces, state.positions, m_.pairs, m_.active);
-  }
-
   std::optional<Divergence> step_implicitly(int halvings, bool& may_be_halved) {
     const ImplicitWorldReport report = m_.implicit_step->step(world_, m_.start, m_.end);
     excess_ = report.excess;
     if (!report.is_valid) {
-      return failure(first_body(), "its energy has no value: it has lost its volume, or touches");
+      return of_potential_step(world_, body_name(world_, 0),
+                               "its energy has no value: it has lost its volume, or touches");
     }
     if (report.arrived) return std::nullopt;
     may_be_halved = true;
-    return blocked(report.blocked, report.blocked_pair, "", halvings);
+    if (can_be_halved(halvings)) return unsaid();
+    return of_blocked_way(world_, m_, report.blocked, report.blocked_pair, "");
   }
 
   std::optional<Divergence> step_explicitly(int halvings, bool& may_be_halved) {
     const ExplicitWorldReport report = m_.explicit_step->step(world_, m_.start, m_.end);
-    if (report.fast_box >= 0) {
+    const bool is_blocked = report.is_too_stiff || report.limit.is_limited;
+    if (report.fast_box >= 0 || is_blocked) {
       may_be_halved = true;
-      return spinning(m_.free_boxes[at(report.fast_box)], halvings);
-    }
-    if (report.is_too_stiff || report.limit.is_limited) {
-      may_be_halved = true;
-      return blocked(report.limit, report.limiting_pair,
-                     report.is_too_stiff ? "a contact of it is too stiff for the step" : "",
-                     halvings);
+      if (can_be_halved(halvings)) return unsaid();
+      if (report.fast_box >= 0)
+        return of_spinning_box(world_, m_, m_.free_boxes[at(report.fast_box)]);
+      return of_blocked_way(world_, m_, report.limit, report.limiting_pair,
+                            report.is_too_stiff ? "a contact of it is too stiff for the step" : "");
     }
     if (report.min_volume > 0.0) return std::nullopt;
-    Divergence lost = failure(first_body(), "a volume is " + base::text(report.min_volume) +
-                                                " m^3 within the step, so that a body is flat or "
-                                                "inside out");
+    Divergence lost = of_potential_step(world_, body_name(world_, 0),
+                                        "a volume is " + base::text(report.min_volume) +
+                                            " m^3 within the step, so that a body is flat or "
+                                            "inside out");
     lost.inverted = true;
     return lost;
   }
 
-  std::string first_body() const { return body_name(world_, 0); }
-
-  Divergence failure(std::string body, std::string what) const {
-    return {Stage::integrate_soft, world_.steps + 1, std::move(body), std::move(what)};
-  }
-
-  /// Without words, which need memory, where the step can still be halved.
-  Divergence blocked(const WayLimit& limit, const ContactPair& pair, std::string_view why,
-                     int halvings) const {
-    if (halvings < max_halvings()) return failure("", "");
-    const std::string parts = std::to_string(1 << max_halvings());
-    if (!limit.is_limited) {
-      Divergence stiff = failure(first_body(), std::string(why) + ", even in " + parts + " parts");
-      stiff.remedy = "a smaller simulation.potential.stiffness or an implicit integrator does";
-      return stiff;
-    }
-    const bool on_ground = limit.pair < 0;
-    const int surface = on_ground ? surface_of(limit.vertex) : pair.first;
-    const std::string other = on_ground ? "the ground" : body_name(world_, pair.second);
-    Divergence near =
-        failure(body_name(world_, surface),
-                "it comes so near to " + other + ", at " + features(limit, pair) +
-                    ", that it would pass through it, even in a " + parts + "th of the step");
-    near.other = other;
-    near.remedy = "a step of 1/" + std::to_string(2 * world_.settings.steps_per_second) + " s" +
-                  (m_.implicit_step ? "" : " or an implicit integrator") + " may do";
-    return near;
-  }
-
-  Divergence spinning(int box, int halvings) const {
-    if (halvings < max_halvings()) return failure("", "");
-    return failure(world_.rigid[at(box)].name, "it turns by more than a radian even in a " +
-                                                   std::to_string(1 << max_halvings()) +
-                                                   "th of the step");
-  }
-
-  static std::string features(const WayLimit& limit, const ContactPair& pair) {
-    std::string text = "vertex ";
-    if (limit.pair < 0) return text += std::to_string(limit.vertex);
-    text = pair.is_edges ? "edges" : "a vertex and a triangle, of vertices";
-    for (const int v : pair.vertices) (text += ' ') += std::to_string(v);
-    return text;
-  }
-
-  int surface_of(int vertex) const {
-    int s = 0;
-    while (s + 1 < m_.surfaces.count() && m_.surfaces[s + 1].first_vertex <= vertex) ++s;
-    return s;
-  }
+  /// Words need memory, and the step is halved.
+  Divergence unsaid() const { return of_potential_step(world_, {}, {}); }
 
   Contact seen(const ActiveContact& contact) const {
     Contact result;
     const int first_side = side_vertex(contact, true);
-    result.first = side(surface_of(first_side), first_side);
+    result.first = side(m_.surfaces.surface_of(first_side), first_side);
     result.normal = contact.point.normal();
     result.point = Vec3::Zero();
     for (int i = 0; i < contact.count; ++i) {
@@ -315,7 +196,7 @@ class PotentialStep {
     }
     if (contact.second >= 0) {
       const int second_side = side_vertex(contact, false);
-      result.second = side(surface_of(second_side), second_side);
+      result.second = side(m_.surfaces.surface_of(second_side), second_side);
     }
     result.impulse = time_step(world_.settings) *
                      contact_force(contact, relative_velocity(contact, m_.end.velocities),
@@ -387,6 +268,15 @@ PotentialMemory::PotentialMemory(const World& world)
   } else {
     explicit_step.emplace(world, surfaces);
   }
+}
+
+int PotentialMemory::max_halvings() const {
+  return implicit_step ? max_implicit_halvings : max_potential_halvings;
+}
+
+void PotentialMemory::find_contacts_at(const WorldState& state) {
+  finder.find(state.positions, state.positions, 0.0, pairs);
+  find_active(surfaces, state.positions, pairs, active);
 }
 
 std::optional<Divergence> potential_step(World& world, StepWorkspace& workspace) {

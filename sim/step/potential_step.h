@@ -30,6 +30,10 @@ inline constexpr int max_implicit_halvings = 4;
 struct PotentialMemory {
   explicit PotentialMemory(const World& world);
 
+  int max_halvings() const;
+  /// In `active`.
+  void find_contacts_at(const WorldState& state);
+
   struct Start {
     WorldState state;
     std::vector<RigidState> boxes;  // all
