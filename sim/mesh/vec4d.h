@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -99,6 +100,10 @@ bool all_of_lanes(Comparison lanes) {
 }
 
 inline double sum_of_lanes(Vec4d row) { return row[0] + row[1] + row[2] + row[3]; }
+inline double greatest_lane(Vec4d lanes) {
+  return std::max(std::max(lanes[0], lanes[1]), std::max(lanes[2], lanes[3]));
+}
+inline double smallest_lane(Vec4d lanes) { return -greatest_lane(-lanes); }
 
 inline Vec4d to_vec4d(const Vec3& v) { return Vec4d{v.x(), v.y(), v.z(), 0.0}; }
 inline Vec3 to_vec3(Vec4d row) { return {row[0], row[1], row[2]}; }
@@ -114,6 +119,11 @@ inline double dot(Vec4d a, Vec4d b) {
 struct Vec3x4 {
   Vec4d x, y, z;
 };
+
+/// Of each of four vertices.
+inline Vec4d dots(Vec4d direction, const Vec3x4& vertices) {
+  return fma(direction[0], vertices.x, fma(direction[1], vertices.y, direction[2] * vertices.z));
+}
 
 inline Vec3x4 to_columns(Vec4d a, Vec4d b, Vec4d c, Vec4d d) {
   const Vec4d xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
