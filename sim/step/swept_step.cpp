@@ -11,7 +11,8 @@
 #include "sim/step/swept/alone_on_ground.h"
 #include "sim/step/swept/end_contacts.h"
 #include "sim/step/swept/excess_work.h"
-#include "sim/step/swept/free_impacts.h"
+#include "sim/step/swept/impacts/free_impacts.h"
+#include "sim/step/swept/impacts/hits_apart.h"
 #include "sim/step/swept/returned_energy.h"
 #include "sim/step/swept/shift_boxes.h"
 #include "sim/step/swept/start_aims.h"
@@ -120,7 +121,8 @@ class SweptStep {
     if (!m_.touched_asleep.empty()) return touched_asleep();
     if (auto squeezed = find_squeezed_box(world_, bodies_, m_.contacts)) return squeezed;
     std::size_t first_new = 0;  // contact that was not yet solved for
-    for (int round = 0; round < max_rounds; ++round) {
+    int rounds = max_rounds;
+    for (int round = 0; round < rounds; ++round) {
       bool collides = false;
       if (!m_.contacts.empty()) {
         std::optional<Divergence> failed;
@@ -136,9 +138,16 @@ class SweptStep {
         }
       }
       first_new = m_.contacts.size();
-      run_(Stage::find_contacts, [&] { collides = search_.find_collisions(); });
+      run_(Stage::find_contacts, [&] {
+        collides = search_.find_collisions();
+        // Parts of a step, in which boxes turn by less, are for those that this does not help.
+        const bool may_aim_again = fraction_ == 1.0 && rounds == max_rounds;
+        if (collides || !may_aim_again || !search_.find_missed()) return;
+        ++rounds;
+        collides = true;
+      });
       if (!m_.touched_asleep.empty()) return touched_asleep();
-      const bool was_last = round + 1 == max_rounds;
+      const bool was_last = round + 1 == rounds;
       if (!collides || (was_last && !search_.blocked())) {
         if (hits_twice()) return hit_twice();
         std::optional<Divergence> divergence;

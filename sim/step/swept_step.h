@@ -6,11 +6,13 @@
 // RATTLE (Andersen 1983) keeps equations between positions and velocities, here for inequalities:
 // what contacts do is the work of impulses, and these act along lines between bodies, so that
 // momentum is kept. Only boxes too near each other are also shifted (shift_boxes.h), and
-// boxes that meet nothing else are hit at the moment at which they meet (free_impacts.h).
+// boxes that meet nothing else but a floor are hit at the moment at which they meet
+// (impacts/free_impacts.h).
 //
 // The first impulses are computed for features that move along straight lines. Whether surfaces
 // meet on their ways is then looked at (time_of_meeting); if they do, the impulses are computed
 // once more with what was found, up to four times, and if that does not help, the step is halved.
+// Once more also for boxes that they have turned away from what stopped these.
 #pragma once
 
 #include <optional>

@@ -6,8 +6,6 @@
 
 #include "sim/collision/box_contact.h"
 #include "sim/collision/separating_axis.h"
-#include "sim/rigid/inertia.h"
-#include "sim/rigid/rigid_motion.h"
 
 namespace pneuma::sim {
 namespace {
@@ -21,42 +19,6 @@ constexpr double max_looks = 32;
 constexpr double any_distance = std::numeric_limits<double>::infinity();
 
 }  // namespace
-
-ImpactSide::ImpactSide(const RigidBox& box, const RigidState& start, bool moves,
-                       const Vec3& gravity)
-    : box_(&box), gravity_(gravity), start_(start), moves_(moves), spin_(spin(box, start)) {}
-
-RigidState ImpactSide::after(double duration) const {
-  return moves_ ? moved(start_, spin_, 0.0, duration) : start_;
-}
-
-RigidState ImpactSide::after(const RigidState& from, const BoxChange& change, double since,
-                             double time) const {
-  RigidState state = from;
-  state.velocity += to_vec3(change.velocity);
-  state.angular_velocity += to_vec3(change.angular_velocity);
-  return moved(state, spin(*box_, state), since, time);
-}
-
-RigidState ImpactSide::moved(const RigidState& from, const Vec3& angular_momentum, double since,
-                             double time) const {
-  const double duration = time - since;
-  RigidState state = from;
-  state.position += duration * (from.velocity + 0.5 * (since + time) * gravity_);
-  state.orientation = turned_freely(*box_, from.orientation, angular_momentum, duration);
-  const Mat3 axes = state.orientation.toRotationMatrix();
-  const Vec3 inverse = body_inertia(*box_).cwiseInverse();
-  state.angular_velocity = axes * inverse.asDiagonal() * axes.transpose() * angular_momentum;
-  return state;
-}
-
-double ImpactSide::fastest_turn() const {
-  return moves_ ? spin_.norm() / body_inertia(*box_).minCoeff() : 0.0;
-}
-
-OrientedBox ImpactSide::placed(const RigidState& state) const {
-  return {state.position, state.orientation.toRotationMatrix(), 0.5 * box_->size};
-}
 
 /// Of the sides in free motion: of boxes along the axis that separates them most.
 FreeImpact::Separation FreeImpact::separation(double time) const {
@@ -72,7 +34,7 @@ double FreeImpact::fastest(const Vec3& axis) const {
   const auto& [first, second] = sides_;
   Vec3 velocity = first.start().velocity;
   double turning = first.fastest_turn() * first.half_diagonal();
-  if (second.moves()) {
+  if (!second.is_ground()) {
     velocity -= second.start().velocity;
     turning += second.fastest_turn() * second.half_diagonal();
   }
@@ -84,7 +46,7 @@ FreeImpact::Result FreeImpact::find_time() {
   const double tolerance = time_tolerance * together_;
   Separation between = separation(0.0);
   double apart = between.distance - wanted_;
-  if (apart < 0.0) return Result::none;
+  if (apart < -together_) return Result::none;
   for (int i = 0; i < max_tries && apart > tolerance && time_ < step_; ++i) {
     time_ = std::min(step_, time_ + apart / fastest(between.axis));
     between = separation(time_);
@@ -117,7 +79,7 @@ void FreeImpact::for_each_near(const std::array<RigidState, 2>& states, double r
   }
 }
 
-bool FreeImpact::find_points(const ContactMaterial& material, std::vector<SweptImpulse>& impulses,
+bool FreeImpact::find_points(double friction, std::vector<SweptImpulse>& impulses,
                              std::vector<ImpactPoint>& points) {
   impulses.clear();
   points.clear();
@@ -125,56 +87,85 @@ bool FreeImpact::find_points(const ContactMaterial& material, std::vector<SweptI
     if (!sides_[i].moves()) continue;
     changes_[i] = make_box_change(sides_[i].box(), states_[i].position, states_[i].orientation);
   }
-  bool all_bounce = true;
+  bool any_hit = false;
   for_each_near(states_, wanted_ + together_, [&](const Vec3& at, const Vec3& normal) {
     const Vec3 velocity = velocity_at(at, states_) + time_ * gravity_;
-    const double approach = -normal.dot(velocity);
-    all_bounce = all_bounce && material.restitution * approach >= min_bounce_speed;
-    impulses.emplace_back(side(0, at), side(1, at), normal, material.friction);
-    points.push_back({.velocity = velocity, .speed = -approach, .approach = approach, .at = at});
+    const double speed = normal.dot(velocity), approach = std::max(0.0, -speed);
+    any_hit = any_hit || approach > 0.0;
+    impulses.emplace_back(side(0, at), side(1, at), normal, friction);
+    points.push_back(
+        {.velocity = velocity,
+         .speed = speed,
+         .approach = approach,
+         .at = at,
+         .driven = sides_[1].moves() ? Vec3(Vec3::Zero()) : velocity_of(1, at, states_[1])});
   });
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (any_hit && sides_[i].is_on_floor()) add_floor(i, impulses, points);
+  }
   for (std::size_t i = 0; i < points.size(); ++i) points[i].impulse = &impulses[i];
-  return all_bounce && !points.empty();
+  return any_hit;
+}
+
+void FreeImpact::add_floor(std::size_t i, std::vector<SweptImpulse>& impulses,
+                           std::vector<ImpactPoint>& points) {
+  const ImpactFloor& floor = sides_[i].floor();
+  for (const Vec3& local : std::span(floor.points).first(floor.count)) {
+    const Vec3 at = states_[i].position + states_[i].orientation * local;
+    const Vec3 velocity =
+        velocity_of(i, at, states_[i]) + time_ * sides_[i].gravity() - floor.velocity;
+    impulses.emplace_back(side(i, at), SweptSide(), floor.normal, floor.friction);
+    points.push_back({.velocity = velocity,
+                      .speed = floor.normal.dot(velocity),
+                      .at = at,
+                      .driven = floor.velocity});
+  }
 }
 
 SweptSide FreeImpact::side(std::size_t i, const Vec3& point) {
   return sides_[i].moves() ? SweptSide(changes_[i], point) : SweptSide();
 }
 
+/// m/s.
+Vec3 FreeImpact::velocity_of(std::size_t i, const Vec3& point, const RigidState& state) const {
+  if (sides_[i].is_ground()) return Vec3::Zero();
+  return state.velocity + state.angular_velocity.cross(point - state.position);
+}
+
 /// m/s, of the first side against the second.
 Vec3 FreeImpact::velocity_at(const Vec3& point, const std::array<RigidState, 2>& states) const {
-  const auto of = [&](std::size_t side) -> Vec3 {
-    if (!sides_[side].moves()) return Vec3::Zero();
-    const RigidState& state = states[side];
-    return state.velocity + state.angular_velocity.cross(point - state.position);
-  };
-  return of(0) - of(1);
+  return velocity_of(0, point, states[0]) - velocity_of(1, point, states[1]);
 }
 
 void FreeImpact::finish(std::span<const ImpactPoint> points) {
-  for (const ImpactPoint& point : points) work_ += point.impulse->work(point.velocity);
-  for (std::size_t i = 0; i < 2; ++i) {
-    ends_[i] =
-        sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], time_, step_) : states_[i];
+  for (const ImpactPoint& point : points) {
+    work_ += point.impulse->work(point.velocity);
+    driven_work_ += point.impulse->given().dot(point.driven);
   }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!sides_[i].is_ground()) ends_[i] = after_impact(i, step_);
+  }
+}
+
+/// `time`: s, since the start of the step.
+RigidState FreeImpact::after_impact(std::size_t i, double time) const {
+  return sides_[i].moves() ? sides_[i].after(states_[i], changes_[i], time_, time)
+                           : sides_[i].after(time);
 }
 
 /// m, by which the sides move against each other in the time left, at most.
 double FreeImpact::motion_left() const {
   const auto& [first, second] = sides_;
-  Vec3 velocity = ends_[0].velocity;
-  if (second.moves()) velocity -= ends_[1].velocity;
-  double turned = first.half_diagonal() * ends_[0].angular_velocity.norm();
-  if (second.moves()) turned += second.half_diagonal() * ends_[1].angular_velocity.norm();
+  const Vec3 velocity = ends_[0].velocity - ends_[1].velocity;
+  const double turned = first.half_diagonal() * ends_[0].angular_velocity.norm() +
+                        second.half_diagonal() * ends_[1].angular_velocity.norm();
   return time_left() * (velocity.norm() + step_ * gravity_.norm() + turned);
 }
 
 /// `duration`: s, since the impact.
 bool FreeImpact::overlap_after(double duration) const {
   const auto placed = [&](std::size_t i) {
-    return sides_[i].placed(sides_[i].moves()
-                                ? sides_[i].after(states_[i], changes_[i], time_, time_ + duration)
-                                : states_[i]);
+    return sides_[i].placed(after_impact(i, time_ + duration));
   };
   return find_box_contact(placed(0), placed(1)).has_value();
 }

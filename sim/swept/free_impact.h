@@ -1,74 +1,35 @@
-// One impact of boxes that meet nothing else in a step.
+// One impact of boxes that meet nothing else in a step, but floors that they slide on.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "sim/collision/oriented_box.h"
-#include "sim/rigid/rigid_state.h"
 #include "sim/swept/impact_path.h"
+#include "sim/swept/impact_side.h"
 #include "sim/world/contact_material.h"
 
 namespace pneuma::sim {
-
-/// A box that moves freely, one that nothing moves, or the ground.
-class ImpactSide {
- public:
-  /// Refers to the box; `start`: its state at the start of the step.
-  ImpactSide(const RigidBox& box, const RigidState& start, bool moves, const Vec3& gravity);
-  /// The ground.
-  ImpactSide() = default;
-
-  bool is_ground() const { return box_ == nullptr; }
-  bool moves() const { return moves_; }
-  const RigidBox& box() const { return *box_; }
-
-  /// The state after `duration` s of free motion from the start of the step. Gravity moves it, and
-  /// its velocity stays what it is without gravity and drag.
-  RigidState after(double duration) const;
-  /// The state at `time` s since the start of the step, of one that was `from` at `since` when
-  /// impulses changed it.
-  RigidState after(const RigidState& from, const BoxChange& change, double since,
-                   double time) const;
-
-  OrientedBox placed(const RigidState& state) const;
-  Bounds bounds(const RigidState& state) const { return sim::bounds(placed(state)); }
-  double half_diagonal() const { return 0.5 * box_->size.norm(); }
-  const RigidState& start() const { return start_; }
-  /// rad/s, at most.
-  double fastest_turn() const;
-
- private:
-  RigidState moved(const RigidState& from, const Vec3& angular_momentum, double since,
-                   double time) const;
-
-  const RigidBox* box_ = nullptr;
-  Vec3 gravity_ = Vec3::Zero();
-  RigidState start_;
-  bool moves_ = false;
-  Vec3 spin_ = Vec3::Zero();
-};
 
 /// Its first side moves. Its points are where the sides are nearest when it happens.
 class FreeImpact {
  public:
   /// In a step of `step` s, of sides that keep the distance `wanted` (m). Points no further from
   /// being hit than `together` (m) are hit as well.
-  FreeImpact(const std::array<ImpactSide, 2>& sides, double wanted, double together, double step,
-             const Vec3& gravity)
+  FreeImpact(const std::array<ImpactSide, 2>& sides, double wanted, double together, double step)
       : sides_(sides),
         wanted_(wanted),
         together_(together),
         step_(step),
-        gravity_(sides[1].moves() ? Vec3::Zero() : gravity) {}
+        gravity_(sides[0].gravity() - sides[1].gravity()) {}
 
   /// Finds the time of impact, or that the sides pass each other; neither, if they begin too near
   /// or it takes too long.
   enum class Result { none, hit, pass };
   Result find_time();
-  /// Fills the points of the impact and their impulses. False unless all of them bounce.
-  bool find_points(const ContactMaterial& material, std::vector<SweptImpulse>& impulses,
+  /// Fills the points of the impact and their impulses, and then those of floors, which no side
+  /// approaches. False if no side approaches any of the former.
+  bool find_points(double friction, std::vector<SweptImpulse>& impulses,
                    std::vector<ImpactPoint>& points);
   /// Finds how the step ends, and the work, from impulses that are solved for.
   void finish(std::span<const ImpactPoint> points);
@@ -79,6 +40,8 @@ class FreeImpact {
   const RigidState& at_end(std::size_t side) const { return ends_[side]; }
   double time_left() const { return step_ - time_; }  // s
   double work() const { return work_; }               // J
+  /// J, of what is moved, by its velocity.
+  double driven_work() const { return driven_work_; }
   /// Whether the sides would meet again: they overlap in the time left, or are nearer than `near`
   /// (m) at its end and approach.
   bool meets_again(double near) const;
@@ -90,12 +53,16 @@ class FreeImpact {
   };
   Separation separation(double time) const;
   double fastest(const Vec3& axis) const;
+  RigidState after_impact(std::size_t i, double time) const;
   double motion_left() const;
   bool overlap_after(double duration) const;
   template <class Visit>
   void for_each_near(const std::array<RigidState, 2>& states, double reach,
                      const Visit& visit) const;
+  void add_floor(std::size_t i, std::vector<SweptImpulse>& impulses,
+                 std::vector<ImpactPoint>& points);
   SweptSide side(std::size_t i, const Vec3& point);
+  Vec3 velocity_of(std::size_t i, const Vec3& point, const RigidState& state) const;
   Vec3 velocity_at(const Vec3& point, const std::array<RigidState, 2>& states) const;
 
   const std::array<ImpactSide, 2>& sides_;
@@ -107,7 +74,7 @@ class FreeImpact {
   std::array<RigidState, 2> states_;  // then
   std::array<RigidState, 2> ends_;
   std::array<BoxChange, 2> changes_;
-  double work_ = 0.0;
+  double work_ = 0.0, driven_work_ = 0.0;
 };
 
 }  // namespace pneuma::sim

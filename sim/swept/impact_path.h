@@ -24,6 +24,7 @@ struct ImpactPoint {
   double approach = 0.0;         // m/s, with which it is hit; 0: it is not, and does not bounce
   double parting = 0.0;          // m/s, at which the sides part at least, of what is not hit
   Vec3 at = Vec3::Zero();        // m, where it is
+  Vec3 driven = Vec3::Zero();    // m/s, of a second side that is moved
 };
 
 class ImpactPath {

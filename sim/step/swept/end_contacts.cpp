@@ -19,6 +19,7 @@ struct Given {
   bool is_known = false;
   bool is_of_end = false;  // the speed with which they meet
   bool is_near = false;    // of the first contact that they made
+  bool is_floor = false;   // likewise
   double approach = 0.0;   // m/s, of that
   double drift = 0.0;      // m/s, of that
   double normal = 0.0;     // N s, of all
@@ -59,6 +60,7 @@ class EndContacts {
     for (int i = candidate.contact; i >= 0; i = m_.first_contacts[at(i)].previous) {
       given.is_known = true;
       given.is_near = m_.first_contacts[at(i)].is_near;
+      given.is_floor = m_.first_contacts[at(i)].is_floor;
       given.approach = m_.first_contacts[at(i)].approach;
       given.drift = m_.first_contacts[at(i)].drift;
       given.normal += m_.first_impulses[at(i)].normal_impulse();
@@ -81,7 +83,7 @@ class EndContacts {
       if (!has_met(candidate)) touch(candidate);
     }
     const auto touched = std::span(m_.contacts).subspan(before);
-    if (touched.empty() || !motion_.is_rigid(touched.front())) return;
+    if (touched.empty() || !keep_shapes(touched.front())) return;
     if (std::ranges::none_of(touched, is_hit)) return;
     for (const SweptCandidate& candidate : candidates) {
       if (!has_met(candidate)) hit_as_well(candidate);
@@ -96,15 +98,14 @@ class EndContacts {
     auto contact = places_.place_at_end(candidate, before.strongest);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
-    if (!acted && is_left_to_next_step(*contact, both.restitution)) return;
+    if (!acted && !before.is_floor && is_left_to_next_step(*contact, both.restitution)) return;
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
     impulse.squeeze(step() * squeeze_between_walls(world_, m_, *contact));
     if (acted) impulse.start_from(before.normal, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
-    const bool arrives =
-        !acted && motion_.is_rigid(*contact) && (!before.is_known || flew(*contact));
+    const bool arrives = !acted && keep_shapes(*contact) && (!before.is_known || flew(*contact));
     set_parting(arrives ? hit_at_end(*contact, true) : before, both.restitution, *contact);
     add_at_end(*contact, impulse, before.impulse);
   }
@@ -112,8 +113,8 @@ class EndContacts {
   /// Points of boxes that one of them was hit beside, and that have room: stopped here, they would
   /// lose what a bounce returns.
   bool is_left_to_next_step(const SweptContact& contact, double restitution) const {
-    return motion_.is_rigid(contact) && restitution > elastic &&
-           contact.distance > contact.wanted && !flew(contact);
+    return keep_shapes(contact) && restitution > elastic && contact.distance > contact.wanted &&
+           !flew(contact);
   }
 
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
@@ -171,7 +172,7 @@ class EndContacts {
   /// ways as it leaves and as it comes back, and bounce for ever. At the end of a step, and of what
   /// is near as it begins, the speed may be that of such a fall, more than once if it turns.
   double least_bounce(const Given& before, const SweptContact& contact) const {
-    if (!motion_.is_rigid(contact)) return min_bounce_speed;
+    if (!keep_shapes(contact)) return min_bounce_speed;
     const double fallen = step() * world_.settings.gravity.norm();
     const bool may_be_fall = before.is_of_end || before.is_near;
     return std::max(min_bounce_speed, may_be_fall ? least_of_falls * fallen : 0.5 * fallen);
@@ -180,7 +181,7 @@ class EndContacts {
   void set_parting(const Given& before, double restitution, SweptContact& contact) const {
     const double bounce = restitution * before.approach;
     // Soft bodies that touch at the start are pressed together, whatever their vertices' speed.
-    const bool may_bounce = before.is_known && (!before.is_near || motion_.is_rigid(contact));
+    const bool may_bounce = before.is_known && (!before.is_near || keep_shapes(contact));
     if (!contact.is_near) {
       contact.parting = -before.approach;
       contact.returns_energy = true;
@@ -196,6 +197,11 @@ class EndContacts {
     }
   }
 
+  /// Two boxes, or one and an obstacle or the ground.
+  bool keep_shapes(const SweptContact& contact) const {
+    return contact.second.body == swept_ground ? m_.bodies.is_rigid(contact.first.body)
+                                               : m_.bodies.keep_shapes(pair_of(contact));
+  }
   double step() const { return time_step(world_.settings); }
 
   const World& world_;

@@ -60,7 +60,7 @@ struct Meeting {
   double fraction = 0.0;  // of the step
 };
 
-/// A point in which boxes that met nothing else have met within the step (free_impacts.h).
+/// A point in which boxes that met nothing else have met within the step (impacts/free_impacts.h).
 struct MetFreely {
   int first = 0;
   int second = 0;
@@ -87,9 +87,10 @@ struct SunkVertex {
 /// What a box that moves freely has contacts with at the start of the step.
 struct Partner {
   int contacts = 0;
-  std::size_t first_contact = 0;
-  int body = swept_ground;   // of the last of them
-  bool is_only_one = false;  // of all of them, and not near yet
+  int others = 0;  // of those with what it does not rest on
+  std::size_t first_contact = 0, first_of_others = 0;
+  int body = swept_ground;   // of the last of the others
+  bool is_only_one = false;  // of all of these, and not near yet
   bool is_hit = false;       // in one of them it may be, and bounce
   double restitution = 1.0;  // the least of those in which it may be hit
 };

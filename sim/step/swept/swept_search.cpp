@@ -168,6 +168,20 @@ bool SweptSearch::find_collisions() {
   return collided;
 }
 
+bool SweptSearch::find_missed() {
+  bool any = false;
+  for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+    SweptContact& contact = m_.contacts[i];
+    if (contact.second.body == swept_ground || contact.is_near) continue;
+    if (!bodies_.keep_shapes(pair_of(contact))) continue;
+    const double left = contact.distance + contact.normal.dot(motion_.displacement(contact));
+    contact.is_missed = m_.impulses[i].normal_impulse() > 0.0 &&
+                        left > motion_.near_distance(contact.first.body, contact.second.body);
+    any = any || contact.is_missed;
+  }
+  return any;
+}
+
 /// Finds when each box first meets something that stands still: held there, it may not meet what it
 /// would later. A box that falls onto tiles, and is held by their tops, comes to none of their
 /// sides.

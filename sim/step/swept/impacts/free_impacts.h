@@ -1,10 +1,12 @@
-// Impacts of boxes that meet nothing else, at the moment at which they happen. Private to sim/step.
+// Impacts of boxes that meet nothing else but a floor that they slide on (lone_pairs.h), at the
+// moment at which they happen. Private to sim/step.
 //
 // The impulses of swept_step act at the start and at the end of a step, where boxes lie otherwise
 // than in between: one that turns is hit with an arm that is off by what it turns in the step. So
 // the step is cut for a box that hits the ground, or another box, and meets nothing else: they move
-// freely until then, get the impulse of the impact (impact_path.h) at the place where it happens,
-// and move on freely. As in free motion, momentum and angular momentum are kept to rounding.
+// freely, or along the floor, until then, get the impulse of the impact (impact_path.h) at the
+// place where it happens, and move on freely. As in free motion, momentum and angular momentum are
+// kept to rounding. A floor bears the weight of the whole step at its end.
 #pragma once
 
 #include "sim/step/swept/contact_motion.h"
@@ -21,12 +23,5 @@ namespace pneuma::sim {
 /// parts of this `fraction` of a step.
 bool meet_freely(World& world, SweptMemory& memory, const MotionStart& start, double tolerance,
                  double fraction);
-
-/// Whether a box that moves freely is hit by two others, one after the other in the step, or by one
-/// as it comes near another, and bounces off by more than half of its speed: by one impact of all
-/// it would do otherwise. Of the contacts of the start or of those of the end; not of heaps,
-/// nor in a `fraction` of a step that is too short for it.
-bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& motion,
-                  double fraction);
 
 }  // namespace pneuma::sim

@@ -1,0 +1,84 @@
+#include "sim/step/swept/impacts/hits_apart.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/world/sleep.h"
+
+namespace pneuma::sim {
+namespace {
+
+/// What bounces by less loses most of its motion anyway.
+constexpr double least_restitution = 0.5;
+/// m/s, and of what a step of free fall gains: slower impacts, in a heap that comes to rest, are
+/// not worth parts of a step.
+constexpr double min_approach = 0.1, least_of_fall = 2.0;
+/// Of a heap of more boxes that bounce at once each step would be halved, for little. A box that
+/// loses less than this part of its speed counts for less, and one that keeps all for nothing.
+constexpr double most_boxes = 12.0, loss_of_one = 0.1;
+
+/// m/s.
+double least_approach(const Settings& settings) {
+  return std::max(min_approach, least_of_fall * time_step(settings) * settings.gravity.norm());
+}
+
+}  // namespace
+
+bool bounces_well(const World& world, const ContactMotion& motion, const SweptContact& contact) {
+  return motion.material(contact).restitution > least_restitution &&
+         contact.approach > least_approach(world.settings);
+}
+
+bool are_few(std::span<const Partner> boxes) {
+  double sum = 0.0;
+  for (const Partner& box : boxes) {
+    if (box.is_hit) sum += std::min(1.0, (1.0 - box.restitution) / loss_of_one);
+  }
+  return sum <= most_boxes;
+}
+
+bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& motion,
+                  double fraction) {
+  if (fraction <= least_part) return false;
+  const auto bounces = [&](const SweptContact& contact) {
+    return motion.is_rigid(contact) && motion.material(contact).restitution > least_restitution;
+  };
+  const double least = least_approach(world.settings);
+  const auto meets = [&](const SweptContact& contact) {
+    return (is_hit(contact) || !contact.is_near) && contact.approach > least;
+  };
+  const auto hits = [&](const SweptContact& contact) { return meets(contact) && bounces(contact); };
+  if (std::ranges::none_of(memory.contacts, hits)) return false;
+  memory.partners.assign(at(memory.bodies.count()), {});
+  const auto each_box = [&](const SweptContact& contact, const auto& visit) {
+    const int first = contact.first.body, second = contact.second.body;
+    for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
+      const bool moves = memory.bodies.is_box(body) && !is_fixed(world, body);
+      if (moves) visit(memory.partners[at(body)], other);
+    }
+  };
+  bool twice = false;
+  for (const SweptContact& contact : memory.contacts) {
+    if (!meets(contact)) continue;
+    const double restitution = motion.material(contact).restitution;
+    const bool bounces_back = bounces(contact);
+    each_box(contact, [&](Partner& partner, int other) {
+      partner.restitution = std::min(partner.restitution, restitution);
+      if (!bounces_back) return;
+      partner.is_hit = true;
+      twice = twice || (partner.contacts > 0 && partner.body != other);
+      partner.body = other;
+      ++partner.contacts;
+    });
+  }
+  if (!are_few(memory.partners)) return false;
+  for (const SweptContact& contact : memory.contacts) {
+    if (!contact.is_new || !bounces(contact)) continue;
+    each_box(contact, [&](const Partner& partner, int other) {
+      twice = twice || (partner.contacts > 0 && partner.body != other);
+    });
+  }
+  return twice;
+}
+
+}  // namespace pneuma::sim

@@ -1,0 +1,78 @@
+// Boxes of which each meets one other body in a step, and nothing else but a floor that it slides
+// on. Private to sim/step.
+#pragma once
+
+#include <optional>
+
+#include "sim/step/swept/contact_motion.h"
+#include "sim/step/swept/swept_memory.h"
+#include "sim/swept/impact_side.h"
+#include "sim/world/sleep.h"
+
+namespace pneuma::sim {
+
+/// Of the contacts of the start, in the memory. Fills its `partners`.
+class LonePairs {
+ public:
+  /// Refers to all of them.
+  LonePairs(const World& world, SweptMemory& memory, const MotionStart& start,
+            const ContactMotion& motion)
+      : world_(world), m_(memory), start_(start), motion_(motion) {}
+
+  /// For each contact that is the first of such a pair. `meet` may change the contacts.
+  template <class Meet>
+  void for_each(const Meet& meet) {
+    bool any = false;
+    for (const SweptContact& contact : m_.contacts) any = any || may_hit(contact);
+    if (!any) return;
+    find_partners();
+    for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
+      if (may_hit(m_.contacts[i]) && is_first_of_lone_pair(i)) meet(m_.contacts[i]);
+    }
+  }
+
+  bool moves_freely(int body) const { return m_.bodies.is_box(body) && !is_fixed(world_, body); }
+  /// It keeps where it is, or is moved, whatever hits it.
+  bool is_wall(int body) const;
+  bool stands(int body) const;
+
+  /// Of a box that moves freely: `visit(contact, other body)`.
+  template <class Visit>
+  void for_each_contact(int body, const Visit& visit) const {
+    const Partner& partner = m_.partners[at(body)];
+    std::size_t i = partner.first_contact;
+    for (int left = partner.contacts; left > 0; ++i) {
+      const SweptContact& contact = m_.contacts[i];
+      if (contact.first.body != body && contact.second.body != body) continue;
+      --left;
+      visit(i, contact.first.body == body ? contact.second.body : contact.first.body);
+    }
+  }
+  /// Whether it neither comes to the other, which bears it, nor leaves it.
+  bool rests(const SweptContact& contact, int other) const;
+  bool rests_on(int body, int other) const;
+  /// By gravity along the normal: then the end of a step may be where the sides come to rest.
+  bool is_pulled(const SweptContact& contact) const;
+
+  ImpactSide side(int body, const ImpactFloor& floor = {}) const;
+  /// With the floor that it slides on. None if it tilts there, or lies on several.
+  std::optional<ImpactSide> side_on_floor(int body) const;
+  /// Whether one of them passes over the other, which is level with its floor.
+  static bool are_level(const std::array<ImpactSide, 2>& sides, const SweptContact& contact);
+
+ private:
+  bool may_hit(const SweptContact& contact) const;
+  double greatest_of_rest() const;
+  void find_partners();
+  void add_contact(std::size_t number, int body, Partner& partner) const;
+  bool meets_only(int body, int other) const;
+  bool is_first_of_lone_pair(std::size_t number) const;
+  bool lies_flat(const RigidState& start, const Vec3& up) const;
+
+  const World& world_;
+  SweptMemory& m_;
+  const MotionStart& start_;
+  const ContactMotion& motion_;
+};
+
+}  // namespace pneuma::sim
