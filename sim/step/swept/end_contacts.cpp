@@ -117,6 +117,16 @@ class EndContacts {
            !flew(contact);
   }
 
+  /// What touch() has left.
+  std::optional<SweptContact> left_to_next_step(const SweptCandidate& candidate,
+                                                const Given& before) const {
+    if (before.acted || before.is_floor) return std::nullopt;
+    auto contact = places_.place_at_end(candidate, nullptr);
+    if (!contact || !is_left_to_next_step(*contact, motion_.material(*contact).restitution))
+      return std::nullopt;
+    return contact;
+  }
+
   /// Nothing has pushed it in this step: it has the speed with which it arrives.
   bool flew(int body) const { return body == swept_ground || m_.is_pushed[at(body)] == 0; }
   bool flew(const SweptContact& contact) const {
@@ -148,8 +158,10 @@ class EndContacts {
   }
 
   void hit_as_well(const SweptCandidate& candidate) {
-    if (given_at_start(candidate).normal > 0.0) return;
+    const Given before = given_at_start(candidate);
+    if (before.normal > 0.0) return;
     auto contact = places_.place_beside_hit(candidate);
+    if (!contact) contact = left_to_next_step(candidate, before);
     if (!contact) return;
     const ContactMaterial both = motion_.material(*contact);
     set_parting(hit_at_end(*contact, false), both.restitution, *contact);

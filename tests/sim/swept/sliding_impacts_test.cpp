@@ -148,6 +148,22 @@ TEST(SlidingImpact, OfElasticBoxesInAFrameKeepsTheirEnergy) {
   }
 }
 
+/// The hit comes as a step ends, at the distance that they keep: rounding chooses which corners are
+/// nearer, and the others must not wait for the next step.
+TEST(SlidingImpact, OfFacesAtTheEndOfAStepDoesNotTurnThem) {
+  World world = smooth_ground(240);
+  for (const double x : {-1.2, 0.0, 0.525}) {
+    RigidBox box = make_rigid(Vec3::Constant(0.5), {x, 0.0, 0.25});
+    box.surface = smooth(1.0);
+    box.rho_g = 0.0;
+    world.rigid.push_back(box);
+  }
+  world.rigid[0].velocity = {4.8, 0.0, 0.0};
+  ASSERT_FALSE(run(world, 0.5));
+  EXPECT_NEAR(world.rigid[2].velocity.x(), 4.8, 1e-6);
+  for (const RigidBox& box : world.rigid) EXPECT_LT(box.angular_velocity.norm(), 1e-6);
+}
+
 /// Of two boxes on the ground, which bears both.
 TEST(SlidingImpact, OfTwoBoxesKeepsMomentumAlongTheGround) {
   for (const int steps_per_second : {60, 240}) {
