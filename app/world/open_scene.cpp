@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 
 #include "app/files/find_model.h"
 #include "app/files/find_scene.h"
@@ -14,6 +15,7 @@
 #include "app/world/build_world.h"
 #include "app/world/fastest_motion.h"
 #include "app/world/scene_warnings.h"
+#include "app/world/smallest_box.h"
 #include "app/world/start_overlap.h"
 #include "app/world/step_advice.h"
 #include "assets/model.h"
@@ -53,6 +55,10 @@ std::string why_shorter(const FastestMotion& motion) {
                      motion.speed, motion.soft, motion.extent);
 }
 
+std::string why_shorter(const SmallestBox& box) {
+  return fmt::format("it falls by its {:.3g} m across in {:.3g} s", box.extent, box.fall_time);
+}
+
 struct ChosenStep {
   int steps_per_second = 0;
   std::string body = {}, why = {};  // empty: the scene's
@@ -70,10 +76,12 @@ ChosenStep shortest_step(int of_scene, const std::vector<StepAdvice>& advices) {
 }
 
 /// A multiple of what is chosen: that fits frames, and is as stable.
-void shorten(ChosenStep& chosen, const FastestMotion& motion) {
-  const double factor = std::ceil(motion.steps_per_second() / chosen.steps_per_second);
+template <class Need>
+void shorten(ChosenStep& chosen, const std::optional<Need>& need) {
+  if (!need) return;
+  const double factor = std::ceil(need->steps_per_second() / chosen.steps_per_second);
   if (factor <= 1.0) return;
-  chosen = {static_cast<int>(factor) * chosen.steps_per_second, motion.body, why_shorter(motion)};
+  chosen = {static_cast<int>(factor) * chosen.steps_per_second, need->body, why_shorter(*need)};
 }
 
 void choose_step(scenes::Scene& scene) {
@@ -86,7 +94,8 @@ void choose_step(scenes::Scene& scene) {
   if (is_refused) return;
   int& steps = scene.settings.steps_per_second;
   ChosenStep chosen = shortest_step(steps, advices);
-  if (const auto motion = fastest_motion(world, scene.duration)) shorten(chosen, *motion);
+  shorten(chosen, fastest_motion(world, scene.duration));
+  shorten(chosen, smallest_box(world));
   if (chosen.why.empty()) return;
   scene.warnings.push_back(to_string(scenes::diagnostic_at(
       place_of(scene, chosen.body),

@@ -86,14 +86,15 @@ Section simulation_section(Scene& scene) {
           {"steps_per_second", &settings.steps_per_second, between(1, 1e6), "steps/s",
            "simulation steps; the time step is the inverse; where left out, up to 100,000 "
            "if the small motions of bodies need it, and no run if they need more; up to some 2,000 "
-           "if what is moved would go further in one than a tenth of a soft body"},
+           "if what is moved would go further in one than a tenth of a soft body, or a rigid box "
+           "would fall by its own size in less than six"},
           selector({"method", word(settings.method, methods), any(), "",
                     "paper: all as printed, and no key beside it that it sets; corrected: as "
                     "ERRATA says"}),
           of_method(
               {"integrator", word(settings.integrator, integrators), any(), "",
-               "how soft bodies are stepped; under implicit_euler, but not sdirk2, their free "
-               "spin dies away"}),
+               "how soft bodies are stepped; under implicit_euler and martin, but not sdirk2, "
+               "their free spin dies away"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
           of_method({"ambient_pressure", &scene.ambient_pressure, at_least(0), "Pa",
                      "outside of every body with gas; that of air is 101325"}),
