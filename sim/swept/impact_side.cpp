@@ -15,7 +15,8 @@ ImpactSide::ImpactSide(const RigidBox& box, const RigidState& start, bool moves,
       spin_(spin(box, start)) {
   if (!is_on_floor()) return;
   const Vec3& up = floor.normal;
-  gravity_ -= up.dot(gravity) * up;
+  borne_gravity_ = up.dot(gravity) * up;
+  gravity_ -= borne_gravity_;
   start_.velocity += up.dot(floor.velocity - start.velocity) * up;
   start_.angular_velocity = up.dot(start.angular_velocity) * up;
   spin_ = spin(box, start_);
@@ -34,7 +35,10 @@ RigidState ImpactSide::after(const RigidState& from, const BoxChange& change, do
   RigidState state = from;
   state.velocity += to_vec3(change.velocity);
   state.angular_velocity += to_vec3(change.angular_velocity);
-  return moved(state, spin(*box_, state), since, time);
+  RigidState result = moved(state, spin(*box_, state), since, time);
+  if (leaves_floor(state))
+    result.position += 0.5 * (time - since) * (time - since) * borne_gravity_;
+  return result;
 }
 
 RigidState ImpactSide::moved(const RigidState& from, const Vec3& angular_momentum, double since,

@@ -19,11 +19,14 @@ struct ImpactFloor {
   std::size_t count = 0;
 };
 
+/// m/s: what moves no faster against its floor, along its normal, stays on it.
+inline constexpr double speed_of_rest = 1e-3;
+
 /// A box that moves freely, or along a floor; one that stands still or is moved; or the ground.
 class ImpactSide {
  public:
-  /// Refers to the box; `start`: its state at the start of the step. On a floor it keeps of its
-  /// velocities, and of gravity, what the floor allows.
+  /// Refers to the box; `start`: its state at the start of the step. On a floor it moves along it,
+  /// turns about its normal only, and feels gravity along it, until an impact lifts it.
   ImpactSide(const RigidBox& box, const RigidState& start, bool moves, const Vec3& gravity,
              const ImpactFloor& floor = {});
   /// The ground.
@@ -46,8 +49,14 @@ class ImpactSide {
   Bounds bounds(const RigidState& state) const { return sim::bounds(placed(state)); }
   double half_diagonal() const { return 0.5 * box_->size.norm(); }
   const RigidState& start() const { return start_; }
-  /// m/s^2; zero of what does not move.
+  /// m/s^2, of what moves; on a floor, along it.
   const Vec3& gravity() const { return gravity_; }
+  /// m/s^2, that the floor bears.
+  const Vec3& borne_gravity() const { return borne_gravity_; }
+  /// Whether it does in this state, after an impact.
+  bool leaves_floor(const RigidState& state) const {
+    return is_on_floor() && floor_.normal.dot(state.velocity - floor_.velocity) > speed_of_rest;
+  }
   const ImpactFloor& floor() const { return floor_; }
   bool is_on_floor() const { return floor_.count > 0; }
   /// m, of its highest point in this state along a direction, which has the size 1.
@@ -69,6 +78,7 @@ class ImpactSide {
   const RigidBox* box_ = nullptr;
   ImpactFloor floor_;
   Vec3 gravity_ = Vec3::Zero();
+  Vec3 borne_gravity_ = Vec3::Zero();
   RigidState start_;
   bool moves_ = false;
   Vec3 spin_ = Vec3::Zero();

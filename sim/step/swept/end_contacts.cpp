@@ -211,8 +211,7 @@ class EndContacts {
 
   /// Two boxes, or one and an obstacle or the ground.
   bool keep_shapes(const SweptContact& contact) const {
-    return contact.second.body == swept_ground ? m_.bodies.is_rigid(contact.first.body)
-                                               : m_.bodies.keep_shapes(pair_of(contact));
+    return m_.bodies.keep_shapes(pair_of(contact));
   }
   double step() const { return time_step(world_.settings); }
 

@@ -62,8 +62,8 @@ class SweptSearch {
   /// there is any.
   bool find_collisions();
   /// Marks the contacts that have stopped a box on its way, which then turned away from what it
-  /// came to: not near it at the end, it would get back there what has stopped it. Returns whether
-  /// there are any.
+  /// came to: the end of the step would take their impulses back, as it is not near that then.
+  /// Returns whether there are any.
   bool find_missed();
   /// Of these what must not be; boxes may lie in each other for a while.
   const std::optional<BodyPair>& blocked() const { return blocked_; }

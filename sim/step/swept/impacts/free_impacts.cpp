@@ -20,6 +20,7 @@ namespace {
 constexpr double allowed_turn = 0.5;
 /// Of the skin: what an impact may turn a box into its floor.
 constexpr double allowed_depth = 0.1;
+
 class FreeImpacts {
  public:
   FreeImpacts(World& world, SweptMemory& memory, const MotionStart& start, double tolerance)
@@ -137,9 +138,11 @@ class FreeImpacts {
     return has;
   }
 
-  /// To the impulses at both ends of the step, or to its parts, which may meet freely.
+  /// To the impulses at both ends of the step, or to its parts, which may meet freely. A crowd on
+  /// a floor would halve each step.
   void leave(const SweptContact& contact) {
-    bounces_left_ = bounces_left_ || bounces_well(world_, motion_, contact);
+    if (!bounces_well(world_, motion_, contact)) return;
+    bounces_left_ = bounces_left_ || !pairs_.is_on_floor(contact) || few_touch(m_.partners);
   }
 
   /// Whether the sides may meet others in the step, or turn far.
@@ -219,9 +222,14 @@ class FreeImpacts {
     set_state(box, impact.at_end(side));
     const double step = time_step(world_.settings);
     add_gravity_and_drag(box, world_.settings.gravity, step);
-    // A floor takes at the end of the step what gravity gave a box that it let fall nowhere.
-    const double fallen = step * impact.sides()[side].floor().normal.dot(world_.settings.gravity);
-    m_.work += 0.5 * box.mass * fallen * fallen;
+    const ImpactSide& of = impact.sides()[side];
+    if (of.leaves_floor(impact.at_end(side))) {
+      box.velocity -=
+          (step - impact.time_left()) * of.borne_gravity();  // the floor bore it so long
+    } else {
+      // A floor takes at the end of the step what gravity gave a box that it let fall nowhere.
+      m_.work += 0.5 * box.mass * (step * of.borne_gravity()).squaredNorm();
+    }
     m_.bodies.set_end(world_, body);
   }
 

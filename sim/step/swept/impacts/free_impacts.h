@@ -6,7 +6,8 @@
 // the step is cut for a box that hits the ground, or another box, and meets nothing else: they move
 // freely, or along the floor, until then, get the impulse of the impact (impact_path.h) at the
 // place where it happens, and move on freely. As in free motion, momentum and angular momentum are
-// kept to rounding. A floor bears the weight of the whole step at its end.
+// kept to rounding. A floor bears the weight of the whole step at its end, or until the impact
+// lifts the box.
 #pragma once
 
 #include "sim/step/swept/contact_motion.h"

@@ -17,12 +17,11 @@ constexpr double min_approach = 0.1, least_of_fall = 2.0;
 /// loses less than this part of its speed counts for less, and one that keeps all for nothing.
 constexpr double most_boxes = 12.0, loss_of_one = 0.1;
 
-/// m/s.
+}  // namespace
+
 double least_approach(const Settings& settings) {
   return std::max(min_approach, least_of_fall * time_step(settings) * settings.gravity.norm());
 }
-
-}  // namespace
 
 bool bounces_well(const World& world, const ContactMotion& motion, const SweptContact& contact) {
   return motion.material(contact).restitution > least_restitution &&
@@ -35,6 +34,11 @@ bool are_few(std::span<const Partner> boxes) {
     if (box.is_hit) sum += std::min(1.0, (1.0 - box.restitution) / loss_of_one);
   }
   return sum <= most_boxes;
+}
+
+bool few_touch(std::span<const Partner> boxes) {
+  const auto touches = [](const Partner& box) { return box.contacts > 0; };
+  return static_cast<double>(std::ranges::count_if(boxes, touches)) <= most_boxes;
 }
 
 bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& motion,

@@ -14,8 +14,12 @@ inline constexpr double least_part = 1.0 / 32.0;
 /// Whether a contact in which a box is hit is worth parts of a step: it bounces by more than half
 /// of its speed, and is not slow.
 bool bounces_well(const World& world, const ContactMotion& motion, const SweptContact& contact);
-/// Whether the boxes that bounce are few enough for it.
+/// m/s: what is slower is not worth it.
+double least_approach(const Settings& settings);
+/// Whether the boxes that bounce, and lose by it, are few enough for it.
 bool are_few(std::span<const Partner> boxes);
+/// Whether all that have contacts are.
+bool few_touch(std::span<const Partner> boxes);
 
 /// Whether a box that moves freely is hit by two others, one after the other in the step, or by one
 /// as it comes near another, and bounces off by more than half of its speed: by one impact of all

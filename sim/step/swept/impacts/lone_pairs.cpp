@@ -8,8 +8,6 @@
 namespace pneuma::sim {
 namespace {
 
-/// m/s, along the normal: what is slower, or no faster than by a step of free fall, rests.
-constexpr double speed_of_rest = 1e-3;
 /// rad: what tilts by no more lies on its floor with a face.
 constexpr double allowed_tilt = 1e-3;
 
@@ -36,7 +34,9 @@ bool LonePairs::is_wall(int body) const {
 /// A box that something stops on its way.
 bool LonePairs::may_hit(const SweptContact& contact) const {
   if (!(contact.approach > 0.0)) return false;
-  if (contact.is_near && (is_pulled(contact) || contact.approach <= greatest_of_rest()))
+  // What something pushes along a floor comes to it by what friction takes in a step.
+  if (contact.is_near &&
+      (is_pulled(contact) || contact.approach <= least_approach(world_.settings)))
     return false;
   const int first = contact.first.body, second = contact.second.body;
   return moves_freely(first) ? moves_freely(second) || is_wall(second)
@@ -47,11 +47,6 @@ bool LonePairs::is_pulled(const SweptContact& contact) const {
   if (moves_freely(contact.first.body) && moves_freely(contact.second.body)) return false;
   return std::abs(contact.normal.dot(world_.settings.gravity)) * time_step(world_.settings) >
          speed_of_rest;
-}
-
-/// m/s.
-double LonePairs::greatest_of_rest() const {
-  return std::max(speed_of_rest, time_step(world_.settings) * world_.settings.gravity.norm());
 }
 
 /// The bodies that each box which moves freely has contacts with, if it is one and all may hit.
@@ -85,8 +80,14 @@ bool LonePairs::rests(const SweptContact& contact, int other) const {
   if (!contact.is_near || !is_wall(other)) return false;
   const bool turns =
       other != swept_ground && !world_.rigid[at(m_.bodies.box(other))].angular_velocity.isZero(0.0);
-  return !turns &&
-         std::abs(contact.normal.dot(motion_.start_velocity(contact))) <= greatest_of_rest();
+  return !turns && std::abs(contact.normal.dot(motion_.start_velocity(contact))) <= speed_of_rest;
+}
+
+bool LonePairs::is_on_floor(const SweptContact& contact) const {
+  const auto is = [&](int body) {
+    return moves_freely(body) && m_.partners[at(body)].contacts > m_.partners[at(body)].others;
+  };
+  return is(contact.first.body) || is(contact.second.body);
 }
 
 bool LonePairs::rests_on(int body, int other) const {
@@ -132,27 +133,35 @@ std::optional<ImpactSide> LonePairs::side_on_floor(int body) const {
     const Vec3 up = is_first ? contact.normal : Vec3(-contact.normal);
     const Vec3 velocity = other == swept_ground ? Vec3(Vec3::Zero())
                                                 : world_.rigid[at(m_.bodies.box(other))].velocity;
+    const double friction = motion_.material(contact).friction;
     if (floor.count == 0) {
       floor.normal = up;
       floor.velocity = velocity;
-      is_one = lies_flat(start, up);
+      floor.friction = friction;
     }
-    is_one = is_one && floor.count < floor.points.size() && velocity == floor.velocity &&
+    is_one = floor.count < floor.points.size() && lies_flat(body, other, up) &&
+             velocity == floor.velocity && friction == floor.friction &&
              (up - floor.normal).norm() <= allowed_tilt;
     if (!is_one) return;
     const Vec3& point = is_first ? contact.first.point : contact.second.point;
-    floor.friction = motion_.material(contact).friction;
     floor.points[floor.count++] = start.orientation.conjugate() * (point - start.position);
   });
   if (!is_one) return std::nullopt;
   return side(body, floor);
 }
 
-bool LonePairs::lies_flat(const RigidState& start, const Vec3& up) const {
-  const Vec3 along = start.orientation.conjugate() * up;
-  const Vec3 tilting = start.angular_velocity - up.dot(start.angular_velocity) * up;
-  return along.cwiseAbs().maxCoeff() >= 1.0 - 0.5 * allowed_tilt * allowed_tilt &&
-         tilting.norm() * time_step(world_.settings) <= allowed_tilt;
+/// A face on a face: on an edge, the normal would be that of the box.
+bool LonePairs::lies_flat(int body, int floor, const Vec3& up) const {
+  const auto has_face = [&](const RigidState& state) {
+    const Vec3 along = state.orientation.conjugate() * up;
+    return along.cwiseAbs().maxCoeff() >= 1.0 - 0.5 * allowed_tilt * allowed_tilt;
+  };
+  const auto start = [&](int box) { return start_.rigid[at(m_.bodies.box(box))]; };
+  const RigidState of_box = start(body);
+  if (!has_face(of_box) || (floor != swept_ground && !has_face(start(floor)))) return false;
+  const Vec3& turning = of_box.angular_velocity;
+  const double reach = 0.5 * world_.rigid[at(m_.bodies.box(body))].size.norm();
+  return reach * (turning - up.dot(turning) * up).norm() <= speed_of_rest;
 }
 
 bool LonePairs::are_level(const std::array<ImpactSide, 2>& sides, const SweptContact& contact) {

@@ -34,6 +34,7 @@ class LonePairs {
   bool moves_freely(int body) const { return m_.bodies.is_box(body) && !is_fixed(world_, body); }
   /// It keeps where it is, or is moved, whatever hits it.
   bool is_wall(int body) const;
+  /// Nothing moves it in this step, as it is static, asleep or the ground.
   bool stands(int body) const;
 
   /// Of a box that moves freely: `visit(contact, other body)`.
@@ -48,26 +49,28 @@ class LonePairs {
       visit(i, contact.first.body == body ? contact.second.body : contact.first.body);
     }
   }
-  /// Whether it neither comes to the other, which bears it, nor leaves it.
+  /// Whether the other bears it: it neither comes to it nor leaves it, but for speed_of_rest.
   bool rests(const SweptContact& contact, int other) const;
+  /// Whether anything does one of the sides.
+  bool is_on_floor(const SweptContact& contact) const;
   bool rests_on(int body, int other) const;
   /// By gravity along the normal: then the end of a step may be where the sides come to rest.
   bool is_pulled(const SweptContact& contact) const;
 
   ImpactSide side(int body, const ImpactFloor& floor = {}) const;
-  /// With the floor that it slides on. None if it tilts there, or lies on several.
+  /// With the floor that it slides on with a face. None if it tilts there, lies on an edge, or on
+  /// several floors.
   std::optional<ImpactSide> side_on_floor(int body) const;
   /// Whether one of them passes over the other, which is level with its floor.
   static bool are_level(const std::array<ImpactSide, 2>& sides, const SweptContact& contact);
 
  private:
   bool may_hit(const SweptContact& contact) const;
-  double greatest_of_rest() const;
   void find_partners();
   void add_contact(std::size_t number, int body, Partner& partner) const;
   bool meets_only(int body, int other) const;
   bool is_first_of_lone_pair(std::size_t number) const;
-  bool lies_flat(const RigidState& start, const Vec3& up) const;
+  bool lies_flat(int body, int floor, const Vec3& up) const;
 
   const World& world_;
   SweptMemory& m_;
