@@ -65,8 +65,7 @@ class FreeImpacts {
         return leave(contact);
       case FreeImpact::Result::hit:
         if (hit(impact, motion_.material(contact))) break;
-        if (m_.impact_points.empty()) leave(contact);  // corners that pass beside each other
-        return;
+        return leave(contact);  // corners that pass beside each other, or one that leaves before
       case FreeImpact::Result::pass:
         m_.impact_points.clear();
         break;
