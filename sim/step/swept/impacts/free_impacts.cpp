@@ -23,12 +23,14 @@ constexpr double allowed_depth = 0.1;
 
 class FreeImpacts {
  public:
-  FreeImpacts(World& world, SweptMemory& memory, const MotionStart& start, double tolerance)
+  FreeImpacts(World& world, SweptMemory& memory, const MotionStart& start, double tolerance,
+              bool is_last)
       : world_(world),
         m_(memory),
         motion_(world, start, memory.bodies),
         pairs_(world, memory, start, motion_),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance),
+        is_last_(is_last) {}
 
   void meet() {
     pairs_.for_each([this](const SweptContact& contact) { meet(contact); });
@@ -72,9 +74,14 @@ class FreeImpacts {
     }
     impact.finish(m_.impact_points);
     const bool is_among_others = meets_others(impact, bodies);
-    const bool may_be_again = result == FreeImpact::Result::hit || pairs_.is_pulled(contact);
-    const bool meets_again =
-        may_be_again && impact.meets_again(motion_.near_distance(bodies[0], bodies[1]));
+    // What parts of the step do not tell apart may come near, to be hit as the next step begins;
+    // but not where it may come to rest.
+    const bool is_pulled = pairs_.is_pulled(contact);
+    const double near = is_last_ && !is_pulled
+                            ? contact.wanted - hit_together * m_.bodies.skin(bodies[0])
+                            : motion_.near_distance(bodies[0], bodies[1]);
+    const bool may_be_again = result == FreeImpact::Result::hit || is_pulled;
+    const bool meets_again = may_be_again && impact.meets_again(near);
     if (is_among_others || meets_again) {
       if (is_among_others || has_acted(bodies[0])) leave(contact);
       return;
@@ -92,14 +99,31 @@ class FreeImpacts {
       return material.restitution * point.approach >= min_bounce_speed;
     });
     const double restitution = bounces ? material.restitution : 0.0;
-    const bool rubs = std::ranges::any_of(
-        m_.of_impact, [](const SweptImpulse& impulse) { return impulse.has_friction(); });
-    if (rubs) {
+    // An impulse where the sides part adds energy, which Newton's ratio of speeds does not know.
+    const bool takes_a_path = std::ranges::any_of(m_.impact_points, [&](const ImpactPoint& point) {
+      return point.impulse->has_friction() || point.speed > tolerance_;
+    });
+    if (takes_a_path) {
       m_.impact_path.follow(m_.impact_points, restitution, tolerance_);
     } else {
       m_.impact_path.part_at_once(m_.impact_points, restitution, tolerance_);
     }
+    limit_work();
     return true;
+  }
+
+  /// To none: what a solution leaves may add some.
+  void limit_work() {
+    double work = 0.0, linear = 0.0;
+    for (const ImpactPoint& point : m_.impact_points) {
+      work += point.impulse->work(point.velocity);
+      linear += point.impulse->given().dot(point.velocity);
+    }
+    if (!(work > 0.0) || linear >= 0.0) return;
+    const double share = -linear / (work - linear);
+    for (const ImpactPoint& point : m_.impact_points) {
+      point.impulse->replace_given(to_vec4d(share * point.impulse->given()));
+    }
   }
 
   void book(const FreeImpact& impact, const std::array<int, 2>& bodies) {
@@ -237,6 +261,7 @@ class FreeImpacts {
   ContactMotion motion_;
   LonePairs pairs_;
   double tolerance_;  // m/s
+  bool is_last_;      // of the parts of a step
   bool bounces_left_ = false;
 };
 
@@ -246,10 +271,11 @@ bool meet_freely(World& world, SweptMemory& memory, const MotionStart& start, do
                  double fraction) {
   memory.met_freely.clear();
   if (world.rigid.empty()) return true;
-  FreeImpacts impacts(world, memory, start, tolerance);
+  const bool is_last = fraction <= least_part;
+  FreeImpacts impacts(world, memory, start, tolerance, is_last);
   impacts.meet();
   impacts.note_pushed_bodies();
-  return fraction <= least_part || !impacts.would_gain_by_parts();
+  return is_last || !impacts.would_gain_by_parts();
 }
 
 }  // namespace pneuma::sim
