@@ -1,5 +1,5 @@
-// Boxes of which each meets one other body in a step, and nothing else but a floor that it slides
-// on. Private to sim/step.
+// Pairs of bodies that meet nothing else in a step, but for a floor that a box slides on. Private
+// to sim/step.
 #pragma once
 
 #include <optional>
