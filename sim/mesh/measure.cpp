@@ -22,7 +22,6 @@ Vec3 mean(const VertexArray& values) {
   return sum.head<3>() / values.size();
 }
 
-// Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
 double radius(const VertexArray& positions) {
   const Vec3 centre = mean(positions);
   double greatest = 0.0;
@@ -32,6 +31,7 @@ double radius(const VertexArray& positions) {
   return greatest;
 }
 
+// Of two triangles a b c and a c d the sum a . (b x c) + a . (c x d) is a . ((b - d) x c).
 double volume(const MeshTopology& topology, const VertexArray& positions) {
   const double* const rows = positions.rows().data();
   const Vec4d origin = load_vec4d(rows);

@@ -104,6 +104,12 @@ class SweptImpulse {
   }
   /// What presses the sides together besides (N s), so that they rub without a normal impulse.
   void squeeze(double impulse) { squeeze_ = impulse; }
+  /// The same (N s), of what other impulses may relieve: up to that, the sides do not part either.
+  void press(double impulse) {
+    pressed_ = impulse;
+    normal_impulse_ += impulse;
+    start_normal_ += impulse;
+  }
   /// Gives no more along the normal than it started from.
   void only_give_back() { max_normal_ = start_normal_; }
   bool only_gives_back() const { return max_normal_ == start_normal_; }
@@ -142,6 +148,8 @@ class SweptImpulse {
   double parting() const { return parting_; }
   /// N s on the first side, together with what was started from: >= 0.
   double normal_impulse() const { return normal_impulse_; }
+  /// N s on the first side, without that.
+  double normal_given() const { return normal_impulse_ - start_normal_; }
   Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }
   /// N s, by which the sides are pressed together: friction gives no more than mu times that.
   double pressing() const { return normal_impulse_ + squeeze_; }
@@ -185,6 +193,7 @@ class SweptImpulse {
   Vec4d start_friction_{};
   double max_normal_ = std::numeric_limits<double>::infinity();
   double squeeze_ = 0.0;  // N s
+  double pressed_ = 0.0;  // N s, of what was started from
 };
 
 }  // namespace pneuma::sim

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "sim/step/swept/shift_boxes.h"
 #include "sim/step/swept/swept_search.h"
 #include "sim/world/sleep.h"
 
@@ -16,18 +17,15 @@ constexpr double cosine_of_side = 0.9;
 /// m/s^2, of the mass of a box: so much presses each of its contacts with walls that squeeze it. By
 /// the usual friction that holds some eighty times its weight.
 constexpr double squeeze_of_mass = 200.0;
+/// Of the distance up to which they are in contact: what shifts keep between the boxes of a row.
+constexpr double shifted_of_near = closest_allowed / ContactMotion::near_of_wanted;
+/// Of boxes: of a longer one those in the middle may not know of both walls.
+constexpr int longest_row = 64;
 /// Of the distance up to which they are in contact: walls that leave less squeeze the box.
 constexpr double least_room = 0.01;
 /// Of the speed of the faster one, and m/s: walls that slide across each other by more cannot both
 /// hold the box, which would tilt into them.
 constexpr double allowed_slide = 0.05, least_slide = 1e-3;
-
-/// A side of a free box.
-struct BoxSide {
-  int box = 0;
-  int axis = 0;
-  bool is_positive = false;
-};
 
 /// Which of two bodies is a free box, and the other a wall or the ground; -1 if none is.
 int box_beside_wall(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
@@ -42,6 +40,14 @@ int other_of(const BodyPair& bodies, int one) {
   return bodies.first == one ? bodies.second : bodies.first;
 }
 
+/// Whether both of two bodies are free boxes.
+bool are_free_boxes(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
+  const auto is_free = [&](int body) {
+    return body != swept_ground && memory.bodies.is_box(body) && !is_kinematic(world, body);
+  };
+  return is_free(bodies.first) && is_free(bodies.second);
+}
+
 /// On which side of the box the other is. `normal`: from the second to the first.
 std::optional<BoxSide> side_of_wall(const SweptMemory& memory, const BodyPair& bodies, int box,
                                     const Vec3& normal) {
@@ -52,17 +58,40 @@ std::optional<BoxSide> side_of_wall(const SweptMemory& memory, const BodyPair& b
   return BoxSide{memory.bodies.box(box), axis, along[axis] > 0.0};
 }
 
-/// They leave less than this part of the distance up to which they are in contact with the box.
-bool leave_less(const WallBeside& below, const WallBeside& above, double part) {
-  return below.distance + above.distance < part * std::min(below.near, above.near);
+WallBeside& wall_beside(std::span<WallsBeside> walls, const BoxSide& side, bool is_positive) {
+  auto& [below, above] = walls[at(side.box)].along[at(side.axis)];
+  return is_positive ? above : below;
 }
 
-/// `along`: the axis of the box on which they are.
-bool squeeze(const WallBeside& below, const WallBeside& above, const Vec3& along) {
-  if (!leave_less(below, above, least_room) || !(below.is_moved || above.is_moved)) return false;
-  const Vec3 apart = below.velocity - above.velocity;
-  const double speed = std::max(below.velocity.norm(), above.velocity.norm());
-  return (apart - along.dot(apart) * along).norm() <= allowed_slide * speed + least_slide;
+/// What is beyond the second box is beyond the first as well. Returns whether it is nearer there
+/// than what was.
+bool pass_on(std::span<WallsBeside> walls, const BoxesInRow& pair, double mass_of_second) {
+  const WallBeside& beyond = wall_beside(walls, pair.second, !pair.second.is_positive);
+  WallBeside& wall = wall_beside(walls, pair.first, pair.first.is_positive);
+  const double distance = pair.distance + beyond.distance;
+  if (!(distance < wall.distance)) return false;
+  wall = {.distance = distance,
+          .near = std::min(pair.near, beyond.near),
+          .gaps = beyond.gaps + 1,
+          .mass = beyond.mass + mass_of_second,
+          .body = beyond.body};
+  return true;
+}
+
+/// m, of all gaps.
+double room(const WallBeside& below, const WallBeside& above) {
+  return below.distance + above.distance;
+}
+double near_distance(const WallBeside& below, const WallBeside& above) {
+  return std::min(below.near, above.near);
+}
+
+/// Whether they leave less than a box between them keeps from both, or a row that which its boxes
+/// are shifted to.
+bool leave_little(const WallBeside& below, const WallBeside& above) {
+  const double near = near_distance(below, above);
+  const int in_row = below.gaps + above.gaps - 2;
+  return room(below, above) < (1.0 + in_row * shifted_of_near) * near;
 }
 
 /// A bit for each. `is(below, above, axis)`.
@@ -76,14 +105,23 @@ std::uint8_t axes_where(const WallsBeside& walls, const Is& is) {
   return axes;
 }
 
-/// Whether one of two bodies is a free box, and the other a wall or the ground on one of the `axes`
-/// of each box.
-bool is_wall_along(const World& world, const SweptMemory& memory,
-                   std::span<const std::uint8_t> axes, const BodyPair& bodies, const Vec3& normal) {
-  const int box = box_beside_wall(world, memory, bodies);
-  if (box < 0) return false;
+/// Whether a side of the box on which the other is, is along one of its `axes`.
+bool is_along(const SweptMemory& memory, std::span<const std::uint8_t> axes, const BodyPair& bodies,
+              int box, const Vec3& normal) {
   const auto side = side_of_wall(memory, bodies, box, normal);
   return side && (axes[at(side->box)] >> side->axis & 1) != 0;
+}
+
+/// Whether one of two bodies is a free box, and the other a wall or the ground on one of the `axes`
+/// of each box, or the next box of a row along them.
+bool is_wall_along(const World& world, const SweptMemory& memory,
+                   std::span<const std::uint8_t> axes, const BodyPair& bodies, const Vec3& normal) {
+  if (are_free_boxes(world, memory, bodies)) {
+    return is_along(memory, axes, bodies, bodies.first, normal) &&
+           is_along(memory, axes, bodies, bodies.second, normal);
+  }
+  const int box = box_beside_wall(world, memory, bodies);
+  return box >= 0 && is_along(memory, axes, bodies, box, normal);
 }
 
 }  // namespace
@@ -91,50 +129,109 @@ bool is_wall_along(const World& world, const SweptMemory& memory,
 void SweptSearch::find_boxes_between_walls() {
   m_.between_walls.assign(world_.rigid.size(), 0);
   m_.squeezed.assign(world_.rigid.size(), 0);
-  if (world_.rigid.empty()) return;
+  m_.held.assign(world_.rigid.size(), 0);
+  if (world_.rigid.empty() || !find_walls_beside()) return;
+  find_walls_beyond_rows();
+  for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
+    m_.between_walls[i] = axes_where(
+        m_.walls_beside[i],
+        [](const auto& below, const auto& above, int) { return leave_little(below, above); });
+    if (m_.between_walls[i] == 0) continue;
+    const Mat3& axes = bodies_.start_axes(bodies_.of_box(static_cast<int>(i)));
+    const RigidBox& box = world_.rigid[i];
+    m_.squeezed[i] =
+        axes_where(m_.walls_beside[i], [&](const auto& below, const auto& above, int axis) {
+          return squeeze(below, above, axes.col(axis), box.position);
+        });
+    m_.held[i] = m_.squeezed[i] &
+                 axes_where(m_.walls_beside[i], [&](const auto& below, const auto& above, int) {
+                   return hold(below, above, box);
+                 });
+  }
+}
+
+/// Returns whether there are any, besides the ground.
+bool SweptSearch::find_walls_beside() {
   bool any_walls = false;
   for (const SweptCandidate& candidate : m_.candidates) {
     const bool on_ground = candidate.bodies.second == swept_ground;
-    if (on_ground && !any_walls) return;  // the ground comes last
+    if (on_ground && !any_walls) return false;  // the ground comes last
     const int box = box_beside_wall(world_, m_, candidate.bodies);
     if (box < 0) continue;
     const auto side = side_of_wall(m_, candidate.bodies, box, places_.start_normal(candidate));
     if (!side) continue;
     if (!any_walls) m_.walls_beside.assign(world_.rigid.size(), WallsBeside{});
     any_walls = true;
-    auto& [below, above] = m_.walls_beside[at(side->box)].along[at(side->axis)];
-    WallBeside& wall = side->is_positive ? above : below;
+    WallBeside& wall = wall_beside(m_.walls_beside, *side, side->is_positive);
     const double distance = places_.start_distance(candidate);
     if (distance < wall.distance) {
       wall.distance = distance;
-      look_at(other_of(candidate.bodies, box), box, wall);
+      wall.body = other_of(candidate.bodies, box);
     }
     if (on_ground) continue;
     wall.near =
         std::min(wall.near, motion_.near_distance(candidate.bodies.first, candidate.bodies.second));
   }
-  if (!any_walls) return;
-  for (std::size_t i = 0; i < world_.rigid.size(); ++i) {
-    m_.between_walls[i] = axes_where(
-        m_.walls_beside[i],
-        [](const auto& below, const auto& above, int) { return leave_less(below, above, 1.0); });
-    if (m_.between_walls[i] == 0) continue;
-    const Mat3& axes = bodies_.start_axes(bodies_.of_box(static_cast<int>(i)));
-    m_.squeezed[i] =
-        axes_where(m_.walls_beside[i], [&](const auto& below, const auto& above, int axis) {
-          return squeeze(below, above, axes.col(axis));
-        });
+  return any_walls;
+}
+
+/// From box to box, until nothing changes.
+void SweptSearch::find_walls_beyond_rows() {
+  m_.rows.clear();
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const BodyPair& bodies = candidate.bodies;
+    if (!candidate.is_of_near_boxes || !are_free_boxes(world_, m_, bodies)) continue;
+    const auto first = side_of_wall(m_, bodies, bodies.first, candidate.normal);
+    const auto second = side_of_wall(m_, bodies, bodies.second, candidate.normal);
+    if (!first || !second) continue;
+    m_.rows.push_back({*first, *second, candidate.start.distance,
+                       motion_.near_distance(bodies.first, bodies.second)});
+  }
+  bool any_passed = true;
+  for (int i = 0; any_passed && i < longest_row; ++i) {
+    any_passed = false;
+    for (const BoxesInRow& pair : m_.rows) {
+      const BoxesInRow back{pair.second, pair.first, pair.distance, pair.near};
+      for (const BoxesInRow& row : {pair, back}) {
+        const double mass = world_.rigid[at(row.second.box)].mass;
+        any_passed = pass_on(m_.walls_beside, row, mass) || any_passed;
+      }
+    }
   }
 }
 
-/// Of models that are moved no box is squeezed: they meet it from outside, or stop the run.
-void SweptSearch::look_at(int body, int box, WallBeside& wall) const {
-  wall.is_moved = body != swept_ground && bodies_.is_box(body) && bodies_.pushes(body);
-  wall.velocity.setZero();
-  if (!wall.is_moved) return;
-  const RigidBox& moved = world_.rigid[at(bodies_.box(body))];
-  const Vec3 arm = world_.rigid[at(bodies_.box(box))].position - moved.position;
-  wall.velocity = moved.velocity + moved.angular_velocity.cross(arm);
+/// Whether such walls leave no room to the box at `middle` on the axis: one of them is moved, and
+/// they do not slide across each other. Of models that are moved no box is squeezed: they meet it
+/// from outside, or stop the run.
+bool SweptSearch::squeeze(const WallBeside& below, const WallBeside& above, const Vec3& axis,
+                          const Vec3& middle) const {
+  if (room(below, above) >= least_room * near_distance(below, above)) return false;
+  const auto is_moved = [&](int body) {
+    return body != swept_ground && bodies_.is_box(body) && bodies_.pushes(body);
+  };
+  if (!is_moved(below.body) && !is_moved(above.body)) return false;
+  const Vec3 one = velocity_of_wall(below.body, middle).linear;
+  const Vec3 other = velocity_of_wall(above.body, middle).linear;
+  const Vec3 apart = one - other;
+  const double speed = std::max(one.norm(), other.norm());
+  return (apart - axis.dot(apart) * axis).norm() <= allowed_slide * speed + least_slide;
+}
+
+/// Whether they move as one, where the box is.
+bool SweptSearch::hold(const WallBeside& below, const WallBeside& above,
+                       const RigidBox& box) const {
+  const Velocity one = velocity_of_wall(below.body, box.position);
+  const Velocity other = velocity_of_wall(above.body, box.position);
+  return (one.linear - other.linear).norm() <= least_slide &&
+         (one.angular - other.angular).norm() * 0.5 * box.size.norm() <= least_slide;
+}
+
+/// At a point.
+SweptSearch::Velocity SweptSearch::velocity_of_wall(int body, const Vec3& point) const {
+  if (body == swept_ground || !bodies_.is_box(body) || !bodies_.pushes(body)) return {};
+  const RigidBox& wall = world_.rigid[at(bodies_.box(body))];
+  return {wall.velocity + wall.angular_velocity.cross(point - wall.position),
+          wall.angular_velocity};
 }
 
 bool SweptSearch::is_between_walls(const SweptCandidate& candidate) const {
@@ -163,7 +260,8 @@ bool is_between_walls(const World& world, const SweptMemory& memory, const BodyP
 
 int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
   if (memory.squeezed.empty()) return -1;
-  const int box = box_beside_wall(world, memory, bodies);
+  const int box =
+      are_free_boxes(world, memory, bodies) ? bodies.first : box_beside_wall(world, memory, bodies);
   return box >= 0 && memory.squeezed[at(memory.bodies.box(box))] != 0 ? box : -1;
 }
 
@@ -173,11 +271,22 @@ bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& 
          is_wall_along(world, memory, memory.squeezed, bodies, normal);
 }
 
-double squeeze_between_walls(const World& world, const SweptMemory& memory,
-                             const SweptContact& contact) {
-  const int box = squeezed_box(world, memory, pair_of(contact));
-  if (box < 0 || !is_squeezed(world, memory, pair_of(contact), contact.normal)) return 0.0;
-  return squeeze_of_mass * world.rigid[at(memory.bodies.box(box))].mass;
+bool squeeze_between_walls(const World& world, const SweptMemory& memory,
+                           const SweptContact& contact, double step, SweptImpulse& impulse) {
+  const BodyPair bodies = pair_of(contact);
+  const int box = squeezed_box(world, memory, bodies);
+  if (box < 0 || !is_squeezed(world, memory, bodies, contact.normal)) return false;
+  const auto side = side_of_wall(memory, bodies, box, contact.normal);
+  const auto& [below, above] = memory.walls_beside[at(side->box)].along[at(side->axis)];
+  const double mass = below.mass + world.rigid[at(side->box)].mass + above.mass;
+  const double pressing = step * squeeze_of_mass * mass;
+  const bool move_as_one = is_wall_along(world, memory, memory.held, bodies, contact.normal);
+  if (move_as_one) {
+    impulse.press(pressing);
+  } else {
+    impulse.squeeze(pressing);
+  }
+  return move_as_one;
 }
 
 }  // namespace pneuma::sim

@@ -31,10 +31,11 @@ int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& 
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal);
 
-/// N, by which such walls press the box in each of its contacts with them: what is moved has any
-/// force, and a rigid box does not say which. 0 of all other contacts.
-double squeeze_between_walls(const World& world, const SweptMemory& memory,
-                             const SweptContact& contact);
+/// Such walls press the box, or the boxes of a row, in each contact between them: what is moved has
+/// any force, and a rigid box does not say which. Tells the contact's impulse, of a step of so many
+/// seconds. Returns whether the walls move as one: then less than that takes nothing apart.
+bool squeeze_between_walls(const World& world, const SweptMemory& memory,
+                           const SweptContact& contact, double step, SweptImpulse& impulse);
 
 /// m, by which a contact of such a box may come nearer.
 inline double room_between_walls(const SweptContact& contact) {

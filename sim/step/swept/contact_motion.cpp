@@ -5,13 +5,6 @@
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
-namespace {
-
-/// Features that are nearer than the distance wanted by this factor are in contact.
-constexpr double near_of_wanted = 1.5;
-
-}  // namespace
-
 /// What keeps its shape needs no skin that is thicker than the other's, however large it is: two
 /// boxes keep twice the thinner one.
 double ContactMotion::distance_wanted(int first, int second) const {

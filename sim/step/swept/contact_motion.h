@@ -9,6 +9,9 @@ namespace pneuma::sim {
 
 class ContactMotion {
  public:
+  /// Features that are nearer than the distance wanted by this factor are in contact.
+  static constexpr double near_of_wanted = 1.5;
+
   /// Refers to all of them. `start`: what the step starts from.
   ContactMotion(const World& world, const MotionStart& start, SweptBodies& bodies)
       : world_(world), start_(start), bodies_(bodies) {}

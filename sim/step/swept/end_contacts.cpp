@@ -63,7 +63,7 @@ class EndContacts {
       given.is_floor = m_.first_contacts[at(i)].is_floor;
       given.approach = m_.first_contacts[at(i)].approach;
       given.drift = m_.first_contacts[at(i)].drift;
-      given.normal += m_.first_impulses[at(i)].normal_impulse();
+      given.normal += m_.first_impulses[at(i)].normal_given();
       given.acted |= m_.first_impulses[at(i)].pressing() > 0.0;
       given.friction += m_.first_impulses[at(i)].friction_impulse();
       given.impulse += m_.first_impulses[at(i)].given();
@@ -101,8 +101,8 @@ class EndContacts {
     if (!acted && !before.is_floor && is_left_to_next_step(*contact, both.restitution)) return;
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
-    impulse.squeeze(step() * squeeze_between_walls(world_, m_, *contact));
     if (acted) impulse.start_from(before.normal, before.friction);
+    contact->is_gripped = squeeze_between_walls(world_, m_, *contact, step(), impulse);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
     const bool arrives = !acted && keep_shapes(*contact) && (!before.is_known || flew(*contact));
@@ -204,7 +204,7 @@ class EndContacts {
       contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
     } else {
-      const bool is_between = is_between_walls(world_, m_, contact);
+      const bool is_between = !contact.is_gripped && is_between_walls(world_, m_, contact);
       contact.parting = is_between ? std::min(0.0, -room_between_walls(contact) / step()) : 0.0;
     }
   }

@@ -23,7 +23,8 @@ struct SweptContact {
   double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
   bool is_of_near_boxes = false;
-  bool is_missed = false;  // a box turned into the ground, or away: to be aimed at once more
+  bool is_gripped = false;  // of boxes that walls squeeze which move as one
+  bool is_missed = false;   // a box turned into the ground, or away: to be aimed at once more
   bool is_new = false;  // at the end of the step: of features that no impulse of its start acted on
   bool has_met = false;   // within the step, of boxes that meet nothing else (impacts/)
   bool is_floor = false;  // of such a box, which slides on it: its end bears all of the weight

@@ -95,16 +95,29 @@ struct Partner {
   double restitution = 1.0;  // the least of those in which it may be hit
 };
 
-/// What is static or moved beside a side of a box.
+/// What is static or moved beside a side of a box, or beyond a row of free boxes there.
 struct WallBeside {
-  double distance = std::numeric_limits<double>::infinity();  // m, the least
-  double near = std::numeric_limits<double>::infinity();      // m, up to which they are in contact
-  bool is_moved = false;         // what is nearest is a box that is moved
-  Vec3 velocity = Vec3::Zero();  // m/s, of that box, where the middle of the free one is
+  double distance = std::numeric_limits<double>::infinity();  // m, the least, of all gaps
+  double near = std::numeric_limits<double>::infinity();      // m, the least up to which is contact
+  int gaps = 1;
+  double mass = 0.0;        // kg, of the boxes of the row
+  int body = swept_ground;  // the nearest
 };
 /// Along each axis of the box, that on its negative side first.
 struct WallsBeside {
   std::array<std::pair<WallBeside, WallBeside>, 3> along;
+};
+/// A side of a free box.
+struct BoxSide {
+  int box = 0;
+  int axis = 0;
+  bool is_positive = false;
+};
+/// Two free boxes, of which each is beside a side of the other.
+struct BoxesInRow {
+  BoxSide first, second;
+  double distance = 0.0;  // m
+  double near = 0.0;      // m, up to which they are in contact
 };
 
 /// What a box touches: nothing, only what stands still, or others.
@@ -170,7 +183,9 @@ struct SweptMemory {
   std::vector<BodyPair> without_room;         // between which shifts found none
   std::vector<std::uint8_t> between_walls;    // of each box: a bit for each of its axes
   std::vector<std::uint8_t> squeezed;         // likewise, of those along which there is no room
+  std::vector<std::uint8_t> held;             // and the walls do not move against each other
   std::vector<WallsBeside> walls_beside;      // of each box
+  std::vector<BoxesInRow> rows;               // of boxes that may be between walls
   std::vector<std::uint8_t> is_borne;         // per box, at the start
   std::vector<TouchedByBox> touched_by_box;   // per box, at the start
   std::vector<double> first_meeting;          // per box, fraction of the step: with what is still

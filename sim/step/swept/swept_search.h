@@ -93,7 +93,16 @@ class SweptSearch {
   bool turn_into_each_other(SweptCandidate& first_point);
   bool is_between_walls(const SweptCandidate& candidate) const;
   bool is_squeezed(const SweptCandidate& candidate) const;
-  void look_at(int body, int box, WallBeside& wall) const;
+  bool find_walls_beside();
+  void find_walls_beyond_rows();
+  struct Velocity {
+    Vec3 linear = Vec3::Zero();   // m/s
+    Vec3 angular = Vec3::Zero();  // rad/s
+  };
+  Velocity velocity_of_wall(int body, const Vec3& point) const;
+  bool squeeze(const WallBeside& below, const WallBeside& above, const Vec3& axis,
+               const Vec3& middle) const;
+  bool hold(const WallBeside& below, const WallBeside& above, const RigidBox& box) const;
   double greatest_relative_way(int first, int second) const;
   void offer_near_features(const BodyPair& bodies);
   /// Gives the contacts that there are to the candidates of another search.

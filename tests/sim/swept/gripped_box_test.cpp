@@ -1,4 +1,5 @@
-// A box between moved boxes that leave it less room than it fills (ERRATA row 67).
+// A box, or a row of boxes, between moved boxes that leave it less room than it fills (ERRATA
+// row 67).
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -12,17 +13,19 @@ namespace {
 constexpr double jaw_width = 0.2;  // m
 constexpr double open = 0.1;       // m, on each side of the cube of 1 m
 
-/// Jaws beside a cube on the ground.
-World make_gripper(int steps_per_second, double friction) {
+/// Jaws beside cubes on the ground that touch.
+World make_gripper(int steps_per_second, double friction, int cubes = 1) {
   World world = make_swept_world();
   world.settings.steps_per_second = steps_per_second;
   world.settings.ground = ContactMaterial{0.0, friction};
   for (const double side : {-1.0, 1.0}) {
-    const Vec3 place(side * (0.5 * (1.0 + jaw_width) + open), 0.0, 0.5);
+    const Vec3 place(side * (0.5 * (cubes + jaw_width) + open), 0.0, 0.5);
     world.rigid.push_back(make_rigid({jaw_width, 1.0, 0.6}, place));
     world.rigid.back().is_kinematic = true;
   }
-  world.rigid.push_back(make_rigid(Vec3::Ones(), {0.0, 0.0, 0.5}));
+  for (int i = 0; i < cubes; ++i) {
+    world.rigid.push_back(make_rigid(Vec3::Ones(), {i - 0.5 * (cubes - 1), 0.0, 0.5}));
+  }
   for (RigidBox& box : world.rigid) {
     box.surface = {0.0, friction};
     box.rho_g = 0.0;
@@ -102,6 +105,53 @@ TEST(GrippedBox, IsNotHeldByJawsThatLeaveItRoom) {
   grip(world, -1e-3);
   move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
   EXPECT_NEAR(cube(world).position.z(), 0.5, 1e-3);
+}
+
+/// Of which only the outer ones touch a jaw.
+TEST(GrippedRow, GoesWithTheJaws) {
+  for (const int cubes : {2, 5}) {
+    for (const double overlap : {0.0, 5e-3}) {
+      World world = make_gripper(60, 0.5, cubes);
+      grip(world, overlap);
+      const Vec3 lift(0.0, 0.0, 1.5);
+      move_jaws(world, 0.0, lift, 2.0);
+      for (int i = 0; i < cubes; ++i) {
+        const RigidBox& held = world.rigid[at(2 + i)];
+        // Half of the distance that they keep: by so much a row may tilt as the jaws close.
+        EXPECT_NEAR(held.position.z(), 3.5, 1e-3) << cubes << ' ' << overlap << ' ' << i;
+        EXPECT_LT((held.velocity - lift).norm(), 1e-4) << cubes << ' ' << overlap << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(GrippedRow, FallsOnceItIsReleased) {
+  World world = make_gripper(60, 0.5, 3);
+  grip(world, 2e-3);
+  move_jaws(world, 0.0, {0.0, 0.0, 1.0}, 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 1.5, 5e-3) << i;
+  move_jaws(world, -0.1, Vec3::Zero(), 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 0.5, 5e-3) << i;
+}
+
+TEST(GrippedRow, SlipsWithoutFriction) {
+  World world = make_gripper(60, 0.0, 3);
+  grip(world, 2e-3);
+  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 0.5, 5e-3) << i;
+}
+
+/// The jaws press as hard as the mass of all asks for.
+TEST(GrippedRow, HoldsEightyTimesTheWeightOfAll) {
+  for (const auto& [load, holds] : {std::pair(100.0, true), std::pair(600.0, false)}) {
+    World world = make_gripper(240, 0.5, 3);
+    RigidBox heavy = make_rigid({2.5, 0.5, 0.5}, {0.0, 0.0, 1.25});
+    heavy.mass = load * cube(world).mass;
+    world.rigid.insert(world.rigid.begin() + 2, heavy);
+    grip(world, 1e-3);
+    move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
+    EXPECT_EQ(cube(world).position.z() > 0.95, holds) << load;
+  }
 }
 
 /// A load on it of fifty times its mass, and not of two hundred times.
