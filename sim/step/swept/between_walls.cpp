@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "sim/step/swept/shift_boxes.h"
 #include "sim/step/swept/swept_search.h"
 #include "sim/world/sleep.h"
 
@@ -14,11 +13,12 @@ namespace {
 
 /// Cosine of the angle up to which a wall is beside a side of the box.
 constexpr double cosine_of_side = 0.9;
+/// Of the distance wanted: what such a box keeps, twice what features keep on their ways
+/// (SweptSearch::meets); and what it keeps less than the room in each gap.
+constexpr double kept_of_wanted = 0.1, least_play = 0.02;
 /// m/s^2, of the mass of a box: so much presses each of its contacts with walls that squeeze it. By
 /// the usual friction that holds some eighty times its weight.
 constexpr double squeeze_of_mass = 200.0;
-/// Of the distance up to which they are in contact: what shifts keep between the boxes of a row.
-constexpr double shifted_of_near = closest_allowed / ContactMotion::near_of_wanted;
 /// Of boxes: of a longer one those in the middle may not know of both walls.
 constexpr int longest_row = 64;
 /// Of the distance up to which they are in contact: walls that leave less squeeze the box.
@@ -86,12 +86,9 @@ double near_distance(const WallBeside& below, const WallBeside& above) {
   return std::min(below.near, above.near);
 }
 
-/// Whether they leave less than a box between them keeps from both, or a row that which its boxes
-/// are shifted to.
+/// Whether all contacts between them may press at once, which nothing but friction asks for.
 bool leave_little(const WallBeside& below, const WallBeside& above) {
-  const double near = near_distance(below, above);
-  const int in_row = below.gaps + above.gaps - 2;
-  return room(below, above) < (1.0 + in_row * shifted_of_near) * near;
+  return room(below, above) < (below.gaps + above.gaps) * near_distance(below, above);
 }
 
 /// A bit for each. `is(below, above, axis)`.
@@ -103,6 +100,19 @@ std::uint8_t axes_where(const WallsBeside& walls, const Is& is) {
     if (is(below, above, axis)) axes |= static_cast<std::uint8_t>(1 << axis);
   }
   return axes;
+}
+
+/// The free one of two bodies, or the first of two; -1 if none is.
+int free_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
+  return are_free_boxes(world, memory, bodies) ? bodies.first
+                                               : box_beside_wall(world, memory, bodies);
+}
+
+/// Of that one, on the axis along which the other is beside it.
+const std::pair<WallBeside, WallBeside>& walls_along(const World& world, const SweptMemory& memory,
+                                                     const BodyPair& bodies, const Vec3& normal) {
+  const auto side = side_of_wall(memory, bodies, free_box(world, memory, bodies), normal);
+  return memory.walls_beside[at(side->box)].along[at(side->axis)];
 }
 
 /// Whether a side of the box on which the other is, is along one of its `axes`.
@@ -234,9 +244,11 @@ SweptSearch::Velocity SweptSearch::velocity_of_wall(int body, const Vec3& point)
           wall.angular_velocity};
 }
 
-bool SweptSearch::is_between_walls(const SweptCandidate& candidate) const {
-  return may_be_between_walls(m_, candidate.bodies) &&
-         sim::is_between_walls(world_, m_, candidate.bodies, places_.start_normal(candidate));
+std::optional<double> SweptSearch::kept_between_walls(const SweptCandidate& candidate,
+                                                      double wanted) const {
+  if (!may_be_between_walls(m_, candidate.bodies)) return std::nullopt;
+  return sim::kept_between_walls(world_, m_, candidate.bodies, places_.start_normal(candidate),
+                                 wanted);
 }
 
 bool SweptSearch::is_squeezed(const SweptCandidate& candidate) const {
@@ -252,16 +264,23 @@ bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies) {
   return bodies.second != swept_ground && (is_between(bodies.first) || is_between(bodies.second));
 }
 
-bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
-                      const Vec3& normal) {
-  return may_be_between_walls(memory, bodies) &&
-         is_wall_along(world, memory, memory.between_walls, bodies, normal);
+std::optional<double> kept_between_walls(const World& world, const SweptMemory& memory,
+                                         const BodyPair& bodies, const Vec3& normal,
+                                         double wanted) {
+  if (!may_be_between_walls(memory, bodies) ||
+      !is_wall_along(world, memory, memory.between_walls, bodies, normal))
+    return std::nullopt;
+  if (!memory.bodies.is_box(bodies.first) || !memory.bodies.is_box(bodies.second)) {
+    return kept_of_wanted * wanted;  // what passes through a model stops the run
+  }
+  const auto& [below, above] = walls_along(world, memory, bodies, normal);
+  const double share = room(below, above) / (below.gaps + above.gaps);
+  return std::min(kept_of_wanted * wanted, share - std::max(0.5 * share, least_play * wanted));
 }
 
 int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
   if (memory.squeezed.empty()) return -1;
-  const int box =
-      are_free_boxes(world, memory, bodies) ? bodies.first : box_beside_wall(world, memory, bodies);
+  const int box = free_box(world, memory, bodies);
   return box >= 0 && memory.squeezed[at(memory.bodies.box(box))] != 0 ? box : -1;
 }
 
@@ -276,9 +295,8 @@ bool squeeze_between_walls(const World& world, const SweptMemory& memory,
   const BodyPair bodies = pair_of(contact);
   const int box = squeezed_box(world, memory, bodies);
   if (box < 0 || !is_squeezed(world, memory, bodies, contact.normal)) return false;
-  const auto side = side_of_wall(memory, bodies, box, contact.normal);
-  const auto& [below, above] = memory.walls_beside[at(side->box)].along[at(side->axis)];
-  const double mass = below.mass + world.rigid[at(side->box)].mass + above.mass;
+  const auto& [below, above] = walls_along(world, memory, bodies, contact.normal);
+  const double mass = below.mass + world.rigid[at(memory.bodies.box(box))].mass + above.mass;
   const double pressing = step * squeeze_of_mass * mass;
   const bool move_as_one = is_wall_along(world, memory, memory.held, bodies, contact.normal);
   if (move_as_one) {

@@ -2,25 +2,24 @@
 // finds them. Private to sim/step.
 #pragma once
 
+#include <optional>
+
 #include "sim/step/swept/swept_memory.h"
 
 namespace pneuma::sim {
 
-/// Of the distance wanted: what such a box keeps. Twice what features keep on their ways
-/// (SweptSearch::meets).
-inline constexpr double kept_between_walls = 0.1;
-
 /// Whether one of two bodies is such a box, and the other not the ground, whose contacts stay.
 bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies);
 
-/// Whether the other is one of the walls, along the `normal` from the second to the first. They
-/// touch no earlier than they must: with impulses at any distance, which nothing but friction asks
-/// for, the box would stick to both walls.
-bool is_between_walls(const World& world, const SweptMemory& memory, const BodyPair& bodies,
-                      const Vec3& normal);
-inline bool is_between_walls(const World& world, const SweptMemory& memory,
-                             const SweptContact& contact) {
-  return is_between_walls(world, memory, pair_of(contact), contact.normal);
+/// m, that two bodies keep of the distance `wanted` (m), if the other is one of the walls, or the
+/// next box of a row between them, along the `normal` from the second to the first. They touch no
+/// earlier than they must: with impulses at any distance, which nothing but friction asks for, the
+/// box would stick to both walls. Where they would leave it no play, it may lie in them.
+std::optional<double> kept_between_walls(const World& world, const SweptMemory& memory,
+                                         const BodyPair& bodies, const Vec3& normal, double wanted);
+inline std::optional<double> kept_between_walls(const World& world, const SweptMemory& memory,
+                                                const SweptContact& contact) {
+  return kept_between_walls(world, memory, pair_of(contact), contact.normal, contact.wanted);
 }
 
 /// The free one of two bodies, if walls squeeze it: boxes of which one is moved, or such a box and
@@ -36,10 +35,5 @@ bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& 
 /// seconds. Returns whether the walls move as one: then less than that takes nothing apart.
 bool squeeze_between_walls(const World& world, const SweptMemory& memory,
                            const SweptContact& contact, double step, SweptImpulse& impulse);
-
-/// m, by which a contact of such a box may come nearer.
-inline double room_between_walls(const SweptContact& contact) {
-  return contact.distance - kept_between_walls * contact.wanted;
-}
 
 }  // namespace pneuma::sim

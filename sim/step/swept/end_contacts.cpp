@@ -204,8 +204,8 @@ class EndContacts {
       contact.parting = bounce - before.drift;  // of what is borne: it moves by its first velocity
       contact.returns_energy = true;
     } else {
-      const bool is_between = !contact.is_gripped && is_between_walls(world_, m_, contact);
-      contact.parting = is_between ? std::min(0.0, -room_between_walls(contact) / step()) : 0.0;
+      const auto kept = contact.is_gripped ? std::nullopt : kept_between_walls(world_, m_, contact);
+      contact.parting = kept ? std::min(0.0, (*kept - contact.distance) / step()) : 0.0;
     }
   }
 

@@ -152,9 +152,9 @@ void SweptSearch::for_each_of_boxes(const Visit& visit) const {
     if (!bodies_.keep_shapes(candidate.bodies)) continue;
     const bool are_boxes = !on_ground && bodies_.is_rigid(first) && bodies_.is_rigid(second);
     if ((are_boxes && !candidate.is_of_near_boxes) || is_squeezed(candidate)) continue;
-    const double kept = kept_by_shifts(is_between_walls(candidate));
-    visit(candidate,
-          kept * motion_.distance_wanted(first, second) - places_.start_distance(candidate));
+    const double wanted = motion_.distance_wanted(first, second);
+    const double kept = kept_between_walls(candidate, wanted).value_or(closest_allowed * wanted);
+    visit(candidate, kept - places_.start_distance(candidate));
   }
 }
 

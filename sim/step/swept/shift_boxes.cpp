@@ -79,8 +79,9 @@ bool solve_for_shifts(const World& world, SweptMemory& memory, SweptSearch& sear
   memory.impulses.clear();
   for (const SweptContact& contact : memory.contacts) {
     const bool may_touch = keeps == Keeps::what_there_is || has_no_room(memory, contact);
-    const double kept = may_touch ? 0.0 : kept_by_shifts(is_between_walls(world, memory, contact));
-    const double missing = kept * contact.wanted - contact.distance;
+    const double kept = kept_between_walls(world, memory, contact)
+                            .value_or(may_touch ? 0.0 : closest_allowed * contact.wanted);
+    const double missing = (may_touch ? std::min(0.0, kept) : kept) - contact.distance;
     memory.impulses.push_back(search.motion().impulse(contact, 0.0));
     memory.impulses.back().aim(shift(missing, fraction), Vec3::Zero());
   }

@@ -17,11 +17,6 @@ inline double missing_distance(const SweptContact& contact) {
   return closest_allowed * contact.wanted - contact.distance;
 }
 
-/// Of the distance wanted: what shifts keep, also of what is between walls.
-inline double kept_by_shifts(bool is_between_walls) {
-  return is_between_walls ? kept_between_walls : closest_allowed;
-}
-
 /// Moves boxes apart besides their motion in the step (split impulses, as in Bullet), so that they
 /// gain no velocity: velocities are never solved for so well, in a tall stack, that all of what
 /// pushed would be taken back. The candidates must be known, and the boxes be at the end of their

@@ -54,7 +54,7 @@ class StartAims {
   double room(const SweptContact& contact, double shift) const {
     if (contact.distance > contact.wanted) return contact.distance - contact.wanted;
     if (contact.wanted < 0.0) return 0.0;  // boxes that turn past each other
-    if (is_between_walls(world_, m_, contact)) return room_between_walls(contact);
+    if (const auto kept = kept_between_walls(world_, m_, contact)) return contact.distance - *kept;
     const bool on_ground = contact.second.body == swept_ground;
     if (!on_ground && (!contact.is_of_near_boxes || stands_on_still(contact))) return 0.0;
     // What presses boxes together must not take shifts back.

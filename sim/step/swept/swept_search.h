@@ -91,7 +91,7 @@ class SweptSearch {
   void for_each_of_boxes(const Visit& visit) const;
   bool slide_past_each_other(const BodyPair& bodies) const;
   bool turn_into_each_other(SweptCandidate& first_point);
-  bool is_between_walls(const SweptCandidate& candidate) const;
+  std::optional<double> kept_between_walls(const SweptCandidate& candidate, double wanted) const;
   bool is_squeezed(const SweptCandidate& candidate) const;
   bool find_walls_beside();
   void find_walls_beyond_rows();

@@ -33,44 +33,57 @@ World make_gripper(int steps_per_second, double friction, int cubes = 1) {
   return world;
 }
 
-const RigidBox& cube(const World& world) { return world.rigid.back(); }
+/// Jaws that have moved stay such as may press, also while they stand.
+class Gripper {
+ public:
+  explicit Gripper(World world) : world_(std::move(world)), stepper_(world_) {}
 
-void move_jaws(World& world, double together, const Vec3& velocity, double seconds) {
-  world.rigid[0].velocity = velocity + together * Vec3::UnitX();
-  world.rigid[1].velocity = velocity - together * Vec3::UnitX();
-  ASSERT_FALSE(run(world, seconds));
-}
+  /// From the left.
+  const RigidBox& cube(int i = 0) const { return world_.rigid[at(2 + i)]; }
 
-/// `overlap`: m, of each jaw.
-void grip(World& world, double overlap) {
-  move_jaws(world, open + overlap, Vec3::Zero(), 1.0);
-  move_jaws(world, 0.0, Vec3::Zero(), 0.25);
-}
+  void move_jaws(double together, const Vec3& velocity, double seconds) {
+    world_.rigid[0].velocity = velocity + together * Vec3::UnitX();
+    world_.rigid[1].velocity = velocity - together * Vec3::UnitX();
+    const int steps = static_cast<int>(seconds * world_.settings.steps_per_second + 0.5);
+    for (int i = 0; i < steps; ++i) ASSERT_FALSE(stepper_.step(world_));
+  }
+
+  /// `overlap`: m, of each jaw.
+  void grip(double overlap) {
+    move_jaws(open + overlap, Vec3::Zero(), 1.0);
+    move_jaws(0.0, Vec3::Zero(), 0.25);
+  }
+
+ private:
+  World world_;
+  Stepper stepper_;
+};
 
 TEST(GrippedBox, GoesWithTheJaws) {
   for (const int steps_per_second : {60, 240}) {
     for (const double overlap : {0.0, 5e-3}) {
-      World world = make_gripper(steps_per_second, 0.3);
-      grip(world, overlap);
-      const Vec3 start = cube(world).position;
-      move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 2.0);
-      move_jaws(world, 0.0, {0.0, 1.0, 0.0}, 1.0);
-      move_jaws(world, 0.0, {1.0, 0.0, 0.0}, 0.5);
-      move_jaws(world, 0.0, Vec3::Zero(), 1.0);
-      const Vec3 way = cube(world).position - start;
+      Gripper gripper(make_gripper(steps_per_second, 0.3));
+      gripper.grip(overlap);
+      const Vec3 start = gripper.cube().position;
+      gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 2.0);
+      gripper.move_jaws(0.0, {0.0, 1.0, 0.0}, 1.0);
+      gripper.move_jaws(0.0, {1.0, 0.0, 0.0}, 0.5);
+      gripper.move_jaws(0.0, Vec3::Zero(), 1.0);
+      const Vec3 way = gripper.cube().position - start;
       // The free motion of the step in which the jaws turn off, and what friction then takes back.
       EXPECT_LT((way - Vec3(0.5, 1.0, 1.0)).norm(), 0.01) << steps_per_second << ' ' << overlap;
-      EXPECT_LT(cube(world).velocity.norm(), 1e-3) << steps_per_second << ' ' << overlap;
+      EXPECT_LT(gripper.cube().velocity.norm(), 1e-3) << steps_per_second << ' ' << overlap;
     }
   }
 }
 
 TEST(GrippedBox, FallsOnceItIsReleased) {
-  World world = make_gripper(240, 0.3);
-  grip(world, 1e-3);
-  move_jaws(world, 0.0, {0.0, 0.0, 1.0}, 2.0);
-  move_jaws(world, -0.5, Vec3::Zero(), 0.3);
-  EXPECT_NEAR(cube(world).velocity.z(), -9.81 * 0.3, 9.81 * 2.0 / 240.0);  // its first steps
+  Gripper gripper(make_gripper(240, 0.3));
+  gripper.grip(1e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 1.0}, 2.0);
+  gripper.move_jaws(-0.5, Vec3::Zero(), 0.3);
+  EXPECT_NEAR(gripper.cube().velocity.z(), -9.81 * 0.3,
+              9.81 * 2.0 / 240.0);  // its first steps
 }
 
 /// Held by both, it would tilt into them.
@@ -86,37 +99,37 @@ TEST(GrippedBox, IsNotHeldByAPlateThatSlidesAndTheGround) {
       ASSERT_FALSE(run(world, 1.0));
       world.rigid[0].velocity = {0.1, 0.0, 0.0};
       ASSERT_FALSE(run(world, 3.0)) << steps_per_second << ' ' << overlap;
-      EXPECT_LT(cube(world).velocity.norm(), 0.11) << steps_per_second << ' ' << overlap;
+      EXPECT_LT(world.rigid.back().velocity.norm(), 0.11) << steps_per_second << ' ' << overlap;
       EXPECT_LT(max_penetration(world), overlap + 1e-3) << steps_per_second << ' ' << overlap;
     }
   }
 }
 
 TEST(GrippedBox, SlipsWithoutFriction) {
-  World world = make_gripper(60, 0.0);
-  grip(world, 1e-3);
-  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
-  EXPECT_NEAR(cube(world).position.z(), 0.5, 1e-3);
+  Gripper gripper(make_gripper(60, 0.0));
+  gripper.grip(1e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
+  EXPECT_NEAR(gripper.cube().position.z(), 0.5, 1e-3);
 }
 
 /// As does a box that only lies between them.
 TEST(GrippedBox, IsNotHeldByJawsThatLeaveItRoom) {
-  World world = make_gripper(60, 0.8);
-  grip(world, -1e-3);
-  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
-  EXPECT_NEAR(cube(world).position.z(), 0.5, 1e-3);
+  Gripper gripper(make_gripper(60, 0.8));
+  gripper.grip(-1e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
+  EXPECT_NEAR(gripper.cube().position.z(), 0.5, 1e-3);
 }
 
 /// Of which only the outer ones touch a jaw.
 TEST(GrippedRow, GoesWithTheJaws) {
   for (const int cubes : {2, 5}) {
     for (const double overlap : {0.0, 5e-3}) {
-      World world = make_gripper(60, 0.5, cubes);
-      grip(world, overlap);
+      Gripper gripper(make_gripper(60, 0.5, cubes));
+      gripper.grip(overlap);
       const Vec3 lift(0.0, 0.0, 1.5);
-      move_jaws(world, 0.0, lift, 2.0);
+      gripper.move_jaws(0.0, lift, 2.0);
       for (int i = 0; i < cubes; ++i) {
-        const RigidBox& held = world.rigid[at(2 + i)];
+        const RigidBox& held = gripper.cube(i);
         // Half of the distance that they keep: by so much a row may tilt as the jaws close.
         EXPECT_NEAR(held.position.z(), 3.5, 1e-3) << cubes << ' ' << overlap << ' ' << i;
         EXPECT_LT((held.velocity - lift).norm(), 1e-4) << cubes << ' ' << overlap << ' ' << i;
@@ -126,19 +139,19 @@ TEST(GrippedRow, GoesWithTheJaws) {
 }
 
 TEST(GrippedRow, FallsOnceItIsReleased) {
-  World world = make_gripper(60, 0.5, 3);
-  grip(world, 2e-3);
-  move_jaws(world, 0.0, {0.0, 0.0, 1.0}, 1.0);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 1.5, 5e-3) << i;
-  move_jaws(world, -0.1, Vec3::Zero(), 1.0);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 0.5, 5e-3) << i;
+  Gripper gripper(make_gripper(60, 0.5, 3));
+  gripper.grip(2e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 1.0}, 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(gripper.cube(i).position.z(), 1.5, 5e-3) << i;
+  gripper.move_jaws(-0.1, Vec3::Zero(), 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(gripper.cube(i).position.z(), 0.5, 5e-3) << i;
 }
 
 TEST(GrippedRow, SlipsWithoutFriction) {
-  World world = make_gripper(60, 0.0, 3);
-  grip(world, 2e-3);
-  move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(world.rigid[at(2 + i)].position.z(), 0.5, 5e-3) << i;
+  Gripper gripper(make_gripper(60, 0.0, 3));
+  gripper.grip(2e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(gripper.cube(i).position.z(), 0.5, 5e-3) << i;
 }
 
 /// The jaws press as hard as the mass of all asks for.
@@ -146,11 +159,12 @@ TEST(GrippedRow, HoldsEightyTimesTheWeightOfAll) {
   for (const auto& [load, holds] : {std::pair(100.0, true), std::pair(600.0, false)}) {
     World world = make_gripper(240, 0.5, 3);
     RigidBox heavy = make_rigid({2.5, 0.5, 0.5}, {0.0, 0.0, 1.25});
-    heavy.mass = load * cube(world).mass;
-    world.rigid.insert(world.rigid.begin() + 2, heavy);
-    grip(world, 1e-3);
-    move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
-    EXPECT_EQ(cube(world).position.z() > 0.95, holds) << load;
+    heavy.mass = load * world.rigid.back().mass;
+    world.rigid.push_back(heavy);
+    Gripper gripper(std::move(world));
+    gripper.grip(1e-3);
+    gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
+    EXPECT_EQ(gripper.cube().position.z() > 0.95, holds) << load;
   }
 }
 
@@ -159,11 +173,12 @@ TEST(GrippedBox, HoldsEightyTimesItsWeight) {
   for (const auto& [load, holds] : {std::pair(50.0, true), std::pair(200.0, false)}) {
     World world = make_gripper(240, 0.5);
     RigidBox heavy = make_rigid({0.5, 0.5, 0.5}, {0.0, 0.0, 1.25});
-    heavy.mass = load * cube(world).mass;
-    world.rigid.insert(world.rigid.begin() + 2, heavy);
-    grip(world, 1e-3);
-    move_jaws(world, 0.0, {0.0, 0.0, 0.5}, 1.0);
-    EXPECT_EQ(cube(world).position.z() > 0.95, holds) << load;
+    heavy.mass = load * world.rigid.back().mass;
+    world.rigid.push_back(heavy);
+    Gripper gripper(std::move(world));
+    gripper.grip(1e-3);
+    gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
+    EXPECT_EQ(gripper.cube().position.z() > 0.95, holds) << load;
   }
 }
 

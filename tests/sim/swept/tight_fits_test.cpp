@@ -103,6 +103,53 @@ TEST_P(TightFits, AddNoEnergyWithFriction) {
   }
 }
 
+/// Two cubes side by side in a slot that fits them: friction without a force along the normal would
+/// hold them up, against each other and the walls.
+TEST(RowInASlot, FallsToItsBottom) {
+  for (const double room : {0.0, 5e-4, 4e-3}) {
+    for (const double friction : {0.1, 0.5}) {
+      World world = make_swept_world();
+      world.settings.ground = ContactMaterial{0.0, friction};
+      for (const double side : {-1.0, 1.0}) {
+        world.rigid.push_back(make_wall({side * (1.0 + 0.5 * (wall_size.x() + room)), 0.0, 1.1}));
+        world.rigid.push_back(make_rigid(Vec3::Ones(), {0.5 * side, 0.0, 1.5}));
+      }
+      for (RigidBox& box : world.rigid) {
+        box.surface = {0.0, friction};
+        box.rho_g = 0.0;
+      }
+      ASSERT_FALSE(run(world, 0.4));
+      for (const int i : {1, 3}) {
+        EXPECT_NEAR(world.rigid[at(i)].velocity.z(), -9.81 * 0.4, 1e-3) << room << ' ' << friction;
+      }
+      ASSERT_FALSE(run(world, 1.0));
+      for (const int i : {1, 3}) {
+        EXPECT_NEAR(world.rigid[at(i)].position.z(), 0.5, 1e-4) << room << ' ' << friction;
+      }
+    }
+  }
+}
+
+/// A box that slides on the ground under a ceiling that touches it presses only the ground.
+TEST(BoxUnderACeiling, SlidesAsWithoutIt) {
+  for (const double room : {0.0, 5e-4, 3e-3}) {
+    World world = make_swept_world();
+    world.settings.ground = ContactMaterial{0.0, 0.5};
+    world.rigid.push_back(make_rigid({8.0, 2.0, 1.0}, {0.0, 0.0, 1.5 + room}));
+    world.rigid.back().is_kinematic = true;
+    world.rigid.push_back(make_rigid(Vec3::Ones(), {-2.0, 0.0, 0.5}));
+    world.rigid.back().velocity.x() = 2.0;
+    for (RigidBox& box : world.rigid) {
+      box.surface = {0.0, 0.5};
+      box.rho_g = 0.0;
+    }
+    ASSERT_FALSE(run(world, 1.0));
+    // A step that begins at speed v takes mu g h^2 / 2 less than half of what it brakes: 1e-4.
+    EXPECT_NEAR(world.rigid[1].position.x() + 2.0, 2.0 * 2.0 / (2.0 * 0.5 * 9.81), 1e-3) << room;
+    EXPECT_NEAR(world.rigid[1].position.z(), 0.5, 1e-4) << room;
+  }
+}
+
 constexpr double plate_height = 0.2;  // m
 constexpr double clearance = 1e-3;    // m, on each of the four sides
 
