@@ -279,7 +279,8 @@ class SweptStep {
     return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
   }
   bool hits_twice() const {
-    return tells_hits_apart_ && is_hit_twice(world_, m_, motion_, fraction_);
+    return tells_hits_apart_ &&
+           (is_hit_twice(world_, m_, motion_, fraction_) || is_tipped_onto(world_, m_, fraction_));
   }
 
   Divergence blocked() const {

@@ -11,6 +11,8 @@ namespace {
 
 /// Of what a step of free fall gains: what arrives at the end of a step bounces by no less.
 constexpr double least_of_falls = 4.0;
+/// The same of what does not bounce: what arrives with less rests.
+constexpr double least_arrival = 0.05;
 /// Of the speed that a bounce returns: more is all of it.
 constexpr double elastic = 0.99;
 
@@ -206,7 +208,22 @@ class EndContacts {
     } else {
       const auto kept = contact.is_gripped ? std::nullopt : kept_between_walls(world_, m_, contact);
       contact.parting = kept ? std::min(0.0, (*kept - contact.distance) / step()) : 0.0;
+      const double arrival = arrival_of(before, contact);
+      if (arrival > least_arrival * step() * world_.settings.gravity.norm()) {
+        contact.approach = arrival;
+        contact.drift = before.drift;
+        contact.stops = true;
+      }
     }
+  }
+
+  /// m/s, with which a box arrives, without what the step has given it: none of what has touched.
+  /// Faces of models meet what slides over them all the time.
+  double arrival_of(const Given& before, const SweptContact& contact) const {
+    if (!before.is_known || before.is_near || !motion_.is_rigid(contact)) return 0.0;
+    if (!before.is_of_end) return before.approach;
+    const Vec3 velocity = velocity_before(contact.first) - velocity_before(contact.second);
+    return std::min(before.approach, -contact.normal.dot(velocity));
   }
 
   /// Two boxes, or one and an obstacle or the ground.

@@ -19,9 +19,10 @@ class LoneImpact {
       return contact(impulse).first.body == one && contact(impulse).second.body == other;
     });
   }
-  bool bounces_and_rubs() const {
+  /// That needs to be followed: it bounces and rubs, or stops what weight presses as well.
+  bool has_a_path() const {
     return std::ranges::any_of(impulses_, [&](const SweptImpulse* impulse) {
-      return is_hit(contact(impulse)) && impulse->has_friction();
+      return contact(impulse).stops || (is_hit(contact(impulse)) && impulse->has_friction());
     });
   }
 
@@ -34,10 +35,10 @@ class LoneImpact {
                         .velocity = m_.end_velocities[m_.contact_of(impulse)],
                         .parting = at_end.parting};
       point.speed = at_end.normal.dot(point.velocity);
-      if (is_hit(at_end)) {
+      if (is_impact(at_end)) {
         point.speed += at_end.drift;
         point.approach = at_end.approach;
-        restitution = at_end.restitution;
+        restitution = std::max(restitution, at_end.restitution);
       }
       m_.impact_points.push_back(point);
     }
@@ -138,10 +139,10 @@ class ReturnedEnergy {
 }  // namespace
 
 void follow_impacts(SweptMemory& memory, double tolerance) {
-  if (std::ranges::none_of(memory.contacts, is_hit)) return;
+  if (std::ranges::none_of(memory.contacts, is_impact)) return;
   for (int island = 0; island < memory.solver.island_count(); ++island) {
     LoneImpact impact(memory, island);
-    if (impact.is_of_two_boxes() && impact.bounces_and_rubs()) impact.follow(tolerance);
+    if (impact.is_of_two_boxes() && impact.has_a_path()) impact.follow(tolerance);
   }
 }
 

@@ -22,6 +22,7 @@ struct SweptContact {
   double restitution = 0.0;     // of what bounces at the end of the step
   double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
+  bool stops = false;           // at the end: it has met in the step, and does not bounce
   bool is_of_near_boxes = false;
   bool is_gripped = false;  // of boxes that walls squeeze which move as one
   bool is_missed = false;   // a box turned into the ground, or away: to be aimed at once more
@@ -39,6 +40,8 @@ inline BodyPair pair_of(const SweptContact& contact) {
 inline bool is_hit(const SweptContact& contact) {
   return contact.returns_energy && contact.is_near;
 }
+/// Whether it is an impact, which may bounce.
+inline bool is_impact(const SweptContact& contact) { return is_hit(contact) || contact.stops; }
 
 /// Features of two bodies, or of one and the ground, that may meet in the step; or a point of the
 /// contact of two boxes that are near each other when it starts, and may overlap.

@@ -13,9 +13,39 @@ constexpr double least_restitution = 0.5;
 /// m/s, and of what a step of free fall gains: slower impacts, in a heap that comes to rest, are
 /// not worth parts of a step.
 constexpr double min_approach = 0.1, least_of_fall = 2.0;
+/// Of a step: in parts no longer than this a box that tips hardly changes over too early.
+constexpr double least_part_of_tipping = 1.0 / 8.0;
+/// Of what a step of free fall gains: with less it does not go on to rock.
+constexpr double least_tipping = 0.15;
 /// Of a heap of more boxes that bounce at once each step would be halved, for little. A box that
 /// loses less than this part of its speed counts for less, and one that keeps all for nothing.
 constexpr double most_boxes = 12.0, loss_of_one = 0.1;
+
+/// `visit(partner, other body)` of each side that is a box which moves freely.
+template <class Visit>
+void for_each_box(const World& world, SweptMemory& memory, const SweptContact& contact,
+                  const Visit& visit) {
+  const int first = contact.first.body, second = contact.second.body;
+  for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
+    const bool moves = memory.bodies.is_box(body) && !is_fixed(world, body);
+    if (moves) visit(memory.partners[at(body)], other);
+  }
+}
+
+/// Of the contacts of both ends: which boxes touch only one body.
+void find_only_partners(const World& world, SweptMemory& memory) {
+  memory.partners.assign(at(memory.bodies.count()), {});
+  for (const auto* contacts : {&memory.first_contacts, &memory.contacts}) {
+    for (const SweptContact& contact : *contacts) {
+      for_each_box(world, memory, contact, [](Partner& partner, int other) {
+        partner.is_only_one =
+            partner.contacts == 0 || (partner.is_only_one && partner.body == other);
+        partner.body = other;
+        ++partner.contacts;
+      });
+    }
+  }
+}
 
 }  // namespace
 
@@ -54,19 +84,12 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
   const auto hits = [&](const SweptContact& contact) { return meets(contact) && bounces(contact); };
   if (std::ranges::none_of(memory.contacts, hits)) return false;
   memory.partners.assign(at(memory.bodies.count()), {});
-  const auto each_box = [&](const SweptContact& contact, const auto& visit) {
-    const int first = contact.first.body, second = contact.second.body;
-    for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
-      const bool moves = memory.bodies.is_box(body) && !is_fixed(world, body);
-      if (moves) visit(memory.partners[at(body)], other);
-    }
-  };
   bool twice = false;
   for (const SweptContact& contact : memory.contacts) {
     if (!meets(contact)) continue;
     const double restitution = motion.material(contact).restitution;
     const bool bounces_back = bounces(contact);
-    each_box(contact, [&](Partner& partner, int other) {
+    for_each_box(world, memory, contact, [&](Partner& partner, int other) {
       partner.restitution = std::min(partner.restitution, restitution);
       if (!bounces_back) return;
       partner.is_hit = true;
@@ -78,11 +101,36 @@ bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& 
   if (!are_few(memory.partners)) return false;
   for (const SweptContact& contact : memory.contacts) {
     if (!contact.is_new || !bounces(contact)) continue;
-    each_box(contact, [&](const Partner& partner, int other) {
+    for_each_box(world, memory, contact, [&](const Partner& partner, int other) {
       twice = twice || (partner.contacts > 0 && partner.body != other);
     });
   }
   return twice;
+}
+
+bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction) {
+  if (fraction <= least_part_of_tipping) return false;
+  const double fall = time_step(world.settings) / fraction * world.settings.gravity.norm();
+  const auto is_hit = [&](const SweptContact& contact) {
+    return contact.stops && !contact.is_new && contact.approach > least_tipping * fall;
+  };
+  if (std::ranges::none_of(memory.contacts, is_hit)) return false;
+  find_only_partners(world, memory);
+  const auto rested_on = [&](const SweptContact& hit) {
+    return std::ranges::any_of(memory.first_contacts, [&](const SweptContact& contact) {
+      return contact.is_near && pair_of(contact) == pair_of(hit);
+    });
+  };
+  const auto tips = [&](const SweptContact& contact) {
+    int boxes = 0;
+    bool are_lone = true;
+    for_each_box(world, memory, contact, [&](const Partner& partner, int) {
+      are_lone = are_lone && partner.is_only_one;
+      ++boxes;
+    });
+    return boxes == 1 && are_lone && is_hit(contact) && rested_on(contact);
+  };
+  return std::ranges::any_of(memory.contacts, tips) && few_touch(memory.partners);
 }
 
 }  // namespace pneuma::sim
