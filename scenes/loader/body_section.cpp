@@ -187,7 +187,8 @@ Section body_section(BodyScene& body) {
                selector({"supply.temperature", &body.supply_temperature, at_least(0), "K",
                          "keys in time: of the gas; only with a gas_exponent of 1"})),
           only(supplied, {"supply.smooth", &body.supply_smooth, any(), "",
-                          "between keys a smooth curve; false: an even change"}),
+                          "between keys cubics that do not overshoot (Fritsch and Butland "
+                          "1984), level at both ends; false: an even change"}),
           only(soft_bodies, selector({"leak.area", &body.leak.area, between(0, max_hole), "m^2",
                                       "of a hole through which gas flows out; 0: none"})),
           only(leaking, {"leak.discharge", &body.leak.discharge, above_to(0, 1), "",
@@ -210,7 +211,8 @@ Section body_section(BodyScene& body) {
                              "springs of this k or more are damped most"}),
           only(free_bodies,
                soft ? selector({"mass", &body.skin_mass, above(0), "kg",
-                                "of the whole body; of a soft one instead of vertex_mass"})
+                                "of the whole body, 1 kg of a rigid one; of a soft one instead of "
+                                "vertex_mass"})
                     : Key{"mass", &body.mass, above(0), "kg", "of the whole box"}),
           only(free_bodies,
                {"rho_g", &rho_g, from_below(0, 1), "", "fraction of velocity lost per 1/60 s"}),
@@ -237,7 +239,8 @@ Section body_section(BodyScene& body) {
                selector({"motion.rotation", &body.motion.rotation, place(), "degrees",
                          "likewise: turned about its position: world x, then y, then z"})),
           only(moved_bodies, {"motion.smooth", &body.motion.smooth, any(), "",
-                              "between keys a smooth curve; false: even speed"}),
+                              "between keys cubics that do not overshoot (Fritsch and Butland "
+                              "1984), at rest at both ends; false: even speed"}),
           only(handled_bodies, {"motion.still", &body.still, place(), "m",
                                 "pinned vertices that start in these boxes stay where they are"}),
 
