@@ -161,6 +161,9 @@ bool has_room(const sim::World& world, int body, const sim::Vec3& way, int besid
   return true;
 }
 
+/// Of the shortest free way: one that others bar is worth to be told of if it is no longer.
+constexpr double much_shorter = 0.1;
+
 struct WayApart {
   double distance = std::numeric_limits<double>::infinity();  // m
   std::string_view direction = {};
@@ -189,7 +192,10 @@ std::string way_apart(const sim::World& world, int first, int second) {
     }
   }
   if (best.direction.empty()) best = crowded;
-  return moved(best.distance, best.direction);
+  const std::string free = moved(best.distance, best.direction);
+  if (crowded.distance >= much_shorter * best.distance) return free;
+  return fmt::format("make room for it to move {:.3g} m along {}, or {}",
+                     base::rounded_up(crowded.distance), crowded.direction, free);
 }
 
 /// Bodies that stand still or are moved want swept contacts.

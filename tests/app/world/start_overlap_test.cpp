@@ -242,6 +242,17 @@ TEST(StartOverlap, NamesAWayToAPlaceWhereNothingElseIs) {
 
 /// The search for a way looks at many places: none of them takes as long as how deep one ball is in
 /// the other.
+/// A far way to a free place is no use to what lacks a little room where it is.
+TEST(StartOverlap, NamesAlsoAShortWayThatOthersBar) {
+  const std::string wall = "kind = \"static\"\nsize = [2, 2, 0.5]\nposition = [0, 0, ";
+  const std::string message = refusal_of(
+      "[[body]]\nname = \"floor\"\n" + wall + "0.25]\n[[body]]\nname = \"lid\"\n" + wall +
+      "1.248]\n[[body]]\nname = \"box\"\nkind = \"rigid\"\nsize = [0.5, 0.5, 0.5]\n"
+      "position = [0, 0, 0.75]\n");
+  EXPECT_NE(message.find("make room for it to move 0.002"), std::string::npos) << message;
+  EXPECT_NE(message.find(" m along -z, or move it "), std::string::npos) << message;
+}
+
 TEST(StartOverlap, NamesTheWayOutOfABallSoon) {
   const std::string balls =
       "[[body]]\nname = \"outer\"\nshape = \"icosphere\"\nsubdivisions = 3\nradius = 2\n"
