@@ -119,7 +119,7 @@ class SweptStep {
       search_.start();
     });
     if (!m_.touched_asleep.empty()) return touched_asleep();
-    if (auto squeezed = find_squeezed_box(world_, bodies_, m_.contacts)) return squeezed;
+    if (auto squeezed = find_squeezed_box(world_, m_)) return squeezed;
     std::size_t first_new = 0;  // contact that was not yet solved for
     int rounds = max_rounds;
     for (int round = 0; round < rounds; ++round) {

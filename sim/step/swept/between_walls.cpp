@@ -290,6 +290,13 @@ bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& 
          is_wall_along(world, memory, memory.squeezed, bodies, normal);
 }
 
+double missing_room(const World& world, const SweptMemory& memory, const SweptContact& contact) {
+  const BodyPair bodies = pair_of(contact);
+  if (!is_squeezed(world, memory, bodies, contact.normal)) return 0.0;
+  const auto& [below, above] = walls_along(world, memory, bodies, contact.normal);
+  return -room(below, above);
+}
+
 bool squeeze_between_walls(const World& world, const SweptMemory& memory,
                            const SweptContact& contact, double step, SweptImpulse& impulse) {
   const BodyPair bodies = pair_of(contact);

@@ -30,6 +30,9 @@ int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& 
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal);
 
+/// m, by which such walls leave less room than what is between them fills; 0 of other contacts.
+double missing_room(const World& world, const SweptMemory& memory, const SweptContact& contact);
+
 /// Such walls press the box, or the boxes of a row, in each contact between them: what is moved has
 /// any force, and a rigid box does not say which. Tells the contact's impulse, of a step of so many
 /// seconds. Returns whether the walls move as one: then less than that takes nothing apart.

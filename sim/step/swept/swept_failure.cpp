@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "sim/base/text.h"
+#include "sim/step/swept/between_walls.h"
 #include "sim/world/sleep.h"
 
 namespace pneuma::sim {
@@ -17,16 +18,16 @@ constexpr double against = -0.5;
 
 class SqueezedBoxes {
  public:
-  SqueezedBoxes(const World& world, const SweptBodies& bodies,
-                std::span<const SweptContact> contacts)
-      : world_(world), bodies_(bodies), contacts_(contacts) {}
+  SqueezedBoxes(const World& world, const SweptMemory& memory)
+      : world_(world), m_(memory), bodies_(memory.bodies), contacts_(memory.contacts) {}
 
   std::optional<Divergence> find(const SweptContact& contact) const {
     const int first = contact.first.body, second = contact.second.body;
     for (const auto& [body, other] : {std::pair(first, second), std::pair(second, first)}) {
       if (!is_free_box(body) || !(other == swept_ground || bodies_.is_rigid(other))) continue;
       const RigidBox& box = world_.rigid[at(bodies_.box(body))];
-      const double depth = -contact.distance;
+      // A row shares what it lacks among its gaps.
+      const double depth = std::max(-contact.distance, 0.5 * missing_room(world_, m_, contact));
       const double least = std::max(squeezed_depth * box.size.minCoeff(), contact.wanted);
       if (depth <= least || !is_pressed(body) || !is_held(body, contact)) continue;
       Divergence squeezed{Stage::find_contacts, world_.steps + 1, box.name,
@@ -66,17 +67,17 @@ class SqueezedBoxes {
   }
 
   const World& world_;
+  const SweptMemory& m_;
   const SweptBodies& bodies_;
   std::span<const SweptContact> contacts_;
 };
 
 }  // namespace
 
-std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
-                                            std::span<const SweptContact> contacts) {
+std::optional<Divergence> find_squeezed_box(const World& world, const SweptMemory& memory) {
   if (world.rigid.empty()) return std::nullopt;
-  const SqueezedBoxes squeezed(world, bodies, contacts);
-  for (const SweptContact& contact : contacts) {
+  const SqueezedBoxes squeezed(world, memory);
+  for (const SweptContact& contact : memory.contacts) {
     if (contact.distance >= 0.0) continue;
     if (auto divergence = squeezed.find(contact)) return divergence;
   }

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "sim/step/stages/divergence.h"
-#include "sim/step/swept/swept_contact.h"
+#include "sim/step/swept/swept_memory.h"
 
 namespace pneuma::sim {
 
-/// At the start of a step: of the contacts, that of a free box which something moved presses deep
-/// into something else. It has no room left, and impulses would grow without end.
-std::optional<Divergence> find_squeezed_box(const World& world, const SweptBodies& bodies,
-                                            std::span<const SweptContact> contacts);
+/// At the start of a step: of the memory's contacts, that of a free box which something moved
+/// presses deep into something else. It has no room left, and impulses would grow without end.
+std::optional<Divergence> find_squeezed_box(const World& world, const SweptMemory& memory);
 
 /// Of bodies that no part of a step keeps from passing through each other.
 Divergence of_blocked_bodies(const World& world, const SweptBodies& bodies, const BodyPair& pair);
