@@ -67,9 +67,9 @@ class SweptStep {
       w_.contacts.resize(contacts);
     };
     fraction_ = std::ldexp(1.0, -halvings);
-    was_hit_twice_ = false;
+    wanted_parts_ = false;
     auto failure = try_step();
-    const bool would_do = was_hit_twice_;
+    const bool would_do = wanted_parts_;
     if (!failure) {
       m_.parts_done.push_back(fraction_);
       if (w_.options.after_part) w_.options.after_part(world_);
@@ -149,7 +149,7 @@ class SweptStep {
       if (!m_.touched_asleep.empty()) return touched_asleep();
       const bool was_last = round + 1 == rounds;
       if (!collides || (was_last && !search_.blocked())) {
-        if (hits_twice()) return hit_twice();
+        if (wants_parts()) return want_parts();
         std::optional<Divergence> divergence;
         run_(Stage::resolve_contacts, [&] { divergence = finish(); });
         return divergence;
@@ -198,7 +198,7 @@ class SweptStep {
     warm_start_.remember_slips();
     m_.work += keep_angular_momentum(world_, m_);
     const bool met = meet_freely(world_, m_, start(), tolerance(), fraction_);
-    if (!met && tells_hits_apart_) return hit_twice();
+    if (!met && tells_hits_apart_) return want_parts();
     std::swap(m_.first_contacts, m_.contacts);
     std::swap(m_.first_impulses, m_.impulses);
     m_.contacts.clear();
@@ -211,7 +211,7 @@ class SweptStep {
       m_.work += lift_sunk_vertices(world_, m_);
     }
     find_end_contacts(world_, start(), m_, warm_start_);
-    if (hits_twice()) return hit_twice();
+    if (wants_parts()) return want_parts();
     warm_start_.apply(Moment::end, fraction_);
     solve(0);
     follow_impacts(m_, tolerance());
@@ -273,12 +273,12 @@ class SweptStep {
     return of_added_energy(world_, bodies_, contact, excess.left);
   }
 
-  /// Parts of the step tell its impacts apart.
-  Divergence hit_twice() {
-    was_hit_twice_ = true;
+  /// Parts of the step tell its impacts apart, or find when a box tips.
+  Divergence want_parts() {
+    wanted_parts_ = true;
     return {Stage::resolve_contacts, world_.steps + 1, {}, {}};
   }
-  bool hits_twice() const {
+  bool wants_parts() const {
     return tells_hits_apart_ &&
            (is_hit_twice(world_, m_, motion_, fraction_) || is_tipped_onto(world_, m_, fraction_));
   }
@@ -299,7 +299,7 @@ class SweptStep {
   double fraction_ = 1.0;  // of a whole step
   bool was_halved_ = false;
   bool tells_hits_apart_ = true;  // by parts of the step
-  bool was_hit_twice_ = false;    // in the last try
+  bool wanted_parts_ = false;     // in the last try
 };
 
 /// Returns whether there were any.

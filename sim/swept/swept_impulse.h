@@ -153,6 +153,8 @@ class SweptImpulse {
   Vec3 friction_impulse() const { return to_vec3(friction_impulse_); }
   /// N s, by which the sides are pressed together: friction gives no more than mu times that.
   double pressing() const { return normal_impulse_ + squeeze_; }
+  /// Whether it gives anything, or could, as what presses the sides besides may be used up.
+  bool may_act() const { return pressing() > 0.0 || pressed_ > 0.0; }
   /// N s on the first side, without what was started from.
   Vec3 given() const {
     return to_vec3((normal_impulse_ - start_normal_) * normal_ +

@@ -26,6 +26,8 @@ constexpr double least_room = 0.01;
 /// Of the speed of the faster one, and m/s: walls that slide across each other by more cannot both
 /// hold the box, which would tilt into them.
 constexpr double allowed_slide = 0.05, least_slide = 1e-3;
+/// m/s: walls that move as one do so but for rounding.
+constexpr double as_one = 1e-6;
 
 /// Which of two bodies is a free box, and the other a wall or the ground; -1 if none is.
 int box_beside_wall(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
@@ -71,6 +73,7 @@ bool pass_on(std::span<WallsBeside> walls, const BoxesInRow& pair, double mass_o
   const double distance = pair.distance + beyond.distance;
   if (!(distance < wall.distance)) return false;
   wall = {.distance = distance,
+          .middle = pair.middle + beyond.middle,
           .near = std::min(pair.near, beyond.near),
           .gaps = beyond.gaps + 1,
           .mass = beyond.mass + mass_of_second,
@@ -86,8 +89,10 @@ double near_distance(const WallBeside& below, const WallBeside& above) {
   return std::min(below.near, above.near);
 }
 
-/// Whether all contacts between them may press at once, which nothing but friction asks for.
+/// Whether all contacts between them may press at once, which nothing but friction asks for. The
+/// ground alone is no two walls.
 bool leave_little(const WallBeside& below, const WallBeside& above) {
+  if (below.body == swept_ground && above.body == swept_ground) return false;
   return room(below, above) < (below.gaps + above.gaps) * near_distance(below, above);
 }
 
@@ -108,30 +113,23 @@ int free_box(const World& world, const SweptMemory& memory, const BodyPair& bodi
                                                : box_beside_wall(world, memory, bodies);
 }
 
-/// Of that one, on the axis along which the other is beside it.
-const std::pair<WallBeside, WallBeside>& walls_along(const World& world, const SweptMemory& memory,
-                                                     const BodyPair& bodies, const Vec3& normal) {
-  const auto side = side_of_wall(memory, bodies, free_box(world, memory, bodies), normal);
-  return memory.walls_beside[at(side->box)].along[at(side->axis)];
-}
-
-/// Whether a side of the box on which the other is, is along one of its `axes`.
-bool is_along(const SweptMemory& memory, std::span<const std::uint8_t> axes, const BodyPair& bodies,
-              int box, const Vec3& normal) {
-  const auto side = side_of_wall(memory, bodies, box, normal);
+bool is_one_of(std::span<const std::uint8_t> axes, const std::optional<BoxSide>& side) {
   return side && (axes[at(side->box)] >> side->axis & 1) != 0;
 }
 
-/// Whether one of two bodies is a free box, and the other a wall or the ground on one of the `axes`
-/// of each box, or the next box of a row along them.
-bool is_wall_along(const World& world, const SweptMemory& memory,
-                   std::span<const std::uint8_t> axes, const BodyPair& bodies, const Vec3& normal) {
-  if (are_free_boxes(world, memory, bodies)) {
-    return is_along(memory, axes, bodies, bodies.first, normal) &&
-           is_along(memory, axes, bodies, bodies.second, normal);
-  }
-  const int box = box_beside_wall(world, memory, bodies);
-  return box >= 0 && is_along(memory, axes, bodies, box, normal);
+/// What is on both sides of that one along the axis on which the other, a wall or the next box of a
+/// row, is beside it, if that is one of the `axes` of each box; or null.
+const std::pair<WallBeside, WallBeside>* walls_along(const World& world, const SweptMemory& memory,
+                                                     std::span<const std::uint8_t> axes,
+                                                     const BodyPair& bodies, const Vec3& normal) {
+  const int box = free_box(world, memory, bodies);
+  if (box < 0) return nullptr;
+  const auto side = side_of_wall(memory, bodies, box, normal);
+  if (!is_one_of(axes, side)) return nullptr;
+  if (are_free_boxes(world, memory, bodies) &&
+      !is_one_of(axes, side_of_wall(memory, bodies, bodies.second, normal)))
+    return nullptr;
+  return &memory.walls_beside[at(side->box)].along[at(side->axis)];
 }
 
 }  // namespace
@@ -176,6 +174,7 @@ bool SweptSearch::find_walls_beside() {
     const double distance = places_.start_distance(candidate);
     if (distance < wall.distance) {
       wall.distance = distance;
+      wall.middle = middle_distance(candidate);
       wall.body = other_of(candidate.bodies, box);
     }
     if (on_ground) continue;
@@ -194,14 +193,14 @@ void SweptSearch::find_walls_beyond_rows() {
     const auto first = side_of_wall(m_, bodies, bodies.first, candidate.normal);
     const auto second = side_of_wall(m_, bodies, bodies.second, candidate.normal);
     if (!first || !second) continue;
-    m_.rows.push_back({*first, *second, candidate.start.distance,
+    m_.rows.push_back({*first, *second, candidate.start.distance, middle_distance(candidate),
                        motion_.near_distance(bodies.first, bodies.second)});
   }
   bool any_passed = true;
   for (int i = 0; any_passed && i < longest_row; ++i) {
     any_passed = false;
     for (const BoxesInRow& pair : m_.rows) {
-      const BoxesInRow back{pair.second, pair.first, pair.distance, pair.near};
+      const BoxesInRow back{pair.second, pair.first, pair.distance, pair.middle, pair.near};
       for (const BoxesInRow& row : {pair, back}) {
         const double mass = world_.rigid[at(row.second.box)].mass;
         any_passed = pass_on(m_.walls_beside, row, mass) || any_passed;
@@ -210,12 +209,30 @@ void SweptSearch::find_walls_beyond_rows() {
   }
 }
 
+/// m, between the faces of two boxes, or of one and a wall or the ground, in their middles: a row
+/// that sags touches with corners, and is longer than its boxes are.
+double SweptSearch::middle_distance(const SweptCandidate& candidate) const {
+  const auto [first, second] = candidate.bodies;
+  const Vec3 normal = places_.start_normal(candidate);
+  const auto half_along = [&](int body) {
+    const auto side = side_of_wall(m_, candidate.bodies, body, normal);
+    return side ? places_.start_box(body).half[side->axis] : 0.0;
+  };
+  if (second == swept_ground) return places_.start_box(first).centre.z() - half_along(first);
+  if (!bodies_.is_box(first) || !bodies_.is_box(second)) return candidate.start.distance;
+  const int face = is_kinematic(world_, first) ? first : second;  // of a wall, however wide
+  const auto side = side_of_wall(m_, candidate.bodies, face, normal);
+  const Vec3 axis = side ? Vec3(bodies_.start_axes(face).col(side->axis)) : normal;
+  const Vec3 way = places_.start_box(first).centre - places_.start_box(second).centre;
+  return std::abs(axis.dot(way)) - half_along(first) - half_along(second);
+}
+
 /// Whether such walls leave no room to the box at `middle` on the axis: one of them is moved, and
 /// they do not slide across each other. Of models that are moved no box is squeezed: they meet it
 /// from outside, or stop the run.
 bool SweptSearch::squeeze(const WallBeside& below, const WallBeside& above, const Vec3& axis,
                           const Vec3& middle) const {
-  if (room(below, above) >= least_room * near_distance(below, above)) return false;
+  if (below.middle + above.middle >= least_room * near_distance(below, above)) return false;
   const auto is_moved = [&](int body) {
     return body != swept_ground && bodies_.is_box(body) && bodies_.pushes(body);
   };
@@ -232,8 +249,8 @@ bool SweptSearch::hold(const WallBeside& below, const WallBeside& above,
                        const RigidBox& box) const {
   const Velocity one = velocity_of_wall(below.body, box.position);
   const Velocity other = velocity_of_wall(above.body, box.position);
-  return (one.linear - other.linear).norm() <= least_slide &&
-         (one.angular - other.angular).norm() * 0.5 * box.size.norm() <= least_slide;
+  return (one.linear - other.linear).norm() <= as_one &&
+         (one.angular - other.angular).norm() * 0.5 * box.size.norm() <= as_one;
 }
 
 /// At a point.
@@ -267,15 +284,18 @@ bool may_be_between_walls(const SweptMemory& memory, const BodyPair& bodies) {
 std::optional<double> kept_between_walls(const World& world, const SweptMemory& memory,
                                          const BodyPair& bodies, const Vec3& normal,
                                          double wanted) {
-  if (!may_be_between_walls(memory, bodies) ||
-      !is_wall_along(world, memory, memory.between_walls, bodies, normal))
-    return std::nullopt;
+  if (!may_be_between_walls(memory, bodies)) return std::nullopt;
+  const auto* walls = walls_along(world, memory, memory.between_walls, bodies, normal);
+  if (!walls) return std::nullopt;
+  const double most = kept_of_wanted * wanted, play = least_play * wanted;
   if (!memory.bodies.is_box(bodies.first) || !memory.bodies.is_box(bodies.second)) {
-    return kept_of_wanted * wanted;  // what passes through a model stops the run
+    return most;  // what passes through a model stops the run
   }
-  const auto& [below, above] = walls_along(world, memory, bodies, normal);
+  const auto& [below, above] = *walls;
   const double share = room(below, above) / (below.gaps + above.gaps);
-  return std::min(kept_of_wanted * wanted, share - std::max(0.5 * share, least_play * wanted));
+  const double kept = std::min(most, share - std::max(0.5 * share, play));
+  // Between walls that come together as it sinks a box would go on for ever.
+  return is_squeezed(world, memory, bodies, normal) ? kept : std::max(kept, -play);
 }
 
 int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
@@ -287,25 +307,27 @@ int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& 
 bool is_squeezed(const World& world, const SweptMemory& memory, const BodyPair& bodies,
                  const Vec3& normal) {
   return squeezed_box(world, memory, bodies) >= 0 &&
-         is_wall_along(world, memory, memory.squeezed, bodies, normal);
+         walls_along(world, memory, memory.squeezed, bodies, normal);
 }
 
 double missing_room(const World& world, const SweptMemory& memory, const SweptContact& contact) {
   const BodyPair bodies = pair_of(contact);
-  if (!is_squeezed(world, memory, bodies, contact.normal)) return 0.0;
-  const auto& [below, above] = walls_along(world, memory, bodies, contact.normal);
-  return -room(below, above);
+  if (squeezed_box(world, memory, bodies) < 0) return 0.0;
+  const auto* walls = walls_along(world, memory, memory.squeezed, bodies, contact.normal);
+  return walls ? -room(walls->first, walls->second) : 0.0;
 }
 
 bool squeeze_between_walls(const World& world, const SweptMemory& memory,
                            const SweptContact& contact, double step, SweptImpulse& impulse) {
   const BodyPair bodies = pair_of(contact);
   const int box = squeezed_box(world, memory, bodies);
-  if (box < 0 || !is_squeezed(world, memory, bodies, contact.normal)) return false;
-  const auto& [below, above] = walls_along(world, memory, bodies, contact.normal);
+  if (box < 0) return false;
+  const auto* walls = walls_along(world, memory, memory.squeezed, bodies, contact.normal);
+  if (!walls) return false;
+  const auto& [below, above] = *walls;
   const double mass = below.mass + world.rigid[at(memory.bodies.box(box))].mass + above.mass;
   const double pressing = step * squeeze_of_mass * mass;
-  const bool move_as_one = is_wall_along(world, memory, memory.held, bodies, contact.normal);
+  const bool move_as_one = walls_along(world, memory, memory.held, bodies, contact.normal);
   if (move_as_one) {
     impulse.press(pressing);
   } else {

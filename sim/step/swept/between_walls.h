@@ -22,8 +22,9 @@ inline std::optional<double> kept_between_walls(const World& world, const SweptM
   return kept_between_walls(world, memory, pair_of(contact), contact.normal, contact.wanted);
 }
 
-/// The free one of two bodies, if walls squeeze it: boxes of which one is moved, or such a box and
-/// the ground, that leave it no more room than it fills and do not slide across each other; or -1.
+/// The free one of two bodies, or the first of two, if walls squeeze it: boxes of which one is
+/// moved, or such a box and the ground, that leave it no more room than it fills and do not slide
+/// across each other; or -1.
 int squeezed_box(const World& world, const SweptMemory& memory, const BodyPair& bodies);
 
 /// Whether the other is beside it on the axis along which they do. Nothing moves it out of them.

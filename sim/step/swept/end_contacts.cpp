@@ -66,7 +66,7 @@ class EndContacts {
       given.approach = m_.first_contacts[at(i)].approach;
       given.drift = m_.first_contacts[at(i)].drift;
       given.normal += m_.first_impulses[at(i)].normal_given();
-      given.acted |= m_.first_impulses[at(i)].pressing() > 0.0;
+      given.acted |= m_.first_impulses[at(i)].may_act();
       given.friction += m_.first_impulses[at(i)].friction_impulse();
       given.impulse += m_.first_impulses[at(i)].given();
       if (m_.first_impulses[at(i)].normal_impulse() > greatest) {
@@ -105,6 +105,8 @@ class EndContacts {
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
     if (acted) impulse.start_from(before.normal, before.friction);
     contact->is_gripped = squeeze_between_walls(world_, m_, *contact, step(), impulse);
+    const bool pulls = before.normal < 0.0 && !contact->is_gripped;  // as it was gripped
+    if (pulls) impulse.start_from(0.0, before.friction);
     if (!contact->is_near) impulse.only_give_back();
     contact->is_new = !before.is_known;
     const bool arrives = !acted && keep_shapes(*contact) && (!before.is_known || flew(*contact));
@@ -218,14 +220,17 @@ class EndContacts {
   }
 
   /// m/s, with which a box arrives, without what the step has given it: none of what has touched.
-  /// Faces of models meet what slides over them all the time.
+  /// On other boxes the points of contacts change from step to step, and the path would add energy.
   double arrival_of(const Given& before, const SweptContact& contact) const {
-    if (!before.is_known || before.is_near || !motion_.is_rigid(contact)) return 0.0;
+    if (!before.is_known || before.is_near || !is_on_ground(contact)) return 0.0;
     if (!before.is_of_end) return before.approach;
     const Vec3 velocity = velocity_before(contact.first) - velocity_before(contact.second);
     return std::min(before.approach, -contact.normal.dot(velocity));
   }
 
+  bool is_on_ground(const SweptContact& contact) const {
+    return contact.second.body == swept_ground && motion_.is_rigid(contact);
+  }
   /// Two boxes, or one and an obstacle or the ground.
   bool keep_shapes(const SweptContact& contact) const {
     return m_.bodies.keep_shapes(pair_of(contact));

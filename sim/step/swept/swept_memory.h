@@ -98,7 +98,8 @@ struct Partner {
 /// What is static or moved beside a side of a box, or beyond a row of free boxes there.
 struct WallBeside {
   double distance = std::numeric_limits<double>::infinity();  // m, the least, of all gaps
-  double near = std::numeric_limits<double>::infinity();      // m, the least up to which is contact
+  double middle = 0.0;  // m, of all gaps, where the middles of their faces are
+  double near = std::numeric_limits<double>::infinity();  // m, the least up to which is contact
   int gaps = 1;
   double mass = 0.0;        // kg, of the boxes of the row
   int body = swept_ground;  // the nearest
@@ -117,6 +118,7 @@ struct BoxSide {
 struct BoxesInRow {
   BoxSide first, second;
   double distance = 0.0;  // m
+  double middle = 0.0;    // m, where the middles of their faces are
   double near = 0.0;      // m, up to which they are in contact
 };
 

@@ -95,6 +95,7 @@ class SweptSearch {
   bool is_squeezed(const SweptCandidate& candidate) const;
   bool find_walls_beside();
   void find_walls_beyond_rows();
+  double middle_distance(const SweptCandidate& candidate) const;
   struct Velocity {
     Vec3 linear = Vec3::Zero();   // m/s
     Vec3 angular = Vec3::Zero();  // rad/s

@@ -136,7 +136,7 @@ void SweptWarmStart::remember(std::span<const SweptContact> contacts,
                               std::span<const SweptImpulse> impulses, Moment moment,
                               double fraction) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (impulses[i].pressing() == 0.0) continue;
+    if (!impulses[i].may_act()) continue;
     // What stopped a body on its way is not needed again.
     if (moment == Moment::start && !contacts[i].is_near) continue;
     const Vec3 impulse = impulses[i].given() / fraction;

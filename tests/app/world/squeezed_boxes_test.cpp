@@ -150,5 +150,25 @@ position = [0, 0, 4.7]
   }
 }
 
+/// What a box keeps from walls gives it play, and no more as it sinks between walls that come
+/// together: these are 1 m apart at a height of 2 m.
+TEST(SqueezedBoxes, InAFunnelComeToRest) {
+  std::string text = "duration = 6\n[simulation]\nsteps_per_second = 240\n";
+  for (const double side : {-1.0, 1.0}) {
+    text += fmt::format(
+        "[[body]]\nkind = \"static\"\nsize = [0.4, 3, 5]\nposition = [{}, 0, 1.982569]\n"
+        "rotation = [0, {}, 0]\nfriction = 0.1\n",
+        side * 0.699239, side * 5.0);
+  }
+  text += "[[body]]\nkind = \"rigid\"\nsize = [1, 1, 1]\nposition = [0, 0, 2.52]\nfriction = 0.1\n";
+  sim::World world = build_world(scenes::parse_scene(text, "funnel.toml"));
+  ASSERT_FALSE(sim::run(world, 2.0));
+  const double height = world.rigid.back().position.z();
+  EXPECT_NEAR(height, 2.5, 0.01);
+  ASSERT_FALSE(sim::run(world, 4.0));
+  EXPECT_NEAR(world.rigid.back().position.z(), height, 1e-4);
+  EXPECT_LT(sim::max_penetration(world), 1e-4);  // a twentieth of the distance that they keep
+}
+
 }  // namespace
 }  // namespace pneuma::app

@@ -147,6 +147,15 @@ TEST(GrippedRow, FallsOnceItIsReleased) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(gripper.cube(i).position.z(), 0.5, 5e-3) << i;
 }
 
+/// It sags as it is released, and touches with corners: so long a row is none that is squeezed.
+TEST(GrippedRow, FallsWhenTheJawsPartSlowly) {
+  Gripper gripper(make_gripper(240, 0.5, 3));
+  gripper.grip(2e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 1.0}, 1.0);
+  gripper.move_jaws(-5e-3, Vec3::Zero(), 4.0);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(gripper.cube(i).position.z(), 0.5, 5e-3) << i;
+}
+
 TEST(GrippedRow, SlipsWithoutFriction) {
   Gripper gripper(make_gripper(60, 0.0, 3));
   gripper.grip(2e-3);

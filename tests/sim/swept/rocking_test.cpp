@@ -65,8 +65,8 @@ TEST(RockingBlock, LosesByEachImpactWhatItsAngularMomentumAsks) {
       const double sine = std::sin(std::atan(block.width / block.height));
       const double ratio = std::pow(1.0 - 1.5 * sine * sine, 2);
       for (std::size_t i = 0; i + 1 < 3; ++i) {
-        // It is stopped up to a twentieth of a percent of its width over the ground, where the
-        // weight has the rest of the way to go without a swing.
+        // A corner is stopped up to a thousandth of the width over the ground. The swings begin
+        // with the weight times 19 thousandths of the width, or 30 of the slender block.
         EXPECT_NEAR(energies[i + 1] / energies[i], ratio, 0.05 * ratio)
             << block.width << ' ' << steps_per_second << ' ' << i;
       }

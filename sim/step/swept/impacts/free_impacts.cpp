@@ -41,7 +41,7 @@ class FreeImpacts {
     m_.is_pushed.assign(at(m_.bodies.count()), 0);
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
       const SweptContact& contact = m_.contacts[i];
-      if (!contact.has_met && !(m_.impulses[i].pressing() > 0.0)) continue;
+      if (!contact.has_met && !m_.impulses[i].may_act()) continue;
       for (const int body : {contact.first.body, contact.second.body}) {
         if (body != swept_ground && !is_fixed(world_, body)) m_.is_pushed[at(body)] = 1;
       }
