@@ -26,8 +26,8 @@ constexpr double least_room = 0.01;
 /// Of the speed of the faster one, and m/s: walls that slide across each other by more cannot both
 /// hold the box, which would tilt into them.
 constexpr double allowed_slide = 0.05, least_slide = 1e-3;
-/// m/s: walls that move as one do so but for rounding.
-constexpr double as_one = 1e-6;
+/// m/s: walls that move against each other by no more hold the box, and share that among the gaps.
+constexpr double as_one = 0.01;
 
 /// Which of two bodies is a free box, and the other a wall or the ground; -1 if none is.
 int box_beside_wall(const World& world, const SweptMemory& memory, const BodyPair& bodies) {
@@ -58,6 +58,21 @@ std::optional<BoxSide> side_of_wall(const SweptMemory& memory, const BodyPair& b
   int axis = 0;
   if (along.cwiseAbs().maxCoeff(&axis) < cosine_of_side) return std::nullopt;
   return BoxSide{memory.bodies.box(box), axis, along[axis] > 0.0};
+}
+
+struct WallVelocity {
+  Vec3 linear = Vec3::Zero();   // m/s
+  Vec3 angular = Vec3::Zero();  // rad/s
+};
+
+/// At a point.
+WallVelocity velocity_of_wall(const World& world, const SweptMemory& memory, int body,
+                              const Vec3& point) {
+  const SweptBodies& bodies = memory.bodies;
+  if (body == swept_ground || !bodies.is_box(body) || !bodies.pushes(body)) return {};
+  const RigidBox& wall = world.rigid[at(bodies.box(body))];
+  return {wall.velocity + wall.angular_velocity.cross(point - wall.position),
+          wall.angular_velocity};
 }
 
 WallBeside& wall_beside(std::span<WallsBeside> walls, const BoxSide& side, bool is_positive) {
@@ -237,28 +252,20 @@ bool SweptSearch::squeeze(const WallBeside& below, const WallBeside& above, cons
     return body != swept_ground && bodies_.is_box(body) && bodies_.pushes(body);
   };
   if (!is_moved(below.body) && !is_moved(above.body)) return false;
-  const Vec3 one = velocity_of_wall(below.body, middle).linear;
-  const Vec3 other = velocity_of_wall(above.body, middle).linear;
+  const Vec3 one = velocity_of_wall(world_, m_, below.body, middle).linear;
+  const Vec3 other = velocity_of_wall(world_, m_, above.body, middle).linear;
   const Vec3 apart = one - other;
   const double speed = std::max(one.norm(), other.norm());
   return (apart - axis.dot(apart) * axis).norm() <= allowed_slide * speed + least_slide;
 }
 
-/// Whether they move as one, where the box is.
+/// Whether they move as one, or nearly, where the box is.
 bool SweptSearch::hold(const WallBeside& below, const WallBeside& above,
                        const RigidBox& box) const {
-  const Velocity one = velocity_of_wall(below.body, box.position);
-  const Velocity other = velocity_of_wall(above.body, box.position);
+  const WallVelocity one = velocity_of_wall(world_, m_, below.body, box.position);
+  const WallVelocity other = velocity_of_wall(world_, m_, above.body, box.position);
   return (one.linear - other.linear).norm() <= as_one &&
          (one.angular - other.angular).norm() * 0.5 * box.size.norm() <= as_one;
-}
-
-/// At a point.
-SweptSearch::Velocity SweptSearch::velocity_of_wall(int body, const Vec3& point) const {
-  if (body == swept_ground || !bodies_.is_box(body) || !bodies_.pushes(body)) return {};
-  const RigidBox& wall = world_.rigid[at(bodies_.box(body))];
-  return {wall.velocity + wall.angular_velocity.cross(point - wall.position),
-          wall.angular_velocity};
 }
 
 std::optional<double> SweptSearch::kept_between_walls(const SweptCandidate& candidate,
@@ -317,23 +324,24 @@ double missing_room(const World& world, const SweptMemory& memory, const SweptCo
   return walls ? -room(walls->first, walls->second) : 0.0;
 }
 
-bool squeeze_between_walls(const World& world, const SweptMemory& memory,
-                           const SweptContact& contact, double step, SweptImpulse& impulse) {
+void squeeze_between_walls(const World& world, const SweptMemory& memory, double step,
+                           SweptContact& contact, SweptImpulse& impulse) {
   const BodyPair bodies = pair_of(contact);
-  const int box = squeezed_box(world, memory, bodies);
-  if (box < 0) return false;
+  if (squeezed_box(world, memory, bodies) < 0) return;
   const auto* walls = walls_along(world, memory, memory.squeezed, bodies, contact.normal);
-  if (!walls) return false;
+  if (!walls) return;
   const auto& [below, above] = *walls;
-  const double mass = below.mass + world.rigid[at(memory.bodies.box(box))].mass + above.mass;
-  const double pressing = step * squeeze_of_mass * mass;
-  const bool move_as_one = walls_along(world, memory, memory.held, bodies, contact.normal);
-  if (move_as_one) {
-    impulse.press(pressing);
-  } else {
-    impulse.squeeze(pressing);
-  }
-  return move_as_one;
+  const int body = free_box(world, memory, bodies);
+  const RigidBox& box = world.rigid[at(memory.bodies.box(body))];
+  const double pressing = step * squeeze_of_mass * (below.mass + box.mass + above.mass);
+  contact.is_gripped = walls_along(world, memory, memory.held, bodies, contact.normal);
+  if (!contact.is_gripped) return impulse.squeeze(pressing);
+  impulse.press(pressing);
+  const BoxSide side = *side_of_wall(memory, bodies, body, contact.normal);
+  const Vec3 apart = velocity_of_wall(world, memory, above.body, box.position).linear -
+                     velocity_of_wall(world, memory, below.body, box.position).linear;
+  contact.gap_rate =
+      memory.bodies.start_axes(body).col(side.axis).dot(apart) / (below.gaps + above.gaps);
 }
 
 }  // namespace pneuma::sim

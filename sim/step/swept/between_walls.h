@@ -36,8 +36,9 @@ double missing_room(const World& world, const SweptMemory& memory, const SweptCo
 
 /// Such walls press the box, or the boxes of a row, in each contact between them: what is moved has
 /// any force, and a rigid box does not say which. Tells the contact's impulse, of a step of so many
-/// seconds. Returns whether the walls move as one: then less than that takes nothing apart.
-bool squeeze_between_walls(const World& world, const SweptMemory& memory,
-                           const SweptContact& contact, double step, SweptImpulse& impulse);
+/// seconds, and the contact, if the walls nearly move as one: then less than that takes nothing
+/// apart.
+void squeeze_between_walls(const World& world, const SweptMemory& memory, double step,
+                           SweptContact& contact, SweptImpulse& impulse);
 
 }  // namespace pneuma::sim

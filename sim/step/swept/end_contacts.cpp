@@ -104,7 +104,7 @@ class EndContacts {
     const bool rubs = contact->is_near || (acted && before.is_near);
     SweptImpulse impulse = motion_.impulse(*contact, rubs ? both.friction : 0.0);
     if (acted) impulse.start_from(before.normal, before.friction);
-    contact->is_gripped = squeeze_between_walls(world_, m_, *contact, step(), impulse);
+    squeeze_between_walls(world_, m_, step(), *contact, impulse);
     const bool pulls = before.normal < 0.0 && !contact->is_gripped;  // as it was gripped
     if (pulls) impulse.start_from(0.0, before.friction);
     if (!contact->is_near) impulse.only_give_back();
@@ -209,7 +209,8 @@ class EndContacts {
       contact.returns_energy = true;
     } else {
       const auto kept = contact.is_gripped ? std::nullopt : kept_between_walls(world_, m_, contact);
-      contact.parting = kept ? std::min(0.0, (*kept - contact.distance) / step()) : 0.0;
+      contact.parting =
+          kept ? std::min(0.0, (*kept - contact.distance) / step()) : contact.gap_rate;
       const double arrival = arrival_of(before, contact);
       if (arrival > least_arrival * step() * world_.settings.gravity.norm()) {
         contact.approach = arrival;

@@ -34,7 +34,7 @@ class StartAims {
   /// m, along the normal in this step and besides the `shift` (m) along it, at least: negative if
   /// there is room.
   double may_move(const SweptContact& contact, double shift) const {
-    if (contact.is_gripped) return 0.0;
+    if (contact.is_gripped) return contact.gap_rate * step();
     const double closer = std::max(0.0, -shift);
     if (m_.bodies.keep_shapes(pair_of(contact))) {
       const double left = std::max(0.0, room(contact, shift));

@@ -24,7 +24,8 @@ struct SweptContact {
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
   bool stops = false;           // at the end: it has met in the step, and does not bounce
   bool is_of_near_boxes = false;
-  bool is_gripped = false;  // of boxes that walls squeeze which move as one
+  double gap_rate = 0.0;    // m/s, at which walls that grip open it: their share of each gap
+  bool is_gripped = false;  // of boxes that walls squeeze which nearly move as one
   bool is_missed = false;   // a box turned into the ground, or away: to be aimed at once more
   bool is_new = false;  // at the end of the step: of features that no impulse of its start acted on
   bool has_met = false;   // within the step, of boxes that meet nothing else (impacts/)

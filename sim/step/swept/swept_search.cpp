@@ -328,8 +328,7 @@ void SweptSearch::add(SweptCandidate& candidate, SweptContact contact) {
   // What is still on its way does not rub.
   m_.impulses.push_back(
       motion_.impulse(contact, contact.is_near ? motion_.material(contact).friction : 0.0));
-  contact.is_gripped =
-      squeeze_between_walls(world_, m_, contact, time_step(world_.settings), m_.impulses.back());
+  squeeze_between_walls(world_, m_, time_step(world_.settings), contact, m_.impulses.back());
   motion_.find_approach(contact, m_.impulses.back().change());
   m_.contacts.push_back(contact);
 }

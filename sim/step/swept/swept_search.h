@@ -96,11 +96,6 @@ class SweptSearch {
   bool find_walls_beside();
   void find_walls_beyond_rows();
   double middle_distance(const SweptCandidate& candidate) const;
-  struct Velocity {
-    Vec3 linear = Vec3::Zero();   // m/s
-    Vec3 angular = Vec3::Zero();  // rad/s
-  };
-  Velocity velocity_of_wall(int body, const Vec3& point) const;
   bool squeeze(const WallBeside& below, const WallBeside& above, const Vec3& axis,
                const Vec3& middle) const;
   bool hold(const WallBeside& below, const WallBeside& above, const RigidBox& box) const;

@@ -42,8 +42,11 @@ class Gripper {
   const RigidBox& cube(int i = 0) const { return world_.rigid[at(2 + i)]; }
 
   void move_jaws(double together, const Vec3& velocity, double seconds) {
-    world_.rigid[0].velocity = velocity + together * Vec3::UnitX();
-    world_.rigid[1].velocity = velocity - together * Vec3::UnitX();
+    move_each(velocity + together * Vec3::UnitX(), velocity - together * Vec3::UnitX(), seconds);
+  }
+  void move_each(const Vec3& left, const Vec3& right, double seconds) {
+    world_.rigid[0].velocity = left;
+    world_.rigid[1].velocity = right;
     const int steps = static_cast<int>(seconds * world_.settings.steps_per_second + 0.5);
     for (int i = 0; i < steps; ++i) ASSERT_FALSE(stepper_.step(world_));
   }
@@ -118,6 +121,16 @@ TEST(GrippedBox, IsNotHeldByJawsThatLeaveItRoom) {
   gripper.grip(-1e-3);
   gripper.move_jaws(0.0, {0.0, 0.0, 0.5}, 1.0);
   EXPECT_NEAR(gripper.cube().position.z(), 0.5, 1e-3);
+}
+
+/// It lies 2 mm deep in both together: what one of them opens is shared by both gaps.
+TEST(GrippedBox, IsHeldByAJawThatCreeps) {
+  Gripper gripper(make_gripper(60, 0.5));
+  gripper.grip(1e-3);
+  gripper.move_jaws(0.0, {0.0, 0.0, 1.0}, 1.0);
+  const Vec3 start = gripper.cube().position;
+  gripper.move_each(Vec3::Zero(), {5e-4, 0.0, 0.0}, 2.0);
+  EXPECT_LT((gripper.cube().position - start - Vec3(5e-4, 0.0, 0.0)).norm(), 1e-4);
 }
 
 /// Of which only the outer ones touch a jaw.
