@@ -101,7 +101,7 @@ void SweptImpulse::count_from(double normal, const Vec3& friction) {
 
 void SweptImpulse::warm_start(const Vec3& impulse) {
   const Vec4d whole = to_vec4d(impulse);
-  const double along = dot(whole, normal_), pressing = std::max(-pressed_, along);
+  const double along = dot(whole, normal_), pressing = std::max(0.0, along);
   // The normal may have turned since.
   const Vec4d across =
       within(friction_ * (pressing + squeeze_ + pressed_), whole - along * normal_);

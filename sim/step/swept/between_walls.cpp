@@ -171,6 +171,39 @@ void SweptSearch::find_boxes_between_walls() {
                    return hold(below, above, box);
                  });
   }
+  release_what_is_driven_into_others();
+}
+
+/// What walls drive into something else, with all their force, slips: held to them as well, it
+/// would be thrown by what the solution of such forces leaves.
+void SweptSearch::release_what_is_driven_into_others() {
+  if (std::ranges::all_of(m_.held, [](std::uint8_t axes) { return axes == 0; })) return;
+  m_.without_hold.clear();
+  for (const SweptCandidate& candidate : m_.candidates) {
+    const int body = box_beside_wall(world_, m_, candidate.bodies);
+    if (body < 0 || m_.held[at(bodies_.box(body))] == 0) continue;
+    const Vec3 normal = places_.start_normal(candidate);
+    if (walls_along(world_, m_, m_.held, candidate.bodies, normal)) continue;
+    const RigidBox& box = world_.rigid[at(bodies_.box(body))];
+    const int other = other_of(candidate.bodies, body);
+    const Vec3 away = body == candidate.bodies.first ? normal : Vec3(-normal);
+    const Vec3 beside = velocity_of_wall(world_, m_, other, box.position).linear;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((m_.held[at(bodies_.box(body))] >> axis & 1) == 0) continue;
+      const auto& [below, above] = m_.walls_beside[at(bodies_.box(body))].along[at(axis)];
+      const Vec3 driven = velocity_of_wall(world_, m_, below.body, box.position).linear;
+      if (away.dot(driven - beside) < -least_slide) {
+        m_.without_hold.push_back({below.body, above.body});
+      }
+    }
+  }
+  if (m_.without_hold.empty()) return;
+  for (std::size_t i = 0; i < m_.held.size(); ++i) {
+    m_.held[i] &= axes_where(m_.walls_beside[i], [&](const auto& below, const auto& above, int) {
+      const BodyPair walls{below.body, above.body};
+      return std::ranges::find(m_.without_hold, walls) == m_.without_hold.end();
+    });
+  }
 }
 
 /// Returns whether there are any, besides the ground.

@@ -185,7 +185,8 @@ struct SweptMemory {
   std::vector<BodyPair> without_room;         // between which shifts found none
   std::vector<std::uint8_t> between_walls;    // of each box: a bit for each of its axes
   std::vector<std::uint8_t> squeezed;         // likewise, of those along which there is no room
-  std::vector<std::uint8_t> held;             // and the walls do not move against each other
+  std::vector<std::uint8_t> held;             // and the walls nearly move as one
+  std::vector<BodyPair> without_hold;         // walls that drive what they squeeze into others
   std::vector<WallsBeside> walls_beside;      // of each box
   std::vector<BoxesInRow> rows;               // of boxes that may be between walls
   std::vector<std::uint8_t> is_borne;         // per box, at the start

@@ -93,6 +93,7 @@ class SweptSearch {
   bool turn_into_each_other(SweptCandidate& first_point);
   std::optional<double> kept_between_walls(const SweptCandidate& candidate, double wanted) const;
   bool is_squeezed(const SweptCandidate& candidate) const;
+  void release_what_is_driven_into_others();
   bool find_walls_beside();
   void find_walls_beyond_rows();
   double middle_distance(const SweptCandidate& candidate) const;

@@ -2,6 +2,7 @@
 // row 67).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/inspect/inspect.h"
@@ -40,6 +41,8 @@ class Gripper {
 
   /// From the left.
   const RigidBox& cube(int i = 0) const { return world_.rigid[at(2 + i)]; }
+  /// m/s, of the first cube so far.
+  double fastest() const { return fastest_; }
 
   void move_jaws(double together, const Vec3& velocity, double seconds) {
     move_each(velocity + together * Vec3::UnitX(), velocity - together * Vec3::UnitX(), seconds);
@@ -48,7 +51,10 @@ class Gripper {
     world_.rigid[0].velocity = left;
     world_.rigid[1].velocity = right;
     const int steps = static_cast<int>(seconds * world_.settings.steps_per_second + 0.5);
-    for (int i = 0; i < steps; ++i) ASSERT_FALSE(stepper_.step(world_));
+    for (int i = 0; i < steps; ++i) {
+      ASSERT_FALSE(stepper_.step(world_));
+      fastest_ = std::max(fastest_, cube().velocity.norm());
+    }
   }
 
   /// `overlap`: m, of each jaw.
@@ -60,6 +66,7 @@ class Gripper {
  private:
   World world_;
   Stepper stepper_;
+  double fastest_ = 0.0;
 };
 
 TEST(GrippedBox, GoesWithTheJaws) {
@@ -131,6 +138,26 @@ TEST(GrippedBox, IsHeldByAJawThatCreeps) {
   const Vec3 start = gripper.cube().position;
   gripper.move_each(Vec3::Zero(), {5e-4, 0.0, 0.0}, 2.0);
   EXPECT_LT((gripper.cube().position - start - Vec3(5e-4, 0.0, 0.0)).norm(), 1e-4);
+}
+
+/// The jaws slide along it as it is stopped: the forces of both sides, hundreds of times its
+/// weight, leave nothing of each other.
+TEST(GrippedBox, IsNotThrownByWhatItIsDrivenInto) {
+  for (const int steps_per_second : {60, 240}) {
+    World world = make_gripper(steps_per_second, 0.8);
+    for (RigidBox& box : world.rigid) box.position.z() += 1.0;
+    RigidBox slab = make_rigid({4.0, 3.0, 1.0}, {0.0, 0.0, 0.5});
+    slab.is_kinematic = true;
+    slab.surface = {0.0, 0.5};
+    world.rigid.push_back(slab);
+    Gripper gripper(std::move(world));
+    gripper.grip(3e-3);
+    gripper.move_jaws(0.0, {0.0, 0.0, 0.3}, 1.0);
+    gripper.move_jaws(0.0, {0.0, 0.0, -0.3}, 1.02);
+    gripper.move_jaws(0.0, Vec3::Zero(), 0.5);
+    EXPECT_LT(gripper.fastest(), 0.5) << steps_per_second;
+    EXPECT_NEAR(gripper.cube().position.z(), 1.5, 5e-3) << steps_per_second;
+  }
 }
 
 /// Of which only the outer ones touch a jaw.
