@@ -66,7 +66,7 @@ TEST(RockingBlock, LosesByEachImpactWhatItsAngularMomentumAsks) {
       const double ratio = std::pow(1.0 - 1.5 * sine * sine, 2);
       for (std::size_t i = 0; i + 1 < 3; ++i) {
         // A corner is stopped up to a thousandth of the width over the ground. The swings begin
-        // with the weight times 19 thousandths of the width, or 30 of the slender block.
+        // with the weight times 41 thousandths of the width, or 32 of the slender block.
         EXPECT_NEAR(energies[i + 1] / energies[i], ratio, 0.05 * ratio)
             << block.width << ' ' << steps_per_second << ' ' << i;
       }
