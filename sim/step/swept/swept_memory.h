@@ -114,7 +114,7 @@ struct BoxSide {
   int axis = 0;
   bool is_positive = false;
 };
-/// Two free boxes, of which each is beside a side of the other.
+/// Two free boxes side by side: on each, the side where the other is.
 struct BoxesInRow {
   BoxSide first, second;
   double distance = 0.0;  // m

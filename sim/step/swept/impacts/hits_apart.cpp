@@ -32,19 +32,25 @@ void for_each_box(const World& world, SweptMemory& memory, const SweptContact& c
   }
 }
 
-/// Of the contacts of both ends: which boxes touch only one body.
-void find_only_partners(const World& world, SweptMemory& memory) {
-  memory.partners.assign(at(memory.bodies.count()), {});
-  for (const auto* contacts : {&memory.first_contacts, &memory.contacts}) {
-    for (const SweptContact& contact : *contacts) {
-      for_each_box(world, memory, contact, [](Partner& partner, int other) {
-        partner.is_only_one =
-            partner.contacts == 0 || (partner.is_only_one && partner.body == other);
-        partner.body = other;
-        ++partner.contacts;
-      });
-    }
+/// `visit(contact)` of both ends of the step.
+template <class Visit>
+void for_each_contact(const SweptMemory& memory, const Visit& visit) {
+  for (const SweptContact& contact : memory.first_contacts) visit(contact);
+  for (const SweptContact& contact : memory.contacts) visit(contact);
+}
+
+/// Whether a box that hits the ground has rested on it as well, and touches nothing else.
+bool rests_there_alone(const SweptMemory& memory, const SweptContact& hit) {
+  const int box = hit.first.body;
+  bool has_rested = false, is_alone = true;
+  for (const SweptContact& contact : memory.first_contacts) {
+    has_rested = has_rested || (contact.is_near && pair_of(contact) == pair_of(hit));
   }
+  for_each_contact(memory, [&](const SweptContact& contact) {
+    const bool is_of_box = contact.first.body == box || contact.second.body == box;
+    is_alone = is_alone && (!is_of_box || pair_of(contact) == pair_of(hit));
+  });
+  return has_rested && is_alone;
 }
 
 }  // namespace
@@ -115,22 +121,14 @@ bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction) {
     return contact.stops && !contact.is_new && contact.approach > least_tipping * fall;
   };
   if (std::ranges::none_of(memory.contacts, is_hit)) return false;
-  find_only_partners(world, memory);
-  const auto rested_on = [&](const SweptContact& hit) {
-    return std::ranges::any_of(memory.first_contacts, [&](const SweptContact& contact) {
-      return contact.is_near && pair_of(contact) == pair_of(hit);
-    });
-  };
-  const auto tips = [&](const SweptContact& contact) {
-    int boxes = 0;
-    bool are_lone = true;
-    for_each_box(world, memory, contact, [&](const Partner& partner, int) {
-      are_lone = are_lone && partner.is_only_one;
-      ++boxes;
-    });
-    return boxes == 1 && are_lone && is_hit(contact) && rested_on(contact);
-  };
-  return std::ranges::any_of(memory.contacts, tips) && few_touch(memory.partners);
+  memory.partners.assign(at(memory.bodies.count()), {});
+  for_each_contact(memory, [&](const SweptContact& contact) {
+    for_each_box(world, memory, contact, [](Partner& partner, int) { ++partner.contacts; });
+  });
+  return few_touch(memory.partners) &&
+         std::ranges::any_of(memory.contacts, [&](const SweptContact& contact) {
+           return is_hit(contact) && rests_there_alone(memory, contact);
+         });
 }
 
 }  // namespace pneuma::sim
