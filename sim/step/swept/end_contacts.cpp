@@ -221,16 +221,20 @@ class EndContacts {
   }
 
   /// m/s, with which a box arrives, without what the step has given it: none of what has touched.
-  /// On other boxes the points of contacts change from step to step, and the path would add energy.
+  /// On boxes that move the points of contacts change from step to step, and the path would add
+  /// energy.
   double arrival_of(const Given& before, const SweptContact& contact) const {
-    if (!before.is_known || before.is_near || !is_on_ground(contact)) return 0.0;
+    if (!before.is_known || before.is_near || !is_on_still(contact)) return 0.0;
     if (!before.is_of_end) return before.approach;
     const Vec3 velocity = velocity_before(contact.first) - velocity_before(contact.second);
     return std::min(before.approach, -contact.normal.dot(velocity));
   }
 
-  bool is_on_ground(const SweptContact& contact) const {
-    return contact.second.body == swept_ground && motion_.is_rigid(contact);
+  /// Of two boxes, or one and the ground.
+  bool is_on_still(const SweptContact& contact) const {
+    const auto [first, second] = pair_of(contact);
+    return motion_.is_rigid(contact) &&
+           (m_.bodies.stands_still(world_, first) || m_.bodies.stands_still(world_, second));
   }
   /// Two boxes, or one and an obstacle or the ground.
   bool keep_shapes(const SweptContact& contact) const {

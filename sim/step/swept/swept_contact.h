@@ -22,7 +22,7 @@ struct SweptContact {
   double restitution = 0.0;     // of what bounces at the end of the step
   double parting = 0.0;         // m/s, at which the sides part at the end of the step, at least
   bool returns_energy = false;  // what parts bounces, or gets back what it lost without a touch
-  bool stops = false;  // at the end: a box has hit the ground in the step, and does not bounce
+  bool stops = false;           // at the end: a box has hit what stands still, and does not bounce
   bool is_of_near_boxes = false;
   double gap_rate = 0.0;    // m/s, at which walls that grip open it: their share of each gap
   bool is_gripped = false;  // of boxes that walls squeeze which nearly move as one

@@ -39,9 +39,10 @@ void for_each_contact(const SweptMemory& memory, const Visit& visit) {
   for (const SweptContact& contact : memory.contacts) visit(contact);
 }
 
-/// Whether a box that hits the ground has rested on it as well, and touches nothing else.
-bool rests_there_alone(const SweptMemory& memory, const SweptContact& hit) {
-  const int box = hit.first.body;
+/// Whether a box that hits what stands still has rested on it as well, and touches nothing else.
+bool rests_there_alone(const World& world, const SweptMemory& memory, const SweptContact& hit) {
+  const auto [first, second] = pair_of(hit);
+  const int box = is_fixed(world, first) ? second : first;
   bool has_rested = false, is_alone = true;
   for (const SweptContact& contact : memory.first_contacts) {
     has_rested = has_rested || (contact.is_near && pair_of(contact) == pair_of(hit));
@@ -118,7 +119,7 @@ bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction) {
   if (fraction <= least_part_of_tipping) return false;
   const double fall = time_step(world.settings) / fraction * world.settings.gravity.norm();
   const auto is_hit = [&](const SweptContact& contact) {
-    return contact.stops && !contact.is_new && contact.approach > least_tipping * fall;
+    return contact.stops && contact.approach > least_tipping * fall;
   };
   if (std::ranges::none_of(memory.contacts, is_hit)) return false;
   memory.partners.assign(at(memory.bodies.count()), {});
@@ -127,7 +128,7 @@ bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction) {
   });
   return few_touch(memory.partners) &&
          std::ranges::any_of(memory.contacts, [&](const SweptContact& contact) {
-           return is_hit(contact) && rests_there_alone(memory, contact);
+           return is_hit(contact) && rests_there_alone(world, memory, contact);
          });
 }
 

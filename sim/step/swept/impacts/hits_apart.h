@@ -28,7 +28,7 @@ bool few_touch(std::span<const Partner> boxes);
 bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& motion,
                   double fraction);
 
-/// Whether a box that rests on the ground tips onto another edge, in the middle of the step: its
+/// Whether a box that rests on what stands still tips onto another edge of it in the step: its
 /// weight changes over then. Of the contacts of the end, and as above.
 bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction);
 
