@@ -60,6 +60,23 @@ TEST(StepAdvice, IsOfShorterStepsWhereBodiesMayMeet) {
   EXPECT_NEAR(step_advice(world, world.soft[0]).safe, 0.75 / 0.9 * alone, 1e-12);
 }
 
+/// Whose hits divide steps: by rk4 these commute.
+TEST(StepAdvice, IsOfStepsThatDoNotResonateBesideBoxes) {
+  sim::World world = lying_ball();
+  world.settings.contact = sim::ContactMethod::swept;
+  world.rigid.push_back(sim::make_rigid(sim::Vec3::Ones(), {9.0, 0.0, 0.5}));
+  const auto share = [&](sim::Integrator integrator) {
+    world.settings.integrator = integrator;
+    const StepAdvice advice = step_advice(world, world.soft[0]);
+    return advice.safe / advice.limit;
+  };
+  EXPECT_DOUBLE_EQ(share(sim::Integrator::rk4), 0.75);
+  EXPECT_DOUBLE_EQ(share(sim::Integrator::velocity_verlet), 0.5);
+  EXPECT_DOUBLE_EQ(share(sim::Integrator::symplectic_euler), 0.5);
+  world.rigid[0].is_kinematic = true;
+  EXPECT_DOUBLE_EQ(share(sim::Integrator::velocity_verlet), 0.9);
+}
+
 /// Springs between bodies are stepped explicitly by implicit integrators too.
 TEST(StepAdvice, NamesTheSpringThatIsTooStiff) {
   sim::World world = lying_ball();
