@@ -124,8 +124,18 @@ double safe_share_of(const sim::World& world) {
   return may_meet_each_other(world) ? safe_share_in_contact : safe_share;
 }
 
-void choose_steps(const sim::World& world, StepAdvice& advice) {
-  advice.safe = safe_share_of(world) * advice.limit;
+/// s: `limit`, that of the world's integrator, or less. Contacts act at the ends of a step,
+/// whatever is done within it: of bodies that press each other rk8's long steps win energy, rk4's
+/// do not.
+double limit_for_contacts(const sim::World& world, int soft_body, double limit) {
+  if (world.settings.integrator != sim::Integrator::rk8 || !may_meet_each_other(world))
+    return limit;
+  return std::min(limit, sim::joined_stability_limit(sim::Integrator::rk4, world, soft_body).step);
+}
+
+/// `limit`: s, for contacts.
+void choose_steps(const sim::World& world, double limit, StepAdvice& advice) {
+  advice.safe = safe_share_of(world) * limit;
   const double factor = advice.is_safe() ? blind_factor : std::ceil(advice.step / advice.safe);
   const double rate = factor * world.settings.steps_per_second;
   advice.steps_per_second = rate <= most_steps_per_second ? static_cast<int>(rate) : 0;
@@ -142,7 +152,7 @@ StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body) {
   advice.step = sim::time_step(world.settings);
   advice.limit = limit.step;
   advice.of_springs = is_of_springs(world, index, limit.step);
-  choose_steps(world, advice);
+  choose_steps(world, limit_for_contacts(world, index, limit.step), advice);
   if (!advice.is_safe() && !advice.of_springs) {
     advice.why = bending_reason(world, body, limit.step);
   }
@@ -165,7 +175,7 @@ StepAdvice step_advice_in_contact(const sim::World& world, const sim::SoftBody& 
   advice.of_contact = true;
   advice.why = fmt::format("contact by potential with {}",
                            scenes::integrator_name(world.settings.integrator));
-  choose_steps(world, advice);
+  choose_steps(world, limit, advice);
   return advice;
 }
 

@@ -27,8 +27,8 @@ struct StepAdvice {
 /// Of a soft body of the world as it is, and as it will be when its gas has blown it up
 /// (stability_limit.h), with the springs on it. Safe are nine tenths of the limit for a body alone,
 /// and less of it for bodies that may lie on each other, whose contacts shake them nearer to it,
-/// and beside boxes, which divide steps. To try again with: safe steps; where they already are, a
-/// quarter as long.
+/// and beside boxes, which divide steps; where bodies may meet, rk8's are no longer than rk4's. To
+/// try again with: safe steps; where they already are, a quarter as long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 
 /// The same of a world in which something diverged: where contact is a potential and bodies touch,

@@ -77,6 +77,18 @@ TEST(StepAdvice, IsOfStepsThatDoNotResonateBesideBoxes) {
   EXPECT_DOUBLE_EQ(share(sim::Integrator::velocity_verlet), 0.9);
 }
 
+/// By which contacts, at the ends of a step, would win energy.
+TEST(StepAdvice, IsOfNoLongerStepsByRk8ThanByRk4WhereBodiesMayMeet) {
+  sim::World world = lying_ball();
+  const auto safe = [&](sim::Integrator integrator) {
+    world.settings.integrator = integrator;
+    return step_advice(world, world.soft[0]).safe;
+  };
+  EXPECT_GT(safe(sim::Integrator::rk8), 1.3 * safe(sim::Integrator::rk4));
+  world.rigid.push_back(sim::make_rigid(sim::Vec3::Ones(), {9.0, 0.0, 0.5}));
+  EXPECT_DOUBLE_EQ(safe(sim::Integrator::rk8), safe(sim::Integrator::rk4));
+}
+
 /// Springs between bodies are stepped explicitly by implicit integrators too.
 TEST(StepAdvice, NamesTheSpringThatIsTooStiff) {
   sim::World world = lying_ball();
