@@ -24,7 +24,8 @@ constexpr int bisections = 30;
 /// By which an eigenvalue of a stable step may exceed 1: rounding.
 constexpr double stable_rounding = 1e-9;
 
-/// Rounds in which the weight of the dashpots is brought into line with the limit.
+/// Rounds in which the weight of the dashpots is brought into line with the limit, and doubled: a
+/// swinging motion that dies away as well hides one that fails sooner for its dashpots.
 constexpr int weight_rounds = 3;
 
 struct OscillatorAcceleration {
@@ -78,14 +79,18 @@ StabilityLimit stability_limit(Integrator integrator, double kept,
                                const std::function<Oscillation(double weight)>& fastest) {
   StabilityLimit limit{infinite, {}};
   if (is_implicit(integrator)) return limit;
+  const double swings = stability_limit(integrator, {1.0, 0.0}),
+               dies_away = stability_limit(integrator, {0.0, 1.0});
   double weight = 0.0;
   for (int round = 0; round <= weight_rounds; ++round) {
     const Oscillation motion = fastest(weight);
     const double step = stability_limit(integrator, motion, kept);
     if (step < limit.step) limit = {step, motion};
     if (!std::isfinite(limit.step)) break;
-    // symplectic_euler fails where h^2 omega^2 + 2 h delta = 4, the others nearly so.
-    weight = 2.0 / limit.step;
+    // By once this, an undamped motion and one that only dies away, which fail at the same step,
+    // count alike. symplectic_euler fails where h^2 omega^2 + 2 h delta = 4, the others nearly so.
+    const double times = std::ldexp(1.0, round);
+    weight = times * swings * swings / (dies_away * limit.step);
   }
   return limit;
 }

@@ -65,12 +65,15 @@ TEST(StabilityLimit, HoldsForSpringsOfAnyStiffness) {
   }
 }
 
-/// A sphere whose springs are in equilibrium with its gas: at rest as it is.
-SoftBody held_sphere(double n, double k_max) {
+/// A sphere whose springs are in equilibrium with its gas, that of `n` mol and what an ambient
+/// pressure (Pa) balances: at rest as it is.
+SoftBody held_sphere(double n, double k_max, double ambient_pressure = 0.0) {
   SoftBody body = make_body(make_sphere(3.0, 8, 8));
   body.material.k = 1000.0;
-  body.material.n = n;
   body.material.k_max = k_max;
+  body.material.ambient_pressure = ambient_pressure;
+  const double inside = volume(body.mesh->topology, body.positions);
+  body.material.n = n + ambient_pressure * inside / (gas_constant * body.material.temperature);
   const Equilibrium held =
       find_equilibrium(body.mesh->topology, body.positions, body.material, exact_equilibrium);
   body.mesh = make_soft_mesh(*body.mesh, held.rest_lengths);
@@ -131,6 +134,19 @@ TEST(StabilityLimit, IsWhereSmallMotionsOfABodyBeginToGrow) {
         EXPECT_FALSE(grows(integrator, body, 0.98 * predicted)) << n << " " << k_max;
         EXPECT_TRUE(grows(integrator, body, 1.02 * predicted)) << n << " " << k_max;
       }
+    }
+  }
+}
+
+/// The gas makes the fastest motion, and dashpots the one that is the first to fail, or not.
+TEST(StabilityLimit, HoldsForGasThatIsStifferThanTheSprings) {
+  for (const double ambient_pressure : {1e3, 3e3, 6e3, 1e4, 3e4}) {
+    const SoftBody body = held_sphere(10.0, 1000.0, ambient_pressure);
+    for (const Integrator integrator : explicit_integrators) {
+      const double predicted =
+          stability_limit(integrator, *body.mesh, body.material, body.positions).step;
+      EXPECT_FALSE(grows(integrator, body, 0.98 * predicted)) << ambient_pressure;
+      EXPECT_TRUE(grows(integrator, body, 1.02 * predicted)) << ambient_pressure;
     }
   }
 }
