@@ -125,11 +125,11 @@ double safe_share_of(const sim::World& world) {
 }
 
 /// s: `limit`, that of the world's integrator, or less. Contacts act at the ends of a step,
-/// whatever is done within it: of bodies that press each other rk8's long steps win energy, rk4's
-/// do not.
+/// whatever is done within it: where bodies press each other or the ground, rk8's long steps win
+/// energy, and rk4's do not.
 double limit_for_contacts(const sim::World& world, int soft_body, double limit) {
-  if (world.settings.integrator != sim::Integrator::rk8 || !may_meet_each_other(world))
-    return limit;
+  const bool may_touch = world.settings.ground || sim::body_count(world) > 1;
+  if (world.settings.integrator != sim::Integrator::rk8 || !may_touch) return limit;
   return std::min(limit, sim::joined_stability_limit(sim::Integrator::rk4, world, soft_body).step);
 }
 

@@ -27,7 +27,7 @@ struct StepAdvice {
 /// Of a soft body of the world as it is, and as it will be when its gas has blown it up
 /// (stability_limit.h), with the springs on it. Safe are nine tenths of the limit for a body alone,
 /// and less of it for bodies that may lie on each other, whose contacts shake them nearer to it,
-/// and beside boxes, which divide steps; where bodies may meet, rk8's are no longer than rk4's. To
+/// and beside boxes, which divide steps; where they may touch, rk8's are no longer than rk4's. To
 /// try again with: safe steps; where they already are, a quarter as long.
 StepAdvice step_advice(const sim::World& world, const sim::SoftBody& body);
 
