@@ -204,7 +204,7 @@ bool Simulation::step_in_parts(int parts) {
   sim::World finer = world_;
   finer.settings.steps_per_second *= parts;
   finer.steps *= parts;
-  sim::Stepper stepper(finer, {.threads = threads_, .profile = true, .plan = {}});
+  sim::Stepper stepper(finer, {.threads = threads_, .profile = true, .plan = {}, .parts = parts});
   double driven_work = 0.0, gas_work = 0.0;
   bool is_valid = true;
   for (int i = 0; i < parts && is_valid; ++i) {

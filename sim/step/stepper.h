@@ -23,6 +23,7 @@ struct StepperOptions {
   bool profile = false;       // measure StageTimes
   bool measure_work = false;  // measure Stepper::contact_work
   std::optional<Plan> plan;   // in place of the world's own: for tests
+  int parts = 1;              // of a step of the scene: each of these steps is one of so many
   /// Called with the world after each part of a step that contacts divide, or after the whole one
   /// if they do not: between these calls surfaces of swept contacts move along straight ways.
   std::function<void(const World&)> after_part = nullptr;

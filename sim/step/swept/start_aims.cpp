@@ -15,8 +15,12 @@ constexpr double least_of_wanted = 0.02;
 class StartAims {
  public:
   StartAims(const World& world, const MotionStart& start, SweptMemory& memory,
-            const SweptWarmStart& warm_start)
-      : world_(world), m_(memory), motion_(world, start, memory.bodies), warm_start_(warm_start) {}
+            const SweptWarmStart& warm_start, double fraction)
+      : world_(world),
+        m_(memory),
+        motion_(world, start, memory.bodies),
+        warm_start_(warm_start),
+        made_up_(fraction * made_up_per_step) {}
 
   void aim() {
     for (std::size_t i = 0; i < m_.contacts.size(); ++i) {
@@ -46,7 +50,7 @@ class StartAims {
     }
     if (contact.distance > contact.wanted) return closer + contact.wanted - contact.distance;
     // Springs take back most of what holds up a vertex that others press into the ground.
-    const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_per_step;
+    const double made_up = contact.second.body == swept_ground ? 1.0 : made_up_;
     return closer + made_up * std::max(0.0, missing_distance(contact));
   }
 
@@ -84,13 +88,14 @@ class StartAims {
   SweptMemory& m_;
   ContactMotion motion_;
   const SweptWarmStart& warm_start_;
+  double made_up_;  // of what is missing: by all parts of a step as much as by a whole one
 };
 
 }  // namespace
 
 void aim_at_distances(const World& world, const MotionStart& start, SweptMemory& memory,
-                      const SweptWarmStart& warm_start) {
-  StartAims(world, start, memory, warm_start).aim();
+                      const SweptWarmStart& warm_start, double fraction) {
+  StartAims(world, start, memory, warm_start, fraction).aim();
 }
 
 }  // namespace pneuma::sim
