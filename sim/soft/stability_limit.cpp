@@ -75,18 +75,21 @@ double stability_limit(Integrator integrator, const Oscillation& motion, double 
   return low;
 }
 
-StabilityLimit stability_limit(Integrator integrator, double kept,
-                               const std::function<Oscillation(double weight)>& fastest) {
+StabilityLimit stability_limit(Integrator integrator, double kept, const FindMotion& fastest,
+                               const FindMotion& most_damped) {
   StabilityLimit limit{infinite, {}};
   if (is_implicit(integrator)) return limit;
+  const auto take = [&](const Oscillation& motion) {
+    const double step = stability_limit(integrator, motion, kept);
+    if (step < limit.step) limit = {step, motion};
+  };
   const double swings = stability_limit(integrator, {1.0, 0.0}),
                dies_away = stability_limit(integrator, {0.0, 1.0});
   double weight = 0.0;
   for (int round = 0; round <= weight_rounds; ++round) {
-    const Oscillation motion = fastest(weight);
-    const double step = stability_limit(integrator, motion, kept);
-    if (step < limit.step) limit = {step, motion};
+    take(fastest(weight));
     if (!std::isfinite(limit.step)) break;
+    if (most_damped) take(most_damped(dies_away / limit.step));
     // By once this, an undamped motion and one that only dies away, which fail at the same step,
     // count alike. symplectic_euler fails where h^2 omega^2 + 2 h delta = 4, the others nearly so.
     const double times = std::ldexp(1.0, round);
@@ -98,8 +101,10 @@ StabilityLimit stability_limit(Integrator integrator, double kept,
 StabilityLimit stability_limit(Integrator integrator, const SoftMesh& mesh,
                                const SoftMaterial& material, const VertexArray& positions) {
   const VibrationMode motions(mesh, material, positions);
-  return stability_limit(integrator, 1.0 - literal_fraction(material),
-                         [&](double weight) { return motions.along(motions.fastest(weight)); });
+  return stability_limit(
+      integrator, 1.0 - literal_fraction(material),
+      [&](double weight) { return motions.along(motions.fastest(weight)); },
+      [&](double weight) { return motions.along(motions.most_damped(weight)); });
 }
 
 namespace {

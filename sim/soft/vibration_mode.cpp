@@ -105,6 +105,11 @@ VectorXd VibrationMode::fastest(double weight) const {
                                [&](const VectorXd& u) { return product(u, weight); });
 }
 
+VectorXd VibrationMode::most_damped(double weight) const {
+  return base::max_eigenvector(3 * area_.size(),
+                               [&](const VectorXd& u) -> VectorXd { return -product(u, -weight); });
+}
+
 VectorXd VibrationMode::faster_than(const VectorXd& u) const {
   constexpr Eigen::Index few = 6;
   return base::max_eigenvector_from(u, few, [&](const VectorXd& v) { return product(v, 0.0); });

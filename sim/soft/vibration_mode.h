@@ -27,6 +27,8 @@ class VibrationMode {
 
   /// The motion u of the largest u.K u + weight u.D u, of size 1.
   Eigen::VectorXd fastest(double weight) const;
+  /// The motion u of the largest weight u.D u - u.K u, of size 1.
+  Eigen::VectorXd most_damped(double weight) const;
   /// A motion near u, of size 1 as u is: the fastest that a few products with K find. For where u
   /// is fast already, and `fastest` takes too long.
   Eigen::VectorXd faster_than(const Eigen::VectorXd& u) const;

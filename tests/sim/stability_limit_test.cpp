@@ -175,6 +175,27 @@ TEST(StabilityLimit, HoldsForHingesThatAreStifferThanTheSprings) {
   }
 }
 
+/// So damped that the first motion to fail is one that dies away without swinging, by springs and
+/// hinges against each other: neither the fastest, nor the most damped, nor of any sum of both.
+TEST(StabilityLimit, HoldsForMotionsThatOnlyDieAway) {
+  SoftBody body = make_body(make_icosphere(1.0, 2));
+  body.material.k = 74.89;
+  body.material.k_max = 9.765;
+  body.material.n = 0.0;
+  body.material.vertex_mass = 1.15 / body.positions.size();
+  body.mesh = with_hinges(*body.mesh);
+  body.material.bending = 5.15;
+  for (const double damping : {0.002, 0.0031, 0.005}) {  // s
+    body.material.bending_damping = damping;
+    for (const Integrator integrator : {Integrator::rk4, Integrator::rk8}) {
+      const double predicted =
+          stability_limit(integrator, *body.mesh, body.material, body.positions).step;
+      EXPECT_FALSE(grows(integrator, body, 0.98 * predicted)) << damping;
+      EXPECT_TRUE(grows(integrator, body, 1.02 * predicted)) << damping;
+    }
+  }
+}
+
 TEST(StabilityLimit, OfABodyThatItsGasWillBlowUpHoldsAtTheStartAndWhenItIsBlownUp) {
   // Before, its gas is the stiffer; after, springs are stiff across themselves, too.
   for (const double n : {1.0, 10.0}) {
