@@ -53,7 +53,8 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
 }
 
 std::vector<std::string> ScriptedWorld::warnings() const {
-  return scene_warnings(scene_, world(), step_advices(world()), {});
+  const sim::World start = build_world(scene_);
+  return scene_warnings(scene_, start, step_advices(start), gas_advices_before_run(scene_, start));
 }
 
 }  // namespace pneuma::app

@@ -61,9 +61,7 @@ bool shows_particles(const Pictures& pictures) {
 /// soft bodies can meet.
 void warn_before_run(const Pictures& pictures, const scenes::Scene& scene, const sim::World& world,
                      Progress& progress) {
-  std::vector<GasAdvice> gas;
-  if (scene.figure.empty())
-    gas = gas_advices(world, quick_advice);  // the paper's are meant to swell
+  const std::vector<GasAdvice> gas = gas_advices_before_run(scene, world);
   for (const std::string& warning : scene_warnings(scene, world, step_advices(world), gas)) {
     progress.say(warning);
   }

@@ -158,6 +158,11 @@ void add_long_steps(const scenes::Scene& scene, const sim::World& start,
 
 }  // namespace
 
+std::vector<GasAdvice> gas_advices_before_run(const scenes::Scene& scene, const sim::World& start) {
+  if (!scene.figure.empty()) return {};
+  return gas_advices(start, quick_advice);
+}
+
 std::vector<std::string> scene_warnings(const scenes::Scene& scene, const sim::World& start,
                                         const std::vector<StepAdvice>& steps,
                                         const std::vector<GasAdvice>& gas) {

@@ -269,6 +269,14 @@ class Module(unittest.TestCase):
         with self.assertRaises(pneuma.Error):
             pneuma.load(str(self.scene)).draw(width=1)
 
+    def test_warnings_are_the_commands_before_a_run(self):
+        much_gas = "ball.n=200"
+        said = self.command("check", self.scene, "--set", much_gas).stderr
+        world = pneuma.load(self.scene, set=[much_gas])
+        world.step(5)
+        self.assertTrue(any("warning: body 'ball'" in warning for warning in world.warnings), said)
+        self.assertEqual("\n".join(world.warnings) + "\n", said)
+
     def test_a_divergence_leaves_the_last_valid_state(self):
         far = ["simulation.integrator=symplectic_euler", "body.1.k=1e12", "body.1.k_max=8e12"]
         far.append("simulation.steps_per_second=60")
