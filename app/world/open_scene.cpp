@@ -45,7 +45,8 @@ bool can_be_chosen(const StepAdvice& advice) {
 }
 
 std::string why_shorter(const StepAdvice& advice) {
-  const std::string stable = fmt::format("small motions are stable up to {:.3g} s", advice.limit);
+  const std::string stable =
+      fmt::format("small motions are stable up to {:.3g} s for {}", advice.limit, advice.why);
   if (advice.too_long()) return stable;
   return fmt::format("{}, and steps beyond {:.3g} s come too near that", stable, advice.safe);
 }

@@ -24,9 +24,10 @@ constexpr double safe_share = 0.9;
 /// Where bodies may lie on each other: nearer to the limit their contacts shake them.
 constexpr double safe_share_in_contact = 0.75;
 /// The same beside boxes, whose hits divide steps. By the integrators that are not Runge-Kutta
-/// methods steps of two lengths do not commute, and one after the other they resonate with motions
-/// that bear both: with those of more than 1.2 / step where they alternate.
-constexpr double safe_share_of_divided = 0.5;
+/// methods steps of two lengths do not commute: whole and divided ones in turn resonate with
+/// motions that bear both, with those from 0.9 / step on where every second or third is divided.
+/// The weaker resonances of rarer ones are left to damping.
+constexpr double safe_share_of_divided = 0.45;
 /// By how much shorter steps are to be that would be safe by the limit.
 constexpr int blind_factor = 4;
 constexpr int most_steps_per_second = 1'000'000;  // what a scene may ask for
@@ -175,7 +176,7 @@ StepAdvice step_advice_in_contact(const sim::World& world, const sim::SoftBody& 
   advice.of_contact = true;
   advice.why = fmt::format("contact by potential with {}",
                            scenes::integrator_name(world.settings.integrator));
-  choose_steps(world, limit, advice);
+  choose_steps(world, limit_for_contacts(world, index_of(world, body), limit), advice);
   return advice;
 }
 

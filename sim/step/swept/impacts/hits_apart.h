@@ -28,8 +28,8 @@ bool few_touch(std::span<const Partner> boxes);
 bool is_hit_twice(const World& world, SweptMemory& memory, const ContactMotion& motion,
                   double fraction);
 
-/// Whether a box that rests on what stands still tips onto another edge of it in the step: its
-/// weight changes over then. Of the contacts of the end, and as above.
+/// Whether a box that rests on what stands still tips onto another edge of it in the step, or as it
+/// ends: its weight changes over then. Of the contacts of the end, and as above.
 bool is_tipped_onto(const World& world, SweptMemory& memory, double fraction);
 
 }  // namespace pneuma::sim
