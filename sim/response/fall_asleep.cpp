@@ -34,11 +34,10 @@ int quiet_steps(const World& world, int body) {
 }
 
 /// Handles may move whenever their keys say so, gas may come or go, and what is at the other end of
-/// a spring may move. A soft body that only the ground can touch needs no stage that would look.
+/// a spring may move.
 bool may_sleep(const World& world, int body) {
   if (is_kinematic(world, body)) return false;
   if (body >= soft_count(world)) return true;
-  if (body_count(world) == 1) return false;
   const SoftBody& soft = world.soft[at(body)];
   if (soft.pins && soft.pins->are_moved) return false;
   return !has_gas_flow(world, body) && !has_springs(world, body);

@@ -11,6 +11,7 @@
 #include "sim/soft/pins.h"
 #include "sim/step/stage_runner.h"
 #include "sim/step/stages/stages.h"
+#include "sim/step/swept/swept_warm_start.h"
 #include "sim/step/swept_step.h"
 
 namespace pneuma::sim {
@@ -151,6 +152,10 @@ StepWorkspace::StepWorkspace(const World& world, StepperOptions given)
     swept.emplace(world);
     swept->measures_work = options.measure_work;
   }
+  if (world.settings.contact == ContactMethod::swept && !swept &&
+      plan.runs(Stage::resolve_contacts)) {
+    fall_asleep.emplace(world);
+  }
   if (has_gas_flow(world)) gas_flow.emplace(world);
   if (world.settings.contact == ContactMethod::potential && plan.runs(Stage::integrate_soft)) {
     potential = std::make_unique<PotentialMemory>(world);
@@ -189,6 +194,29 @@ std::optional<Divergence> Stepper::step_bodies(World& world) {
   StepWorkspace& w = *workspace_;
   if (w.swept) return step_swept(world);
   if (w.potential) return step_by_potential(world);
+  return w.fall_asleep ? step_on_ground(world) : step_in_stages(world);
+}
+
+/// It sleeps as what is swept does.
+std::optional<Divergence> Stepper::step_on_ground(World& world) {
+  StepWorkspace& w = *workspace_;
+  forget_other_bodies(world);
+  wake_moving(world);
+  if (is_at_rest(world)) {
+    w.contacts.clear();
+    w.contact_work = 0.0;
+    ++world.steps;
+    return std::nullopt;
+  }
+  if (auto divergence = step_in_stages(world)) return divergence;
+  if (w.fall_asleep->count_quiet_steps(world, w.motion_start)) {
+    w.contact_work -= w.fall_asleep->put_to_sleep(world, {}, w.contacts);
+  }
+  return std::nullopt;
+}
+
+std::optional<Divergence> Stepper::step_in_stages(World& world) {
+  StepWorkspace& w = *workspace_;
   const StageRunner run(w);
   std::optional<Divergence> divergence;
 

@@ -23,7 +23,9 @@ struct StepperOptions {
   bool profile = false;       // measure StageTimes
   bool measure_work = false;  // measure Stepper::contact_work
   std::optional<Plan> plan;   // in place of the world's own: for tests
-  int parts = 1;              // of a step of the scene: each of these steps is one of so many
+  /// Into which a step of the scene is divided, if each of these steps is such a part: it makes up
+  /// as much less of what is too near.
+  int parts = 1;
   /// Called with the world after each part of a step that contacts divide, or after the whole one
   /// if they do not: between these calls surfaces of swept contacts move along straight ways.
   std::function<void(const World&)> after_part = nullptr;
@@ -71,6 +73,8 @@ class Stepper {
 
  private:
   std::optional<Divergence> step_bodies(World& world);
+  std::optional<Divergence> step_in_stages(World& world);
+  std::optional<Divergence> step_on_ground(World& world);
   std::optional<Divergence> step_swept(World& world);
   std::optional<Divergence> step_by_potential(World& world);
 

@@ -38,6 +38,7 @@ struct StepWorkspace {
   ResolveContactsMemory resolve_contacts;
   DepenetrateMemory depenetrate;
   std::optional<SweptMemory> swept;            // if the world has swept contacts
+  std::optional<FallAsleep> fall_asleep;       // of a soft body that can touch the ground alone
   std::unique_ptr<PotentialMemory> potential;  // if contact is a potential
 };
 

@@ -79,6 +79,29 @@ TEST(Sleep, ASoftBodySleepsWithTheBoxesOnIt) {
   EXPECT_GT(world.rigid[0].position.z(), 1.0);
 }
 
+/// Awake it would leave the edge of a facet on which it stands, and roll half a metre from 15 s on.
+TEST(Sleep, ASoftBodyAloneOnTheGroundStaysWhereItHasComeToRest) {
+  World world;
+  SoftBody ball = make_body(make_sphere(0.5, 8, 8), {0.0, 0.0, 0.55});
+  ball.material.k = 50.0;
+  ball.material.n = 0.01;
+  ball.material.vertex_mass = 1.0 / ball.positions.size();
+  world.soft = {ball};
+  ASSERT_FALSE(run(world, 10.0));
+  ASSERT_TRUE(is_asleep(world, 0));
+  const World before = world;
+  Stepper stepper(world);
+  for (int i = 0; i < 60 * 20; ++i) ASSERT_FALSE(stepper.step(world));
+  EXPECT_TRUE(stepper.contacts().empty());
+  EXPECT_EQ(world.steps, before.steps + 60 * 20);
+  EXPECT_TRUE(world.soft[0].positions.rows() == before.soft[0].positions.rows());
+
+  for (int v = 0; v < ball.positions.size(); ++v) world.soft[0].velocities[v] = Vec3::UnitZ();
+  ASSERT_FALSE(stepper.step(world));
+  EXPECT_FALSE(is_asleep(world, 0));
+  EXPECT_GT(world.soft[0].positions[0].z(), before.soft[0].positions[0].z());
+}
+
 TEST(Sleep, ABoxThatFallsOnAStackWakesItAndNoOther) {
   World world = make_sleeping_stacks();
   world.rigid.push_back(make_rigid(Vec3::Ones(), {0.3, 0.0, 6.0}, 5.0));
