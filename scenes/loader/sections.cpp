@@ -95,8 +95,7 @@ Section simulation_section(Scene& scene) {
               {"integrator", word(settings.integrator, integrators), any(), "",
                "how soft bodies are stepped; under implicit_euler and martin their free spin dies "
                "away, under sdirk2 a fast one (some % of 10 rad/s in 3 s at 60 steps/s); rk8 is "
-               "for "
-               "free flight: where bodies may touch, its steps are no longer than rk4's"}),
+               "for free flight: where bodies may touch, its steps are no longer than rk4's"}),
           {"gravity", &settings.gravity, any(), "m/s^2", "acceleration along x, y, z"},
           of_method({"ambient_pressure", &scene.ambient_pressure, at_least(0), "Pa",
                      "outside of every body with gas; that of air is 101325"}),
