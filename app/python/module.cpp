@@ -421,7 +421,7 @@ void define_world(py::module_& module) {
           [](const PyWorld& world) { return scenes::print_scene(world.scripted.scene()); },
           "The effective scene")
       .def_property_readonly("warnings",
-                             reads([](const ScriptedWorld& world) { return world.warnings(); }))
+                             reads([](ScriptedWorld& world) { return world.warnings(); }))
       .def_property_readonly(
           "soft",
           [](const WorldPointer& world) {

@@ -52,9 +52,13 @@ render::Image ScriptedWorld::draw(const PictureSize& size, Show show) {
   return drawing_->draw(options, builder_->build(world(), camera_.at(world()), contacts(), show));
 }
 
-std::vector<std::string> ScriptedWorld::warnings() const {
-  const sim::World start = build_world(scene_);
-  return scene_warnings(scene_, start, step_advices(start), gas_advices_before_run(scene_, start));
+const std::vector<std::string>& ScriptedWorld::warnings() {
+  if (!warnings_) {
+    const sim::World start = build_world(scene_);
+    warnings_ =
+        scene_warnings(scene_, start, step_advices(start), gas_advices_before_run(scene_, start));
+  }
+  return *warnings_;
 }
 
 }  // namespace pneuma::app

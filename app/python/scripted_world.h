@@ -40,7 +40,7 @@ class ScriptedWorld {
   const sim::World& world() const { return simulation_.world(); }
   std::span<const sim::Contact> contacts() const { return simulation_.contacts(); }
   /// What the program would warn of before a run.
-  std::vector<std::string> warnings() const;
+  const std::vector<std::string>& warnings();
 
  private:
   scenes::Scene scene_;
@@ -48,6 +48,7 @@ class ScriptedWorld {
   RunCamera camera_;
   std::optional<FrameBuilder> builder_;
   std::optional<DrawingThread> drawing_;
+  std::optional<std::vector<std::string>> warnings_;
 };
 
 }  // namespace pneuma::app

@@ -7,8 +7,8 @@
 // motion of a body is that of the largest eigenvalue of its springs and gas; dashpots may make
 // another one the first to fail. So the fastest of both together are looked at too, with more and
 // more weight of the dashpots, and those that die away without swinging, as exp(-r t) with r^2 - r
-// delta + omega^2 = 0: such a one is stable up to a step of R / r (R = 2.785 for rk4), and fails at
-// h if (R / h) delta - omega^2 > (R / h)^2.
+// delta + omega^2 = 0: by rk4 and rk8 such a one is stable up to a step of R / r (R = 2.785 for
+// rk4), and fails at h if (R / h) delta - omega^2 > (R / h)^2.
 //
 // Small motions are those of a body at rest. One that is hit hard, whose springs are drawn out to
 // many times their length, or that presses its gas together, is stiffer.
