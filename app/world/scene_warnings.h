@@ -14,7 +14,8 @@ namespace pneuma::app {
 /// Of the [[body]] of which a world's body is a copy: "ball" or, of several, "ball.3".
 scenes::Place place_of(const scenes::Scene& scene, const std::string& name);
 
-/// Of few vertices; of the paper's scenes, which are meant to swell, nothing.
+/// Of bodies with few vertices (quick_advice); none of the paper's scenes, which are meant to
+/// swell.
 std::vector<GasAdvice> gas_advices_before_run(const scenes::Scene& scene, const sim::World& start);
 
 /// The loader's warnings, bodies whose steps are too long, bodies that gas blows up, and bodies

@@ -142,12 +142,14 @@ TEST(OnDivergence, OfARunWithoutPicturesIsThatOfOneWithThem) {
 TEST(OnDivergence, PartsOfAStepPartWhatIsTooNearNoFasterThanAWholeOne) {
   const char* const text = R"(
 duration = 2.0
+simulation = {steps_per_second = 180, gravity = [0, 0, -3.7]}
 [[body]]
 shape = "icosphere"
 radius = 1
 subdivisions = 1
 mass = 2.36193879
 k = 1390.23717
+n = 0.003
 position = [0, 0, 1.5]
 [[body]]
 kind = "rigid"
@@ -157,11 +159,7 @@ position = [0, 0, 4]
 friction = 0.8
 restitution = 0
 )";
-  scenes::Scene scene = scenes::parse_scene(text, "box_on_springs.toml");
-  scene.settings.steps_per_second = 180;
-  scene.settings.gravity.z() = -3.7;
-  scene.bodies[0].material.n = 0.003;
-  const RunStatistics run = run_statistics(scene, 1);
+  const RunStatistics run = run_statistics(scenes::parse_scene(text, "box_on_springs.toml"), 1);
   EXPECT_FALSE(run.divergence) << *run.divergence;
   EXPECT_GE(run.divided_steps, 1);
 }
