@@ -1,9 +1,17 @@
 #include "sim/step/swept/returned_energy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pneuma::sim {
 namespace {
+
+/// Of the impulses that were found: the multiple of them all that does least work, if it is less.
+/// Small differences are what is left of any solution.
+constexpr double least_share_of_found = 0.9;
+/// Of the work of the start, which the impulses of the end may add again where they take back those
+/// of the start.
+constexpr double most_added_again = 2.0;
 
 /// The contacts of an island, as one impact.
 class LoneImpact {
@@ -70,7 +78,10 @@ class ReturnedEnergy {
     r_.given.resize(m_.contacts.size());
     for (std::size_t i = 0; i < r_.returns.size(); ++i) {
       double& of_island = m_.work_of_islands[i];
-      if (r_.returns[i] != 0 && of_island > 0.0) limit(static_cast<int>(i), of_island);
+      if (!(of_island > 0.0)) continue;
+      const int island = static_cast<int>(i);
+      if (r_.returns[i] != 0 && limit(island, of_island)) continue;
+      shorten(island, of_island);
     }
   }
 
@@ -106,8 +117,13 @@ class ReturnedEnergy {
     }
   }
 
-  /// `work_of_island`: J, which is then that of the mixture.
-  void limit(int island, double& work_of_island) {
+  /// m/s, at which the sides part if nothing is returned.
+  static double without_return(const SweptContact& contact) {
+    return contact.returns_energy ? 0.0 : contact.parting;
+  }
+
+  /// `work_of_island`: J, which is then that of the mixture. Returns false if nothing is returned.
+  bool limit(int island, double& work_of_island) {
     const auto impulses = m_.solver.impulses_of(island);
     const double with = work_of_island;
     double without = with;
@@ -116,8 +132,8 @@ class ReturnedEnergy {
       const SweptContact& contact = m_.contacts[i];
       without -= work(i);
       r_.given[i] = impulse->given();
-      const double parting = contact.returns_energy ? 0.0 : contact.parting;
-      impulse->aim(parting - contact.normal.dot(m_.end_velocities[i]), m_.end_velocities[i]);
+      impulse->aim(without_return(contact) - contact.normal.dot(m_.end_velocities[i]),
+                   m_.end_velocities[i]);
     }
     work_of_island = without;  // that of the start
     m_.solver.solve_island(island, tolerance_);
@@ -128,6 +144,34 @@ class ReturnedEnergy {
           share * r_.given[m_.contact_of(impulse)] + (1.0 - share) * impulse->given();
       impulse->replace_given(to_vec4d(mixed));
     }
+    for (const SweptImpulse* impulse : impulses) work_of_island += work(m_.contact_of(impulse));
+    return share > 0.0;
+  }
+
+  /// Against velocities less those that are aimed at, J v + 1/2 J dv, no multiple of a solution
+  /// does less work than the solution itself.
+  void shorten(int island, double& work_of_island) {
+    const auto impulses = m_.solver.impulses_of(island);
+    double before = 0.0, change = 0.0, of_end = 0.0;
+    for (const SweptImpulse* impulse : impulses) {
+      const std::size_t i = m_.contact_of(impulse);
+      const SweptContact& contact = m_.contacts[i];
+      const Vec3 wanted = without_return(contact) * contact.normal, given = impulse->given();
+      before += given.dot(m_.end_velocities[i] - wanted);
+      change += given.dot(impulse->change());
+      of_end += work(i);
+    }
+    const double of_start = work_of_island - of_end;
+    if (!(of_end > most_added_again * std::abs(of_start))) return;
+    if (!(-before < least_share_of_found * change)) return;
+    const double share = std::max(0.0, -before / change);
+    for (const SweptImpulse* impulse : impulses) {
+      r_.given[m_.contact_of(impulse)] = share * impulse->given();
+    }
+    for (SweptImpulse* impulse : impulses) {
+      impulse->replace_given(to_vec4d(r_.given[m_.contact_of(impulse)]));
+    }
+    work_of_island = of_start;
     for (const SweptImpulse* impulse : impulses) work_of_island += work(m_.contact_of(impulse));
   }
 

@@ -16,6 +16,11 @@ void follow_impacts(SweptMemory& memory, double tolerance);
 /// are mixed. The energy is a convex function of the impulses, so that on the chord it is at most
 /// what the chord says; Coulomb's cone is convex too.
 ///
+/// Where the solver's iterations are too few, as for light vertices between heavy boxes, what they
+/// leave may do any work. Impulses of an island that do work above zero, more than they could by
+/// taking back those of the start, are shortened to the multiple of them that does least, if that
+/// is less than nine tenths of them.
+///
 /// `memory`: the contacts and impulses of the end of the step, solved for to `tolerance` (m/s), and
 /// of its start, with their work.
 void limit_returned_energy(SweptMemory& memory, double tolerance);
