@@ -157,7 +157,8 @@ std::string energy_text(const RunStatistics& run) {
           ? fmt::format("{:.4g} J at {:.2f} s, {:.2g} % of the {:.4g} J it varies by",
                         run.energy_rise.value, run.energy_rise.time, 100.0 * part, run.energy_span)
           : "none";
-  text += named_line("", "greatest rise from one frame to the next: " + rise);
+  const std::string less = run.driven_work || run.gas_work ? ", less the work below" : "";
+  text += named_line("", "greatest rise from one frame to the next" + less + ": " + rise);
   if (run.driven_work) {
     text += named_line("", fmt::format("work of moved bodies: {:+.4g} J", *run.driven_work));
   }

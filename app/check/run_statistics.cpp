@@ -156,10 +156,12 @@ class Observer {
 
   void after_frame(const sim::World& world) {
     const double now = sim::energy(world).total();
-    const double rise = now - last_energy_;
+    const double work = result_.driven_work.value_or(0.0) + result_.gas_work.value_or(0.0);
+    const double rise = (now - last_energy_) - (work - last_work_);
     result_.energy_rises += std::max(0.0, rise);
     if (rise > result_.energy_rise.value) result_.energy_rise = {rise, sim::time(world)};
     last_energy_ = now;
+    last_work_ = work;
     least_energy_ = std::min(least_energy_, now);
     greatest_energy_ = std::max(greatest_energy_, now);
     const double depth = look_at_penetration(world);
@@ -340,6 +342,7 @@ class Observer {
   Motion motion_;                     // up to it
   std::optional<double> quiet_from_;  // s, of the frame from which on nothing was faster
   double last_energy_;
+  double last_work_ = 0.0;
   double least_energy_;
   double greatest_energy_;
 };

@@ -106,8 +106,9 @@ struct RunStatistics {
 
   sim::Energy energy_start;
   sim::Energy energy_end;
-  Peak energy_rise;           // J, the greatest from one frame to the next
-  double energy_rises = 0.0;  // J, all of them together
+  // J, from one frame to the next, less the work below: the greatest, and all of them together.
+  Peak energy_rise;
+  double energy_rises = 0.0;
   // J, of the bodies that are moved on what they pushed; none: there is no such body.
   std::optional<double> driven_work;
   bool pins_move = false;  // of bodies that are not moved whole: they do work that is not known

@@ -71,8 +71,13 @@ std::string what_is_near(const sim::World& world, const sim::Divergence& diverge
   }
   if (world.settings.ground && own.low.z() < reach) near.emplace_back("the ground");
   std::erase(near, divergence.other);
+  if (near.empty()) return "";
   constexpr std::size_t most_named = 4;
-  if (near.empty() || near.size() > most_named) return "";
+  if (near.size() > most_named) {
+    const std::size_t others = near.size() - (most_named - 1);
+    near.resize(most_named - 1);
+    near.push_back(fmt::format("{} others", others));
+  }
   const std::string last = near.back();
   near.pop_back();
   if (near.empty()) return "; near it is " + last;

@@ -260,6 +260,7 @@ rho_g = 0.0
   // The impulse is solved for to a part of the skin.
   EXPECT_NEAR(*run.driven_work, 8.0, 1e-6);
   EXPECT_NEAR(run.energy_end.total() - run.energy_start.total(), *run.driven_work, 1e-6);
+  EXPECT_LT(run.energy_rise.value, 1e-6);
   EXPECT_FALSE(statistics_of(free_sphere).driven_work);
 }
 

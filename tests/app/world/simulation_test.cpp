@@ -59,6 +59,12 @@ TEST(DivergenceError, NamesWhatIsNear) {
       << said_of_two("ball", "left");
   EXPECT_EQ(said_of_two("right", "ball").find("near"), std::string::npos)
       << said_of_two("right", "ball");
+  for (const char* const name : {"third", "fourth"}) {
+    world.rigid.push_back(world.rigid.front());
+    world.rigid.back().name = name;
+  }
+  EXPECT_NE(said("ball").find("; near it are right, left, third and 2 others"), std::string::npos)
+      << said("ball");
 }
 
 /// A flat ball between two boxes, of which the left one comes nearer.
