@@ -127,7 +127,7 @@ class SweptStep {
       if (!m_.contacts.empty()) {
         std::optional<Divergence> failed;
         run_(Stage::resolve_contacts, [&] {
-          aim_at_distances(world_, start(), m_, warm_start_, 1.0 / w_.options.parts);
+          aim_at_distances(world_, start(), m_, warm_start_, fraction_ / w_.options.parts);
           if (round == 0) warm_start_.apply(Moment::start, fraction_);
           solve(first_new);
           failed = bodies_.move_again(world_, start(), w_.integrate_soft);

@@ -143,32 +143,5 @@ TEST(OnDivergence, OfARunWithoutPicturesIsThatOfOneWithThem) {
   EXPECT_TRUE(run_statistics(thrown_scene(1e6), 1).divergence);
 }
 
-/// A box falls on a ball of springs with hardly any gas, in a scene that was seen to end: each part
-/// of a step parted what was too near as a whole one does, the shorter the faster.
-TEST(OnDivergence, PartsOfAStepPartWhatIsTooNearNoFasterThanAWholeOne) {
-  const char* const text = R"(
-duration = 2.0
-simulation = {steps_per_second = 180, gravity = [0, 0, -3.7]}
-[[body]]
-shape = "icosphere"
-radius = 1
-subdivisions = 1
-mass = 2.36193879
-k = 1390.23717
-n = 0.003
-position = [0, 0, 1.5]
-[[body]]
-kind = "rigid"
-size = [1, 1, 0.4]
-mass = 3
-position = [0, 0, 4]
-friction = 0.8
-restitution = 0
-)";
-  const RunStatistics run = run_statistics(scenes::parse_scene(text, "box_on_springs.toml"), 1);
-  EXPECT_FALSE(run.divergence) << *run.divergence;
-  EXPECT_GE(run.divided_steps, 1);
-}
-
 }  // namespace
 }  // namespace pneuma::app
